@@ -1,0 +1,217 @@
+//! Affine maps: points to points, never a divide.
+
+use crate::{Normal, Plane, Point, Projective, Space, Vector};
+use core::marker::PhantomData;
+use glam::{DMat3, DMat4, DVec3, DVec4};
+
+/// An affine map from space `A` to space `B`: a 4×4 matrix with bottom row (0, 0, 0, 1), column vectors.
+///
+/// Parallel lines stay parallel and w stays 1. Maps are chained by [`then`](Self::then), read in the order in
+/// which a point passes through them.
+///
+/// ```
+/// use homog::{Affine, Model, Point, Vector, World};
+/// let turned = Affine::<Model, Model>::rotation_y(90_f64.to_radians());
+/// let placed = turned.then(Affine::<Model, World>::translation(Vector::new(5.0, 0.0, 0.0)));
+/// let p = placed.point(Point::new(1.0, 0.0, 0.0));
+/// assert!((p - Point::new(5.0, 0.0, -1.0)).length() < 1e-15);
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Affine<A: Space, B: Space> {
+    raw: DMat4,
+    spaces: PhantomData<(A, B)>,
+}
+
+impl<A: Space, B: Space> Affine<A, B> {
+    /// The map that keeps the numbers and only changes the space they are read in.
+    pub const IDENTITY: Self = Self::tagged(DMat4::IDENTITY);
+
+    const fn tagged(raw: DMat4) -> Self {
+        Self { raw, spaces: PhantomData }
+    }
+
+    /// Tags a matrix with its two spaces; `None` unless its bottom row is exactly (0, 0, 0, 1).
+    #[must_use]
+    pub fn from_raw(raw: DMat4) -> Option<Self> {
+        (raw.row(3) == DVec4::W).then_some(Self::tagged(raw))
+    }
+
+    /// The map with the given images of the x, y and z axes and of the origin: a change of frame.
+    #[must_use]
+    pub fn from_frame(x: Vector<B>, y: Vector<B>, z: Vector<B>, origin: Point<B>) -> Self {
+        Self::tagged(DMat4::from_cols(
+            x.raw().extend(0.0),
+            y.raw().extend(0.0),
+            z.raw().extend(0.0),
+            origin.raw().extend(1.0),
+        ))
+    }
+
+    /// Moves points by `by` and leaves vectors alone (HO-4).
+    #[must_use]
+    pub fn translation(by: Vector<B>) -> Self {
+        Self::tagged(DMat4::from_translation(by.raw()))
+    }
+
+    /// Multiplies each coordinate by its factor. A factor of 0 flattens, a negative one mirrors.
+    #[must_use]
+    pub fn scale(x: f64, y: f64, z: f64) -> Self {
+        Self::tagged(DMat4::from_scale(DVec3::new(x, y, z)))
+    }
+
+    /// Turns about the x axis by `angle` radians: y towards z.
+    #[must_use]
+    pub fn rotation_x(angle: f64) -> Self {
+        let (s, c) = libm::sincos(angle);
+        Self::from_linear(DVec3::X, DVec3::new(0.0, c, s), DVec3::new(0.0, -s, c))
+    }
+
+    /// Turns about the y axis by `angle` radians: z towards x.
+    #[must_use]
+    pub fn rotation_y(angle: f64) -> Self {
+        let (s, c) = libm::sincos(angle);
+        Self::from_linear(DVec3::new(c, 0.0, -s), DVec3::Y, DVec3::new(s, 0.0, c))
+    }
+
+    /// Turns about the z axis by `angle` radians: x towards y.
+    #[must_use]
+    pub fn rotation_z(angle: f64) -> Self {
+        let (s, c) = libm::sincos(angle);
+        Self::from_linear(DVec3::new(c, s, 0.0), DVec3::new(-s, c, 0.0), DVec3::Z)
+    }
+
+    /// The rotation of the quaternion (x, y, z, w), which need not have length 1; `None` if it is zero or not finite.
+    #[must_use]
+    pub fn from_quaternion([x, y, z, w]: [f64; 4]) -> Option<Self> {
+        let largest = x.abs().max(y.abs()).max(z.abs()).max(w.abs());
+        let q = DVec4::new(x, y, z, w) / largest;
+        let n = q.length_squared();
+        if !n.is_finite() || n == 0.0 {
+            return None;
+        }
+        let [x, y, z, w] = q.to_array();
+        let s = 2.0 / n;
+        Some(Self::from_linear(
+            DVec3::new(1.0 - s * (y * y + z * z), s * (x * y + z * w), s * (x * z - y * w)),
+            DVec3::new(s * (x * y - z * w), 1.0 - s * (x * x + z * z), s * (y * z + x * w)),
+            DVec3::new(s * (x * z + y * w), s * (y * z - x * w), 1.0 - s * (x * x + y * y)),
+        ))
+    }
+
+    fn from_linear(x: DVec3, y: DVec3, z: DVec3) -> Self {
+        Self::tagged(DMat4::from_mat3(DMat3::from_cols(x, y, z)))
+    }
+
+    /// The matrix, without its spaces; its bottom row is (0, 0, 0, 1).
+    #[must_use]
+    pub const fn raw(self) -> DMat4 {
+        self.raw
+    }
+
+    /// The image of a point.
+    #[must_use]
+    pub fn point(self, point: Point<A>) -> Point<B> {
+        Point::from_raw(self.raw.transform_point3(point.raw()))
+    }
+
+    /// The image of a vector: the translation does not touch it.
+    #[must_use]
+    pub fn vector(self, vector: Vector<A>) -> Vector<B> {
+        Vector::from_raw(self.raw.transform_vector3(vector.raw()))
+    }
+
+    /// The image of a normal, by the cofactors of the linear part: they are its transposed inverse times its
+    /// determinant, so that this works for flattening maps too and the normal of a mirrored surface keeps its side.
+    #[must_use]
+    pub fn normal(self, normal: Normal<A>) -> Normal<B> {
+        let [x, y, z] = self.linear();
+        let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
+        let mirrored = x.dot(cofactors.x_axis) < 0.0;
+        let image = cofactors * normal.raw();
+        Normal::from_raw(if mirrored { -image } else { image })
+    }
+
+    /// The image of a plane; `None` if the map flattens space.
+    #[must_use]
+    pub fn plane(self, plane: Plane<A>) -> Option<Plane<B>> {
+        let inverse = self.inverse()?;
+        Some(Plane::from_raw(inverse.raw.transpose() * plane.raw()))
+    }
+
+    fn linear(self) -> [DVec3; 3] {
+        let m = self.raw;
+        [m.x_axis.truncate(), m.y_axis.truncate(), m.z_axis.truncate()]
+    }
+
+    /// The determinant of the linear part: the factor of volumes, negative if the map mirrors, 0 if it flattens.
+    #[must_use]
+    pub fn determinant(self) -> f64 {
+        let [x, y, z] = self.linear();
+        x.dot(y.cross(z))
+    }
+
+    /// This map, then `next`.
+    #[must_use]
+    pub fn then<C: Space>(self, next: Affine<B, C>) -> Affine<A, C> {
+        Affine::tagged(next.raw * self.raw)
+    }
+
+    /// This map, then the projection `next`.
+    #[must_use]
+    pub fn then_project<C: Space>(self, next: Projective<B, C>) -> Projective<A, C> {
+        Projective::from(self).then(next)
+    }
+
+    /// The map that undoes this one; `None` if it flattens space or is not finite.
+    #[must_use]
+    pub fn inverse(self) -> Option<Affine<B, A>> {
+        let [x, y, z] = self.linear();
+        let determinant = self.determinant();
+        let rows = [y.cross(z), z.cross(x), x.cross(y)].map(|row| row / determinant);
+        let linear = DMat3::from_cols(rows[0], rows[1], rows[2]).transpose();
+        let origin = -(linear * self.raw.w_axis.truncate());
+        let finite = determinant != 0.0 && linear.is_finite() && origin.is_finite();
+        finite.then(|| Affine::tagged(DMat4::from_mat3_translation(linear, origin)))
+    }
+
+    /// True if no entry is infinite or NaN.
+    #[must_use]
+    pub fn is_finite(self) -> bool {
+        self.raw.is_finite()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Model, World};
+
+    type Map = Affine<Model, World>;
+
+    #[test]
+    fn inverse_undoes_and_flat_maps_have_none() {
+        let turn = Affine::<Model, Model>::rotation_x(0.3);
+        let map = turn.then(Map::translation(Vector::new(1.0, -2.0, 3.0)));
+        let p = Point::new(0.5, 0.25, -4.0);
+        let back = map.inverse().expect("a rigid map has an inverse").point(map.point(p));
+        assert!((back - p).length() < 1e-14);
+        assert_eq!(Map::scale(1.0, 0.0, 1.0).inverse(), None);
+    }
+
+    #[test]
+    fn normals_stay_perpendicular_under_uneven_scale_and_keep_their_side_in_a_mirror() {
+        let squash = Map::scale(1.0, 0.25, 1.0);
+        let n = squash.normal(Normal::new(1.0, 1.0, 0.0));
+        assert_eq!(n.dot(squash.vector(Vector::new(1.0, -1.0, 0.0))), 0.0);
+        let mirror = Map::scale(-1.0, 1.0, 1.0);
+        assert_eq!(mirror.normal(Normal::new(0.0, 1.0, 0.0)), Normal::new(0.0, 1.0, 0.0));
+    }
+
+    #[test]
+    fn quaternions_of_any_length_turn_alike_and_zero_is_refused() {
+        let half_turn = Map::from_quaternion([0.0, 3e-200, 0.0, 0.0]).expect("not zero");
+        assert_eq!(half_turn.point(Point::new(1.0, 2.0, 3.0)), Point::new(-1.0, 2.0, -3.0));
+        assert_eq!(Map::from_quaternion([0.0; 4]), None);
+        assert_eq!(Map::from_quaternion([f64::NAN, 0.0, 0.0, 1.0]), None);
+    }
+}

@@ -1,0 +1,115 @@
+//! Homogeneous points: four numbers for a place or for a direction, up to a common factor.
+
+use crate::{Point, Space, Vector};
+use core::marker::PhantomData;
+use glam::DVec4;
+
+/// A homogeneous point (x, y, z, w) of space `S` (HO-1).
+///
+/// With w ≠ 0 it stands for the place (x/w, y/w, z/w); with w = 0 for the direction (x, y, z), a point at
+/// infinity. Any non-zero multiple stands for the same. (0, 0, 0, 0) stands for nothing.
+///
+/// ```
+/// use homog::{Clip, HPoint, Ndc, Point};
+/// let visible = HPoint::<Clip>::new(1.0, 2.0, 3.0, 4.0);
+/// assert_eq!(visible.divide(), Some(Point::<Ndc>::new(0.25, 0.5, 0.75)));
+/// let at_infinity = HPoint::<Clip>::new(1.0, 2.0, 3.0, 0.0);
+/// assert_eq!(at_infinity.divide(), None);
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct HPoint<S: Space> {
+    raw: DVec4,
+    space: PhantomData<S>,
+}
+
+impl<S: Space> HPoint<S> {
+    /// The homogeneous point (x, y, z, w).
+    #[must_use]
+    pub const fn new(x: f64, y: f64, z: f64, w: f64) -> Self {
+        Self::from_raw(DVec4::new(x, y, z, w))
+    }
+
+    /// Tags four plain coordinates with a space. The caller vouches that they are in it.
+    #[must_use]
+    pub const fn from_raw(raw: DVec4) -> Self {
+        Self { raw, space: PhantomData }
+    }
+
+    /// The plain coordinates, without their space.
+    #[must_use]
+    pub const fn raw(self) -> DVec4 {
+        self.raw
+    }
+
+    /// The x coordinate, not divided.
+    #[must_use]
+    pub const fn x(self) -> f64 {
+        self.raw.x
+    }
+
+    /// The y coordinate, not divided.
+    #[must_use]
+    pub const fn y(self) -> f64 {
+        self.raw.y
+    }
+
+    /// The z coordinate, not divided.
+    #[must_use]
+    pub const fn z(self) -> f64 {
+        self.raw.z
+    }
+
+    /// The homogeneous coordinate: 0 for directions.
+    #[must_use]
+    pub const fn w(self) -> f64 {
+        self.raw.w
+    }
+
+    /// The place this stands for: the one divide of the pipeline.
+    ///
+    /// `None` where there is no finite place: w = 0, a coordinate that is not finite, or a quotient too large to
+    /// represent. A point behind the eye (w < 0) divides like any other, so clip before.
+    #[must_use]
+    pub fn divide(self) -> Option<Point<S::Divided>> {
+        let place = self.raw.truncate() / self.raw.w;
+        (self.raw.w.is_finite() && place.is_finite()).then_some(Point::from_raw(place))
+    }
+
+    /// The homogeneous point at fraction `t` of the straight way to `end` in four dimensions (CL-2).
+    #[must_use]
+    pub fn lerp(self, end: Self, t: f64) -> Self {
+        Self::from_raw(self.raw + (end.raw - self.raw) * t)
+    }
+
+    /// True if no coordinate is infinite or NaN.
+    #[must_use]
+    pub fn is_finite(self) -> bool {
+        self.raw.is_finite()
+    }
+}
+
+impl<S: Space> From<Point<S>> for HPoint<S> {
+    /// Lifts a place: w = 1 (HO-1).
+    fn from(point: Point<S>) -> Self {
+        Self::from_raw(point.raw().extend(1.0))
+    }
+}
+
+impl<S: Space> From<Vector<S>> for HPoint<S> {
+    /// Lifts a direction to its point at infinity: w = 0 (HO-1).
+    fn from(vector: Vector<S>) -> Self {
+        Self::from_raw(vector.raw().extend(0.0))
+    }
+}
+
+impl<S: Space> From<[f64; 4]> for HPoint<S> {
+    fn from(raw: [f64; 4]) -> Self {
+        Self::from_raw(raw.into())
+    }
+}
+
+impl<S: Space> From<HPoint<S>> for [f64; 4] {
+    fn from(point: HPoint<S>) -> Self {
+        point.raw.into()
+    }
+}

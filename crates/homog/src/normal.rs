@@ -1,0 +1,47 @@
+//! Normals: directions perpendicular to a surface.
+
+use crate::{Space, Vector};
+use core::marker::PhantomData;
+use glam::DVec3;
+
+/// A direction perpendicular to a surface of space `S`; its length has no meaning.
+///
+/// It is a type of its own because maps treat it otherwise than a vector: it goes by the transposed
+/// inverse, so that it stays perpendicular when a surface is scaled unevenly or sheared.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Normal<S: Space> {
+    raw: DVec3,
+    space: PhantomData<S>,
+}
+
+impl<S: Space> Normal<S> {
+    /// The normal (x, y, z).
+    #[must_use]
+    pub const fn new(x: f64, y: f64, z: f64) -> Self {
+        Self::from_raw(DVec3::new(x, y, z))
+    }
+
+    /// Tags plain coordinates with a space. The caller vouches that they are in it.
+    #[must_use]
+    pub const fn from_raw(raw: DVec3) -> Self {
+        Self { raw, space: PhantomData }
+    }
+
+    /// The plain coordinates, without their space.
+    #[must_use]
+    pub const fn raw(self) -> DVec3 {
+        self.raw
+    }
+
+    /// The scalar product with a vector of the same space: 0 if the vector lies in the surface.
+    #[must_use]
+    pub fn dot(self, vector: Vector<S>) -> f64 {
+        self.raw.dot(vector.raw())
+    }
+
+    /// The same direction with length 1; `None` if it has none.
+    #[must_use]
+    pub fn normalized(self) -> Option<Self> {
+        Some(Self::from_raw(Vector::<S>::from_raw(self.raw).normalized()?.raw()))
+    }
+}

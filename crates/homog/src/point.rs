@@ -1,0 +1,115 @@
+//! Points: places in a space.
+
+use crate::{Space, Vector};
+use core::marker::PhantomData;
+use core::ops::{Add, AddAssign, Sub};
+use glam::DVec3;
+
+/// A place in space `S`.
+///
+/// Points can be subtracted from each other and moved by vectors; they cannot be added or scaled,
+/// for the result would depend on where the origin happens to be.
+///
+/// ```
+/// use homog::{Point, Vector, World};
+/// let roof = Point::<World>::new(0.0, 3.0, 0.0);
+/// let floor = Point::<World>::ORIGIN;
+/// assert_eq!(roof - floor, Vector::new(0.0, 3.0, 0.0));
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Point<S: Space> {
+    raw: DVec3,
+    space: PhantomData<S>,
+}
+
+impl<S: Space> Point<S> {
+    /// The origin of the space.
+    pub const ORIGIN: Self = Self::from_raw(DVec3::ZERO);
+
+    /// The point (x, y, z).
+    #[must_use]
+    pub const fn new(x: f64, y: f64, z: f64) -> Self {
+        Self::from_raw(DVec3::new(x, y, z))
+    }
+
+    /// Tags plain coordinates with a space. The caller vouches that they are in it.
+    #[must_use]
+    pub const fn from_raw(raw: DVec3) -> Self {
+        Self { raw, space: PhantomData }
+    }
+
+    /// The plain coordinates, without their space.
+    #[must_use]
+    pub const fn raw(self) -> DVec3 {
+        self.raw
+    }
+
+    /// The x coordinate.
+    #[must_use]
+    pub const fn x(self) -> f64 {
+        self.raw.x
+    }
+
+    /// The y coordinate.
+    #[must_use]
+    pub const fn y(self) -> f64 {
+        self.raw.y
+    }
+
+    /// The z coordinate.
+    #[must_use]
+    pub const fn z(self) -> f64 {
+        self.raw.z
+    }
+
+    /// The point at fraction `t` of the way to `end`: this point at 0, `end` at 1, beyond them outside [0, 1].
+    #[must_use]
+    pub fn lerp(self, end: Self, t: f64) -> Self {
+        self + (end - self) * t
+    }
+
+    /// True if no coordinate is infinite or NaN.
+    #[must_use]
+    pub fn is_finite(self) -> bool {
+        self.raw.is_finite()
+    }
+}
+
+impl<S: Space> Sub for Point<S> {
+    type Output = Vector<S>;
+    fn sub(self, start: Self) -> Vector<S> {
+        Vector::from_raw(self.raw - start.raw)
+    }
+}
+
+impl<S: Space> Add<Vector<S>> for Point<S> {
+    type Output = Self;
+    fn add(self, by: Vector<S>) -> Self {
+        Self::from_raw(self.raw + by.raw())
+    }
+}
+
+impl<S: Space> Sub<Vector<S>> for Point<S> {
+    type Output = Self;
+    fn sub(self, by: Vector<S>) -> Self {
+        Self::from_raw(self.raw - by.raw())
+    }
+}
+
+impl<S: Space> AddAssign<Vector<S>> for Point<S> {
+    fn add_assign(&mut self, by: Vector<S>) {
+        *self = *self + by;
+    }
+}
+
+impl<S: Space> From<[f64; 3]> for Point<S> {
+    fn from(raw: [f64; 3]) -> Self {
+        Self::from_raw(raw.into())
+    }
+}
+
+impl<S: Space> From<Point<S>> for [f64; 3] {
+    fn from(point: Point<S>) -> Self {
+        point.raw.into()
+    }
+}

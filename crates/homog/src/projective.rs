@@ -1,0 +1,80 @@
+//! Projective maps: points to homogeneous points.
+
+use crate::{Affine, HPoint, Plane, Point, Space, Vector};
+use core::marker::PhantomData;
+use glam::DMat4;
+
+/// A projective map from space `A` to space `B`: any 4×4 matrix, column vectors (HO-3).
+///
+/// It takes points to *homogeneous* points; the divide is a step of its own, [`HPoint::divide`], after clipping.
+/// Lines go to lines and planes to planes. A non-zero multiple of the matrix is the same map, but a negative one
+/// turns the sign of w, which matters to clipping: use the form with w > 0 in front of the eye (PE-3).
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Projective<A: Space, B: Space> {
+    raw: DMat4,
+    spaces: PhantomData<(A, B)>,
+}
+
+impl<A: Space, B: Space> Projective<A, B> {
+    /// Tags a matrix with its two spaces. The caller vouches for them.
+    #[must_use]
+    pub const fn from_raw(raw: DMat4) -> Self {
+        Self { raw, spaces: PhantomData }
+    }
+
+    /// The matrix, without its spaces.
+    #[must_use]
+    pub const fn raw(self) -> DMat4 {
+        self.raw
+    }
+
+    /// The image of a point, not divided.
+    #[must_use]
+    pub fn point(self, point: Point<A>) -> HPoint<B> {
+        self.hpoint(point.into())
+    }
+
+    /// The image of a direction, that is of its point at infinity: its vanishing point (VN-1).
+    #[must_use]
+    pub fn direction(self, vector: Vector<A>) -> HPoint<B> {
+        self.hpoint(vector.into())
+    }
+
+    /// The image of a homogeneous point.
+    #[must_use]
+    pub fn hpoint(self, point: HPoint<A>) -> HPoint<B> {
+        HPoint::from_raw(self.raw * point.raw())
+    }
+
+    /// The image of a plane; `None` if the map is singular.
+    #[must_use]
+    pub fn plane(self, plane: Plane<A>) -> Option<Plane<B>> {
+        Some(Plane::from_raw(self.inverse()?.raw.transpose() * plane.raw()))
+    }
+
+    /// This map, then `next`.
+    #[must_use]
+    pub fn then<C: Space>(self, next: impl Into<Projective<B, C>>) -> Projective<A, C> {
+        Projective::from_raw(next.into().raw * self.raw)
+    }
+
+    /// The map that undoes this one; `None` if it is singular or not finite.
+    #[must_use]
+    pub fn inverse(self) -> Option<Projective<B, A>> {
+        let inverse = self.raw.inverse();
+        let usable = self.raw.determinant() != 0.0 && inverse.is_finite();
+        usable.then(|| Projective::from_raw(inverse))
+    }
+
+    /// True if no entry is infinite or NaN.
+    #[must_use]
+    pub fn is_finite(self) -> bool {
+        self.raw.is_finite()
+    }
+}
+
+impl<A: Space, B: Space> From<Affine<A, B>> for Projective<A, B> {
+    fn from(affine: Affine<A, B>) -> Self {
+        Self::from_raw(affine.raw())
+    }
+}

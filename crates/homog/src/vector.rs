@@ -1,0 +1,164 @@
+//! Vectors: differences of points, with a length and a direction but no place.
+
+use crate::Space;
+use core::marker::PhantomData;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+use glam::DVec3;
+
+/// A difference of two points of space `S`. Translations leave it alone (HO-1, HO-4).
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Vector<S: Space> {
+    raw: DVec3,
+    space: PhantomData<S>,
+}
+
+impl<S: Space> Vector<S> {
+    /// No displacement at all.
+    pub const ZERO: Self = Self::from_raw(DVec3::ZERO);
+    /// One unit along x.
+    pub const X: Self = Self::from_raw(DVec3::X);
+    /// One unit along y.
+    pub const Y: Self = Self::from_raw(DVec3::Y);
+    /// One unit along z.
+    pub const Z: Self = Self::from_raw(DVec3::Z);
+
+    /// The vector (x, y, z).
+    #[must_use]
+    pub const fn new(x: f64, y: f64, z: f64) -> Self {
+        Self::from_raw(DVec3::new(x, y, z))
+    }
+
+    /// Tags plain coordinates with a space. The caller vouches that they are in it.
+    #[must_use]
+    pub const fn from_raw(raw: DVec3) -> Self {
+        Self { raw, space: PhantomData }
+    }
+
+    /// The plain coordinates, without their space.
+    #[must_use]
+    pub const fn raw(self) -> DVec3 {
+        self.raw
+    }
+
+    /// The x coordinate.
+    #[must_use]
+    pub const fn x(self) -> f64 {
+        self.raw.x
+    }
+
+    /// The y coordinate.
+    #[must_use]
+    pub const fn y(self) -> f64 {
+        self.raw.y
+    }
+
+    /// The z coordinate.
+    #[must_use]
+    pub const fn z(self) -> f64 {
+        self.raw.z
+    }
+
+    /// The scalar product.
+    #[must_use]
+    pub fn dot(self, other: Self) -> f64 {
+        self.raw.dot(other.raw)
+    }
+
+    /// The vector product: perpendicular to both, by the right-hand rule.
+    #[must_use]
+    pub fn cross(self, other: Self) -> Self {
+        Self::from_raw(self.raw.cross(other.raw))
+    }
+
+    /// The Euclidean length, right also where the squares of the coordinates over- or underflow.
+    #[must_use]
+    pub fn length(self) -> f64 {
+        let largest = self.raw.abs().max_element();
+        if largest == 0.0 || !largest.is_finite() {
+            return largest;
+        }
+        largest * (self.raw / largest).length()
+    }
+
+    /// The vector of length 1 in the same direction; `None` for the zero vector and for non-finite ones.
+    #[must_use]
+    pub fn normalized(self) -> Option<Self> {
+        let largest = self.raw.abs().max_element();
+        if !self.is_finite() || largest == 0.0 {
+            return None;
+        }
+        let scaled = self.raw / largest;
+        Some(Self::from_raw(scaled / scaled.length()))
+    }
+
+    /// True if no coordinate is infinite or NaN.
+    #[must_use]
+    pub fn is_finite(self) -> bool {
+        self.raw.is_finite()
+    }
+}
+
+impl<S: Space> Add for Vector<S> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self::from_raw(self.raw + other.raw)
+    }
+}
+
+impl<S: Space> Sub for Vector<S> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self::from_raw(self.raw - other.raw)
+    }
+}
+
+impl<S: Space> Neg for Vector<S> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self::from_raw(-self.raw)
+    }
+}
+
+impl<S: Space> Mul<f64> for Vector<S> {
+    type Output = Self;
+    fn mul(self, by: f64) -> Self {
+        Self::from_raw(self.raw * by)
+    }
+}
+
+impl<S: Space> Div<f64> for Vector<S> {
+    type Output = Self;
+    fn div(self, by: f64) -> Self {
+        Self::from_raw(self.raw / by)
+    }
+}
+
+impl<S: Space> From<[f64; 3]> for Vector<S> {
+    fn from(raw: [f64; 3]) -> Self {
+        Self::from_raw(raw.into())
+    }
+}
+
+impl<S: Space> From<Vector<S>> for [f64; 3] {
+    fn from(vector: Vector<S>) -> Self {
+        vector.raw.into()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::World;
+
+    #[test]
+    fn length_survives_huge_and_tiny_coordinates() {
+        for unit in [1e200, 1.0, 1e-200] {
+            let length = Vector::<World>::new(3.0 * unit, 4.0 * unit, 0.0).length();
+            assert!((length / unit - 5.0).abs() < 1e-14, "{length:e} is not 5 x {unit:e}");
+        }
+        assert!(Vector::<World>::new(1e300, 1e300, 1e300).normalized().is_some());
+        assert_eq!(Vector::<World>::ZERO.normalized(), None);
+        assert_eq!(Vector::<World>::new(f64::NAN, 0.0, 1.0).normalized(), None);
+        assert_eq!(Vector::<World>::new(f64::INFINITY, 0.0, 1.0).normalized(), None);
+    }
+}
