@@ -1,0 +1,76 @@
+//! Images, and how textures read them.
+
+/// A decoded image: 8 bits for each of red, green, blue and alpha, rows from the top, alpha not multiplied in.
+#[derive(Clone, PartialEq, Eq)]
+pub struct Image {
+    /// Width in texels, at least 1.
+    pub width: u32,
+    /// Height in texels, at least 1.
+    pub height: u32,
+    /// `width` × `height` texels.
+    pub rgba: Vec<[u8; 4]>,
+}
+
+impl std::fmt::Debug for Image {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Image({} x {})", self.width, self.height)
+    }
+}
+
+/// An image with a way to read it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Texture {
+    /// The image; `None` if the file names none we can read.
+    pub image: Option<usize>,
+    /// How it is read.
+    pub sampler: Sampler,
+}
+
+/// How a texture is read outside of [0, 1] and between texels.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Sampler {
+    /// What happens left and right of the image.
+    pub wrap_u: Wrap,
+    /// What happens above and below the image.
+    pub wrap_v: Wrap,
+    /// Between texels, where the picture shows the texture enlarged.
+    pub magnify: Filter,
+    /// Between texels of one level, where the picture shows the texture reduced.
+    pub minify: Filter,
+    /// Between the levels of the mip chain, where the picture shows the texture reduced.
+    pub mipmap: Mipmap,
+}
+
+/// What a texture shows outside of [0, 1].
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Wrap {
+    /// The image over and over.
+    #[default]
+    Repeat,
+    /// The image over and over, every second one mirrored.
+    Mirror,
+    /// The texels of the border.
+    Clamp,
+}
+
+/// What a texture shows between the centres of texels.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Filter {
+    /// The nearest texel.
+    Nearest,
+    /// The four texels around, weighted.
+    #[default]
+    Linear,
+}
+
+/// Which levels of the mip chain a reduced texture shows.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Mipmap {
+    /// The full image only.
+    None,
+    /// The nearest level.
+    Nearest,
+    /// The two levels around, weighted.
+    #[default]
+    Linear,
+}
