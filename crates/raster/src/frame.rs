@@ -1,0 +1,109 @@
+//! A frame: the primitives of one picture, in the order in which they were given.
+
+use crate::primitive::{Piece, clockwise, line_pieces, point_pieces};
+use crate::{Cover, RasterError, Samples, ScreenVertex, SourceWeights};
+
+/// The longest side of a picture in pixels.
+pub const MAX_SIDE: u32 = 16384;
+
+/// The primitives of one picture.
+///
+/// Fill it with [`triangle`](Self::triangle), [`line`](Self::line) and [`point`](Self::point), then
+/// [`draw`](Self::draw) it. At equal depth the primitive given first wins, whatever the number of threads.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    pub(crate) samples: Samples,
+    pub(crate) pieces: Vec<Piece>,
+    pub(crate) source_weights: Vec<SourceWeights>,
+}
+
+impl Frame {
+    /// An empty frame of `width` × `height` pixels.
+    ///
+    /// # Errors
+    /// [`RasterError::Size`] unless both sides are between 1 and [`MAX_SIDE`].
+    pub fn new(width: u32, height: u32, samples: Samples) -> Result<Self, RasterError> {
+        let fits = |side: u32| (1..=MAX_SIDE).contains(&side);
+        if !fits(width) || !fits(height) {
+            return Err(RasterError::Size { width, height });
+        }
+        Ok(Self { width, height, samples, pieces: Vec::new(), source_weights: Vec::new() })
+    }
+
+    /// Width in pixels.
+    #[must_use]
+    pub const fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Height in pixels.
+    #[must_use]
+    pub const fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// Adds a whole triangle; its corners may run either way. Leave out those that face away, if they are to be
+    /// invisible: see [`signed_area`](crate::signed_area).
+    pub fn triangle(&mut self, corners: [ScreenVertex; 3], id: u32, cover: Cover) {
+        self.push(corners, None, id, cover);
+    }
+
+    /// Adds a piece of a triangle that was clipped; `weights` lead from its corners to those of the source.
+    pub fn triangle_piece(
+        &mut self,
+        corners: [ScreenVertex; 3],
+        weights: SourceWeights,
+        id: u32,
+        cover: Cover,
+    ) {
+        self.push(corners, Some(weights), id, cover);
+    }
+
+    /// Adds a line `width` pixels wide. Its fragments have weights of the two ends, and 0 for the third corner.
+    pub fn line(&mut self, ends: [ScreenVertex; 2], width: f64, id: u32, cover: Cover) {
+        for (corners, weights) in line_pieces(ends, width).into_iter().flatten() {
+            self.push(corners, Some(weights), id, cover);
+        }
+    }
+
+    /// Adds a piece of a line that was clipped: as [`line`](Self::line), with the places of the piece's ends in the
+    /// source line, 0 at its first and 1 at its second end.
+    pub fn line_piece(
+        &mut self,
+        ends: [ScreenVertex; 2],
+        places: [f32; 2],
+        width: f64,
+        id: u32,
+        cover: Cover,
+    ) {
+        let source = places.map(|t| [1.0 - t, t, 0.0]);
+        for (corners, weights) in line_pieces(ends, width).into_iter().flatten() {
+            let at_end = |weight: [f32; 3]| if weight[0] > 0.0 { source[0] } else { source[1] };
+            self.push(corners, Some(weights.map(at_end)), id, cover);
+        }
+    }
+
+    /// Adds a point as a square of `size` pixels. Its fragments have the weights (1, 0, 0).
+    pub fn point(&mut self, center: ScreenVertex, size: f64, id: u32, cover: Cover) {
+        for (corners, weights) in point_pieces(center, size) {
+            self.push(corners, Some(weights), id, cover);
+        }
+    }
+
+    fn push(
+        &mut self,
+        corners: [ScreenVertex; 3],
+        weights: Option<SourceWeights>,
+        id: u32,
+        cover: Cover,
+    ) {
+        let Some((corners, weights)) = clockwise(corners, weights) else { return };
+        let weights = weights.map_or(0, |weights| {
+            self.source_weights.push(weights);
+            self.source_weights.len() as u32
+        });
+        self.pieces.push(Piece { corners, id, weights, cover });
+    }
+}

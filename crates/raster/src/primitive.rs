@@ -1,0 +1,90 @@
+//! What a frame is made of: triangles, and lines and points turned into triangles.
+
+use crate::ScreenVertex;
+use crate::edge::signed_area;
+use crate::vertex::SUBPIXELS;
+
+/// How a primitive takes part in visibility.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Cover {
+    /// It hides what is behind it.
+    #[default]
+    Solid,
+    /// It hides what is behind it where [`Surface::keeps`](crate::Surface::keeps) says so, and is absent elsewhere.
+    Masked,
+    /// It lets through what is behind it: its fragments are blended over the solid ones, the farthest first.
+    Translucent,
+}
+
+/// For each corner of a piece, the weights of the source primitive's corners there.
+///
+/// A triangle that was clipped arrives in pieces; a line and a point arrive as rectangles. Whoever shades wants the
+/// weights in the primitive he gave, and these lead back to it.
+pub type SourceWeights = [[f32; 3]; 3];
+
+/// A triangle of the screen, corners clockwise (y down), with the name of what it is a piece of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Piece {
+    pub(crate) corners: [ScreenVertex; 3],
+    pub(crate) id: u32,
+    /// 0: the piece is the whole source triangle, corners in order; n: entry n − 1 of the frame's source weights.
+    pub(crate) weights: u32,
+    pub(crate) cover: Cover,
+}
+
+/// Weights of a whole triangle.
+pub(crate) const WHOLE: SourceWeights = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// Turns a triangle so that its corners run clockwise on the screen; `None` if it covers nothing.
+pub(crate) fn clockwise(
+    corners: [ScreenVertex; 3],
+    weights: Option<SourceWeights>,
+) -> Option<([ScreenVertex; 3], Option<SourceWeights>)> {
+    let area = signed_area(corners);
+    if area == 0 {
+        return None;
+    }
+    if area > 0 {
+        return Some((corners, weights));
+    }
+    let ([p, q, r], [wp, wq, wr]) = (corners, weights.unwrap_or(WHOLE));
+    Some(([p, r, q], Some([wp, wr, wq])))
+}
+
+/// A rectangle of the screen around a line, as two triangles; none if the ends coincide.
+///
+/// The ends are square and flush with the line's ends. Depth and 1/w are constant across the line.
+pub(crate) fn line_pieces(
+    [a, b]: [ScreenVertex; 2],
+    width: f64,
+) -> [Option<([ScreenVertex; 3], SourceWeights)>; 2] {
+    let (dx, dy) = (f64::from(b.x) - f64::from(a.x), f64::from(b.y) - f64::from(a.y));
+    let length = (dx * dx + dy * dy).sqrt();
+    if length == 0.0 {
+        return [None, None];
+    }
+    let reach = 0.5 * width * f64::from(SUBPIXELS) / length;
+    let (nx, ny) = (-dy * reach, dx * reach);
+    let (at_a, at_b) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+    let [a0, a1] = [moved(a, nx, ny), moved(a, -nx, -ny)];
+    let [b0, b1] = [moved(b, nx, ny), moved(b, -nx, -ny)];
+    [Some(([a0, b0, b1], [at_a, at_b, at_b])), Some(([a0, b1, a1], [at_a, at_b, at_a]))]
+}
+
+/// A square of the screen around a point, as two triangles.
+pub(crate) fn point_pieces(
+    center: ScreenVertex,
+    size: f64,
+) -> [([ScreenVertex; 3], SourceWeights); 2] {
+    let reach = 0.5 * size * f64::from(SUBPIXELS);
+    let corner = |x: f64, y: f64| moved(center, x * reach, y * reach);
+    let [nw, ne] = [corner(-1.0, -1.0), corner(1.0, -1.0)];
+    let [sw, se] = [corner(-1.0, 1.0), corner(1.0, 1.0)];
+    let there = [[1.0, 0.0, 0.0]; 3];
+    [([nw, ne, se], there), ([nw, se, sw], there)]
+}
+
+fn moved(vertex: ScreenVertex, dx: f64, dy: f64) -> ScreenVertex {
+    let shift = |from: i32, by: f64| from.saturating_add((by + 0.5).floor() as i32);
+    ScreenVertex { x: shift(vertex.x, dx), y: shift(vertex.y, dy), ..vertex }
+}

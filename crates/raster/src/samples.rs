@@ -1,0 +1,98 @@
+//! Where a pixel is sampled.
+
+use crate::vertex::SUBPIXELS;
+
+/// How many coverage samples a pixel has. Each covered surface is still shaded once per pixel.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Samples {
+    /// One, at the pixel's centre: hard edges, every pixel one surface.
+    One,
+    /// Four, on a rotated grid.
+    #[default]
+    Four,
+    /// Eight.
+    Eight,
+    /// Sixteen.
+    Sixteen,
+}
+
+/// Offsets from the pixel's centre in 1/16 pixel. Within a pattern no two samples share a row or a column (as long as
+/// there are rows enough), so that edges near the axes get as many steps as there are samples.
+const ONE: [(i32, i32); 1] = [(0, 0)];
+const FOUR: [(i32, i32); 4] = [(-2, -6), (6, -2), (-6, 2), (2, 6)];
+const EIGHT: [(i32, i32); 8] =
+    [(1, -3), (-1, 3), (5, 1), (-3, -5), (-5, 5), (-7, -1), (3, 7), (7, -7)];
+const SIXTEEN: [(i32, i32); 16] = [
+    (1, 1),
+    (-1, -3),
+    (-3, 2),
+    (4, -1),
+    (-5, -2),
+    (2, 5),
+    (5, 3),
+    (3, -5),
+    (-2, 6),
+    (0, -7),
+    (-4, -6),
+    (-6, 4),
+    (-8, 0),
+    (7, -4),
+    (6, 7),
+    (-7, -8),
+];
+
+impl Samples {
+    /// The pattern with `count` samples; `None` unless it is 1, 4, 8 or 16.
+    #[must_use]
+    pub const fn from_count(count: u32) -> Option<Self> {
+        match count {
+            1 => Some(Self::One),
+            4 => Some(Self::Four),
+            8 => Some(Self::Eight),
+            16 => Some(Self::Sixteen),
+            _ => None,
+        }
+    }
+
+    /// The number of samples of a pixel.
+    #[must_use]
+    pub const fn count(self) -> usize {
+        self.sixteenths().len()
+    }
+
+    const fn sixteenths(self) -> &'static [(i32, i32)] {
+        match self {
+            Self::One => &ONE,
+            Self::Four => &FOUR,
+            Self::Eight => &EIGHT,
+            Self::Sixteen => &SIXTEEN,
+        }
+    }
+
+    /// The samples' offsets from the pixel's upper left corner in grid steps.
+    pub(crate) fn offsets(self) -> impl Iterator<Item = (i64, i64)> {
+        let steps = i64::from(SUBPIXELS / 16);
+        let half = i64::from(SUBPIXELS / 2);
+        self.sixteenths()
+            .iter()
+            .map(move |&(x, y)| (half + i64::from(x) * steps, half + i64::from(y) * steps))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_lie_inside_their_pixel_on_rows_and_columns_of_their_own() {
+        for samples in [Samples::One, Samples::Four, Samples::Eight, Samples::Sixteen] {
+            let offsets: Vec<_> = samples.offsets().collect();
+            for (i, a) in offsets.iter().enumerate() {
+                assert!((0..256).contains(&a.0) && (0..256).contains(&a.1), "{a:?}");
+                for b in &offsets[..i] {
+                    assert!(a.0 != b.0 && a.1 != b.1, "{samples:?}: {a:?} and {b:?}");
+                }
+            }
+        }
+    }
+}

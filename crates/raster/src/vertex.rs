@@ -1,0 +1,79 @@
+//! Vertices on the screen, snapped to the grid on which coverage is exact.
+//!
+//! Coverage is decided by integers: a vertex is moved to the nearest multiple of 1/256 pixel once, and from there on
+//! every edge function is exact. Vertices that triangles share are snapped alike, so no gap can open between them.
+
+use homog::{Point, Screen};
+
+/// The bits of a coordinate behind the binary point: the grid is 1/256 pixel.
+pub const SUBPIXEL_BITS: u32 = 8;
+/// Grid steps per pixel.
+pub const SUBPIXELS: i32 = 1 << SUBPIXEL_BITS;
+/// The largest coordinate, in pixels from the origin, that a vertex may have: beyond it the caller clips.
+///
+/// Edge functions of vertices within it need less than 2⁵⁰, far from the end of 64 bits, and a picture of
+/// [`MAX_SIDE`](crate::MAX_SIDE) has as much again on each side for a guard band (CL-4).
+pub const GUARD_LIMIT: f64 = 32768.0;
+
+/// A vertex after the viewport: x to the right and y down in 1/256 pixel, depth, and 1/w.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ScreenVertex {
+    /// Grid steps from the left border of the picture.
+    pub x: i32,
+    /// Grid steps from the top border of the picture.
+    pub y: i32,
+    /// The depth: 1 at the near plane, 0 at the far plane; larger is nearer.
+    pub depth: f32,
+    /// One over the clip-space w: makes weights perspective-correct (IN-2). Always 1 in parallel projections.
+    pub inv_w: f32,
+}
+
+impl ScreenVertex {
+    /// Snaps a point of the screen (pixels, y down; z is the depth) with the clip-space w it was divided by.
+    ///
+    /// `None` if the point cannot be drawn: a coordinate is not finite, lies beyond [`GUARD_LIMIT`], or w is not
+    /// positive. Geometry that was clipped to the view volume and a guard band always can.
+    #[must_use]
+    pub fn snap(point: Point<Screen>, w: f64) -> Option<Self> {
+        let drawable = point.x().abs() <= GUARD_LIMIT
+            && point.y().abs() <= GUARD_LIMIT
+            && point.z().is_finite()
+            && w > 0.0;
+        drawable.then(|| Self {
+            x: to_grid(point.x()),
+            y: to_grid(point.y()),
+            depth: point.z() as f32,
+            inv_w: (1.0 / w) as f32,
+        })
+    }
+}
+
+/// The nearest grid step; halves go up, so that moving a picture by whole pixels moves its grid with it.
+fn to_grid(pixels: f64) -> i32 {
+    (pixels * f64::from(SUBPIXELS) + 0.5).floor() as i32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn snapping_rounds_to_the_nearest_grid_step_and_moves_with_whole_pixels() {
+        let x_of = |x| ScreenVertex::snap(Point::new(x, 0.0, 0.5), 2.0).map(|v| v.x);
+        assert_eq!(x_of(1.0), Some(256));
+        assert_eq!(x_of(1.0 + 0.5 / 256.0), Some(257));
+        assert_eq!(x_of(-1.0 + 0.5 / 256.0), Some(-255), "halves go up on both sides of 0");
+        assert_eq!(x_of(-1.0 - 0.4 / 256.0), Some(-256));
+    }
+
+    #[test]
+    fn what_cannot_be_drawn_is_no_vertex() {
+        for x in [f64::NAN, f64::INFINITY, -1e9, 32768.1] {
+            assert_eq!(ScreenVertex::snap(Point::new(x, 0.0, 0.0), 1.0), None, "x = {x}");
+            assert_eq!(ScreenVertex::snap(Point::new(0.0, x, 0.0), 1.0), None, "y = {x}");
+        }
+        assert_eq!(ScreenVertex::snap(Point::new(0.0, 0.0, f64::NAN), 1.0), None);
+        assert_eq!(ScreenVertex::snap(Point::new(0.0, 0.0, 0.0), 0.0), None);
+        assert_eq!(ScreenVertex::snap(Point::new(0.0, 0.0, 0.0), f64::NAN), None);
+    }
+}
