@@ -1,0 +1,196 @@
+//! Which planes a point is outside of, one bit per plane (CL-1; Cohen and Sutherland, about 1967).
+//!
+//! ```text
+//!   bit 0 left   1 right   2 bottom   3 top   4 near   5 far   6… planes added by hand
+//!
+//!      1001 │ 1000 │ 1010          a | b = 0   both inside everything: accept
+//!      ─────┼──────┼─────          a & b ≠ 0   both outside of one plane: reject
+//!      0001 │ 0000 │ 0010          otherwise   look closer
+//!      ─────┼──────┼─────
+//!      0101 │ 0100 │ 0110          (bits 3 to 0: top, bottom, right, left)
+//! ```
+
+use core::fmt;
+use core::ops::{BitAnd, BitOr, BitOrAssign};
+
+/// The largest number of planes of a volume: the six of the box and ten more.
+pub const MAX_PLANES: usize = 16;
+
+/// The place of a plane in its volume: six with names, then those added by hand.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct PlaneIndex(u8);
+
+impl PlaneIndex {
+    /// Where x is least.
+    pub const LEFT: Self = Self(0);
+    /// Where x is greatest.
+    pub const RIGHT: Self = Self(1);
+    /// Where y is least.
+    pub const BOTTOM: Self = Self(2);
+    /// Where y is greatest.
+    pub const TOP: Self = Self(3);
+    /// Towards the eye.
+    pub const NEAR: Self = Self(4);
+    /// Away from the eye.
+    pub const FAR: Self = Self(5);
+    /// The six planes of the box, in order.
+    pub const BOX: [Self; 6] =
+        [Self::LEFT, Self::RIGHT, Self::BOTTOM, Self::TOP, Self::NEAR, Self::FAR];
+
+    /// The `n`-th plane added by hand, from 0; `None` beyond what a volume can hold.
+    #[must_use]
+    pub fn added(n: usize) -> Option<Self> {
+        Self::new(n.checked_add(Self::BOX.len())?)
+    }
+
+    /// The plane with this number; `None` if it is not below [`MAX_PLANES`].
+    #[must_use]
+    pub fn new(index: usize) -> Option<Self> {
+        u8::try_from(index).ok().filter(|_| index < MAX_PLANES).map(Self)
+    }
+
+    /// The number of the plane, from 0.
+    #[must_use]
+    pub const fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+impl fmt::Display for PlaneIndex {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        const NAMES: [&str; 6] = ["left", "right", "bottom", "top", "near", "far"];
+        match NAMES.get(self.index()) {
+            Some(name) => f.pad(name),
+            None => write!(f, "plane {}", self.index() - NAMES.len()),
+        }
+    }
+}
+
+/// A set of planes: those a point is outside of.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub struct Outcode(u16);
+
+impl Outcode {
+    /// No plane: the point is inside.
+    pub const INSIDE: Self = Self(0);
+    /// Every plane.
+    pub const EVERY: Self = Self(u16::MAX);
+
+    /// The set with these bits, bit i for the plane with number i.
+    #[must_use]
+    pub const fn from_bits(bits: u16) -> Self {
+        Self(bits)
+    }
+
+    /// One bit per plane, bit i for the plane with number i.
+    #[must_use]
+    pub const fn bits(self) -> u16 {
+        self.0
+    }
+
+    /// True if no plane is in the set.
+    #[must_use]
+    pub const fn is_inside(self) -> bool {
+        self.0 == 0
+    }
+
+    /// True if `plane` is in the set.
+    #[must_use]
+    pub const fn contains(self, plane: PlaneIndex) -> bool {
+        self.0 >> plane.0 & 1 == 1
+    }
+
+    /// The set with `plane` in it.
+    #[must_use]
+    pub const fn with(self, plane: PlaneIndex) -> Self {
+        Self(self.0 | 1 << plane.0)
+    }
+
+    /// The set with `plane` not in it.
+    #[must_use]
+    pub const fn without(self, plane: PlaneIndex) -> Self {
+        Self(self.0 & !(1 << plane.0))
+    }
+
+    /// True if points with these outcodes, and all that lies between them, are inside: `a | b | … = 0`.
+    #[must_use]
+    pub fn accepts(outcodes: &[Self]) -> bool {
+        outcodes.iter().all(|code| code.is_inside())
+    }
+
+    /// The planes that all of these points are outside of, `a & b & …`: if there is one, nothing between the
+    /// points is inside.
+    #[must_use]
+    pub fn rejects(outcodes: &[Self]) -> Self {
+        let all = outcodes.iter().copied().reduce(|a, b| a & b);
+        all.unwrap_or_default()
+    }
+
+    /// The planes of the set, in order.
+    pub fn planes(self) -> impl Iterator<Item = PlaneIndex> + Clone {
+        (0..MAX_PLANES as u8).map(PlaneIndex).filter(move |&plane| self.contains(plane))
+    }
+}
+
+impl BitAnd for Outcode {
+    type Output = Self;
+    fn bitand(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+}
+
+impl BitOr for Outcode {
+    type Output = Self;
+    fn bitor(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+}
+
+impl BitOrAssign for Outcode {
+    fn bitor_assign(&mut self, other: Self) {
+        self.0 |= other.0;
+    }
+}
+
+impl fmt::Display for Outcode {
+    /// The names of the planes with `+` between them, `inside` for none.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.is_inside() {
+            return f.pad("inside");
+        }
+        for (i, plane) in self.planes().enumerate() {
+            write!(f, "{}{plane}", if i == 0 { "" } else { "+" })?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::string::ToString;
+
+    #[test]
+    fn sets_hold_what_was_put_in_and_print_their_names() {
+        let code = Outcode::INSIDE.with(PlaneIndex::LEFT).with(PlaneIndex::FAR);
+        assert_eq!(code.bits(), 0b10_0001);
+        assert_eq!(code.to_string(), "left+far");
+        assert_eq!(code.without(PlaneIndex::FAR).to_string(), "left");
+        assert_eq!(Outcode::INSIDE.to_string(), "inside");
+        let added = PlaneIndex::added(9).expect("the last plane");
+        assert_eq!(added.to_string(), "plane 9");
+        assert_eq!(PlaneIndex::added(10), None);
+        assert_eq!(PlaneIndex::added(usize::MAX), None);
+        assert_eq!(Outcode::EVERY.planes().count(), MAX_PLANES);
+    }
+
+    #[test]
+    fn acceptance_and_rejection() {
+        let [a, b] = [0b01, 0b11].map(Outcode::from_bits);
+        assert_eq!(Outcode::rejects(&[a, b]), a);
+        assert!(Outcode::rejects(&[a, Outcode::INSIDE]).is_inside());
+        assert!(!Outcode::accepts(&[a, Outcode::INSIDE]));
+        assert!(Outcode::accepts(&[Outcode::INSIDE; 3]));
+        assert!(Outcode::rejects(&[]).is_inside());
+    }
+}

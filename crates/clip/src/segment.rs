@@ -1,0 +1,180 @@
+//! Segments (CL-2; Liang and Barsky, 1984, in homogeneous space).
+//!
+//! ```text
+//!            ┌─────────┐
+//!   p ───────●─────────●───► q        t0 is the last of the enterings, t1 the first of the leavings;
+//!        t0  │         │ t1           if t0 > t1 the segment passes by
+//!            └─────────┘
+//! ```
+
+use crate::walk::safe_scale;
+use crate::{Fates, Outcode, PlaneIndex, Volume};
+use core::cmp::Ordering;
+use glam::DVec4;
+use homog::{Clip, HPoint};
+
+/// What is left of a segment from p to q.
+///
+/// # Guarantees
+/// - 0 ≤ `t0` ≤ `t1` ≤ 1; both ends are finite, have w > 0 and lie inside the volume's box or on its border.
+/// - An end that is inside is here with its very bits. From q to p the same two points come out, bit by bit.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ClippedSegment {
+    /// The first point that is inside.
+    pub start: HPoint<Clip>,
+    /// The last point that is inside. It equals `start` if only a point is left.
+    pub end: HPoint<Clip>,
+    /// The fraction of the way from p to q at `start`. Attributes of the ends blended by it are right without a
+    /// further correction.
+    pub t0: f64,
+    /// The fraction at `end`.
+    pub t1: f64,
+    /// The plane through which the segment enters; `None` if it starts inside.
+    pub enter: Option<PlaneIndex>,
+    /// The plane through which it leaves; `None` if it ends inside.
+    pub exit: Option<PlaneIndex>,
+}
+
+impl ClippedSegment {
+    /// True if only a point is left: the segment touches the volume, or had no length.
+    #[must_use]
+    pub fn is_point(&self) -> bool {
+        self.start == self.end
+    }
+
+    fn reversed(self) -> Self {
+        Self {
+            start: self.end,
+            end: self.start,
+            t0: 1.0 - self.t1,
+            t1: 1.0 - self.t0,
+            enter: self.exit,
+            exit: self.enter,
+        }
+    }
+}
+
+/// The part of the segment from `p` to `q` inside a volume; `None` if there is none or an end is not finite.
+///
+/// It is cut before the divide, so that segments that pass w = 0, start behind the eye or end at infinity come out right.
+///
+/// ```
+/// use clip::{PlaneIndex, Volume, clip_segment};
+/// use homog::HPoint;
+/// // From a place in front of the eye to one behind it.
+/// let (p, q) = (HPoint::new(0.0, 0.0, 0.0, 1.0), HPoint::new(0.0, 0.0, 3.0, -1.0));
+/// let visible = clip_segment(p, q, &Volume::CHAPTER).expect("it starts inside");
+/// assert_eq!((visible.t0, visible.t1), (0.0, 0.2));
+/// assert_eq!(visible.exit, Some(PlaneIndex::NEAR));
+/// assert_eq!(visible.end.divide().map(|end| end.z()), Some(1.0));
+/// ```
+#[must_use]
+pub fn clip_segment(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Option<ClippedSegment> {
+    // One of the two directions is computed, whichever was asked for: so both get the same bits.
+    if order(p.raw(), q.raw()) == Ordering::Greater {
+        return Some(Span::of(q, p, volume).ok()?.points(q, p, volume)?.reversed());
+    }
+    Span::of(p, q, volume).ok()?.points(p, q, volume)
+}
+
+/// What each plane does to the segment from `p` to `q`, for people who ask why it is cut or gone.
+///
+/// A segment that passes by a corner of the volume is rejected by two planes: it leaves through the one before it has
+/// entered through the other.
+#[must_use]
+pub fn segment_fates(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Fates {
+    match Span::of(p, q, volume) {
+        Ok(span) => Fates { cut: span.planes(), rejected: Outcode::INSIDE },
+        Err(rejected) => Fates::rejected(rejected),
+    }
+}
+
+/// A total order of finite points.
+fn order(p: DVec4, q: DVec4) -> Ordering {
+    let mut pairs = p.to_array().into_iter().zip(q.to_array());
+    pairs.find_map(|(a, b)| Some(a.total_cmp(&b)).filter(|o| o.is_ne())).unwrap_or(Ordering::Equal)
+}
+
+/// A crossing with a plane at the fraction `t` of the way from p to q. `from_inner` is the fraction as seen from the end on
+/// the plane's inner side: the point is computed from there, where it is most exact.
+#[derive(Clone, Copy)]
+struct Crossing {
+    t: f64,
+    from_inner: f64,
+    plane: PlaneIndex,
+}
+
+/// The last of the enterings and the first of the leavings.
+#[derive(Clone, Copy, Default)]
+struct Span {
+    enter: Option<Crossing>,
+    exit: Option<Crossing>,
+}
+
+impl Span {
+    /// The span inside the volume, or the planes that reject it.
+    fn of(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Result<Self, Outcode> {
+        let rejected = volume.outcode(p) & volume.outcode(q);
+        if !rejected.is_inside() || !p.is_finite() || !q.is_finite() {
+            return Err(rejected);
+        }
+        let scale = safe_scale(&[p.raw(), q.raw()]);
+        let (p, q) = (p.raw() * scale, q.raw() * scale);
+        let mut span = Self::default();
+        for (plane, row) in volume.rows() {
+            let (a, b) = (row.dot(p), row.dot(q));
+            if a < 0.0 && b >= 0.0 {
+                span.enter_by(Crossing { t: a / (a - b), from_inner: b / (b - a), plane });
+            } else if b < 0.0 && a >= 0.0 {
+                let t = a / (a - b);
+                span.exit_by(Crossing { t, from_inner: t, plane });
+            }
+        }
+        if span.t0() > span.t1() { Err(span.planes()) } else { Ok(span) }
+    }
+
+    fn enter_by(&mut self, crossing: Crossing) {
+        if self.enter.is_none_or(|enter| enter.t < crossing.t) {
+            self.enter = Some(crossing);
+        }
+    }
+
+    fn exit_by(&mut self, crossing: Crossing) {
+        if self.exit.is_none_or(|exit| exit.t > crossing.t) {
+            self.exit = Some(crossing);
+        }
+    }
+
+    fn t0(self) -> f64 {
+        self.enter.map_or(0.0, |crossing| crossing.t)
+    }
+
+    fn t1(self) -> f64 {
+        self.exit.map_or(1.0, |crossing| crossing.t)
+    }
+
+    fn planes(self) -> Outcode {
+        let crossings = [self.enter, self.exit].into_iter().flatten();
+        crossings.fold(Outcode::INSIDE, |planes, crossing| planes.with(crossing.plane))
+    }
+
+    fn points(self, p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Option<ClippedSegment> {
+        let scale = safe_scale(&[p.raw(), q.raw()]);
+        let cut = |inner: HPoint<Clip>, outer: HPoint<Clip>, t: f64| {
+            let (a, b) = (inner.raw() * scale, outer.raw() * scale);
+            HPoint::from_raw(volume.settle(a + (b - a) * t) / scale)
+        };
+        let start = self.enter.map_or(p, |enter| cut(q, p, enter.from_inner));
+        let end = self.exit.map_or(q, |exit| cut(p, q, exit.from_inner));
+        // The zero vector is in every closed volume but is no point. A segment that ends there runs straight at the eye:
+        // all of it has the image of its other end.
+        let (start, end) = match (start.w() > 0.0, end.w() > 0.0) {
+            (true, true) => (start, end),
+            (true, false) => (start, start),
+            (false, true) => (end, end),
+            (false, false) => return None,
+        };
+        let (enter, exit) = (self.enter.map(|c| c.plane), self.exit.map(|c| c.plane));
+        Some(ClippedSegment { start, end, t0: self.t0(), t1: self.t1(), enter, exit })
+    }
+}

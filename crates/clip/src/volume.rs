@@ -1,0 +1,253 @@
+//! View volumes as tables of planes in clip space.
+//!
+//! A plane is a row (a, b, c, d); a point is inside if a x + b y + c z + d w ≥ 0. Borders belong to the volume.
+//! Conventions differ in the two rows of z only:
+//!
+//! | volume | near | far | depth near … far |
+//! | --- | --- | --- | --- |
+//! | [`Volume::CHAPTER`] | w − z ≥ 0 | w + z ≥ 0 | 1 … −1 (PE-3) |
+//! | [`Volume::OPENGL`] | w + z ≥ 0 | w − z ≥ 0 | −1 … 1 (CL-1) |
+//! | [`Volume::ZERO_ONE`] | z ≥ 0 | w − z ≥ 0 | 0 … 1 |
+//! | [`Volume::ZERO_ONE_REVERSED`] | w − z ≥ 0 | z ≥ 0 | 1 … 0 |
+
+use crate::{MAX_PLANES, Outcode, PlaneIndex};
+use core::fmt;
+use glam::DVec4;
+use homog::{Clip, HPoint, Plane};
+use thiserror::Error;
+
+/// What is wrong with a plane or a guard band.
+#[derive(Clone, Copy, PartialEq, Debug, Error)]
+#[non_exhaustive]
+pub enum VolumeError {
+    /// A plane has coefficients that are infinite, NaN, or all zero.
+    #[error(
+        "plane {coefficients:?} has no sides: its four coefficients must be finite and not all zero"
+    )]
+    NoPlane {
+        /// The coefficients (a, b, c, d).
+        coefficients: [f64; 4],
+    },
+    /// All places for planes are taken.
+    #[error("a volume holds {MAX_PLANES} planes at most, six for the box and ten more")]
+    TooManyPlanes,
+    /// A guard band has a factor out of its range.
+    #[error("guard band factor {name} = {value} is not allowed: it must lie from 1 to {max}", max = Volume::MAX_GUARD_BAND)]
+    GuardBand {
+        /// The parameter, `kx` or `ky`.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+}
+
+/// A convex part of clip space, as a table of at most [`MAX_PLANES`] planes.
+///
+/// ```
+/// use clip::{PlaneIndex, Volume};
+/// use homog::HPoint;
+/// let point = HPoint::new(0.0, 0.0, -3.0, 2.0);
+/// assert!(Volume::CHAPTER.outcode(point).contains(PlaneIndex::FAR));
+/// assert!(Volume::OPENGL.outcode(point).contains(PlaneIndex::NEAR));
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Volume {
+    planes: [DVec4; MAX_PLANES],
+    present: Outcode,
+}
+
+impl Volume {
+    /// [−1, 1]³ with near at z = +1: the chapter's volume, and the pipeline's (PE-3).
+    pub const CHAPTER: Self = Self::canonical(W_MINUS_Z, W_PLUS_Z);
+    /// [−1, 1]³ with near at z = −1: OpenGL's volume (CL-1, GL-1).
+    pub const OPENGL: Self = Self::canonical(W_PLUS_Z, W_MINUS_Z);
+    /// z in [0, 1] with near at 0: the volume of Direct3D, Vulkan, Metal and WebGPU (CL-1, D3D-1 to D3D-6).
+    pub const ZERO_ONE: Self = Self::canonical(Z, W_MINUS_Z);
+    /// z in [0, 1] with near at 1: the same for reversed depth (RV-1).
+    pub const ZERO_ONE_REVERSED: Self = Self::canonical(W_MINUS_Z, Z);
+    /// The widest guard band: beyond it plane equations would lose too many digits.
+    pub const MAX_GUARD_BAND: f64 = 1_048_576.0;
+
+    const fn canonical(near: DVec4, far: DVec4) -> Self {
+        let mut planes = [DVec4::ZERO; MAX_PLANES];
+        planes[0] = DVec4::new(1.0, 0.0, 0.0, 1.0);
+        planes[1] = DVec4::new(-1.0, 0.0, 0.0, 1.0);
+        planes[2] = DVec4::new(0.0, 1.0, 0.0, 1.0);
+        planes[3] = DVec4::new(0.0, -1.0, 0.0, 1.0);
+        planes[4] = near;
+        planes[5] = far;
+        Self { planes, present: Outcode::from_bits(0b11_1111) }
+    }
+
+    /// The volume without its far plane, for projections that see to infinity (IF-1 to IF-3).
+    #[must_use]
+    pub fn without_far(mut self) -> Self {
+        self.present = self.present.without(PlaneIndex::FAR);
+        self
+    }
+
+    /// The volume with its sides moved out to |x| ≤ `kx` w and |y| ≤ `ky` w (CL-4).
+    ///
+    /// Triangles that leave the image but not the band need no cutting there: the rasteriser's bounding box does it.
+    /// A band of k lets screen coordinates reach k times half the image's size from its centre.
+    ///
+    /// # Errors
+    /// [`VolumeError::GuardBand`] unless both factors are from 1 to [`Self::MAX_GUARD_BAND`].
+    pub fn with_guard_band(mut self, kx: f64, ky: f64) -> Result<Self, VolumeError> {
+        for (name, value) in [("kx", kx), ("ky", ky)] {
+            if !(1.0..=Self::MAX_GUARD_BAND).contains(&value) {
+                return Err(VolumeError::GuardBand { name, value });
+            }
+        }
+        for (plane, k) in self.planes.iter_mut().zip([kx, kx, ky, ky]) {
+            plane.w = k;
+        }
+        Ok(self)
+    }
+
+    /// The volume with one plane more; what is on the plane's negative side is outside.
+    ///
+    /// A plane of the world comes here through [`homog::Projective::plane`].
+    ///
+    /// # Errors
+    /// [`VolumeError::NoPlane`] if the plane has no two sides, [`VolumeError::TooManyPlanes`] if there is no room.
+    pub fn with_plane(mut self, plane: Plane<Clip>) -> Result<Self, VolumeError> {
+        let largest = plane.raw().abs().max_element();
+        if !plane.raw().is_finite() || largest == 0.0 {
+            return Err(VolumeError::NoPlane { coefficients: plane.raw().to_array() });
+        }
+        let free = (PlaneIndex::BOX.len()..MAX_PLANES).filter_map(PlaneIndex::new);
+        let free = free.clone().find(|&place| !self.present.contains(place));
+        let place = free.ok_or(VolumeError::TooManyPlanes)?;
+        self.planes[place.index()] = plane.raw() / largest;
+        self.present = self.present.with(place);
+        Ok(self)
+    }
+
+    /// The planes the volume has.
+    #[must_use]
+    pub const fn present(&self) -> Outcode {
+        self.present
+    }
+
+    /// The plane with this index, scaled so that its largest coefficient is 1 (or the guard band's factor);
+    /// `None` if the volume has no such plane.
+    #[must_use]
+    pub fn plane(&self, index: PlaneIndex) -> Option<Plane<Clip>> {
+        let present = self.present.contains(index);
+        present.then(|| Plane::from_raw(self.planes[index.index()]))
+    }
+
+    /// The planes a point is outside of (CL-1). Whatever is not finite is outside of all of them.
+    #[must_use]
+    pub fn outcode(&self, point: HPoint<Clip>) -> Outcode {
+        if !point.is_finite() {
+            return self.present;
+        }
+        let outside = |&(_, plane): &(PlaneIndex, DVec4)| !is_inside(plane, point.raw());
+        self.rows().filter(outside).fold(Outcode::INSIDE, |code, (index, _)| code.with(index))
+    }
+
+    /// True if the point is inside or on the border, finite, and not the zero vector, which is no point.
+    #[must_use]
+    pub fn contains(&self, point: HPoint<Clip>) -> bool {
+        point.w() > 0.0 && self.outcode(point).is_inside()
+    }
+
+    pub(crate) fn rows(&self) -> impl Iterator<Item = (PlaneIndex, DVec4)> {
+        self.present.planes().map(|index| (index, self.planes[index.index()]))
+    }
+
+    /// Puts a point that rounding left a hair outside of the box back onto it. It keeps clipping idempotent.
+    pub(crate) fn settle(&self, mut point: DVec4) -> DVec4 {
+        for (axis, pair) in self.planes[..6].chunks_exact(2).enumerate() {
+            for (i, plane) in pair.iter().enumerate() {
+                let present = self.present.bits() >> (2 * axis + i) & 1 == 1;
+                if present && plane.dot(point) < 0.0 {
+                    point[axis] = -plane[axis] * (plane.w * point.w);
+                }
+            }
+        }
+        point
+    }
+}
+
+impl fmt::Display for Volume {
+    /// One line per plane: its name and its coefficients.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.rows().try_for_each(|(index, row)| {
+            writeln!(f, "{index:>8}  {:6} {:6} {:6} {:6}", row.x, row.y, row.z, row.w)
+        })
+    }
+}
+
+const W_PLUS_Z: DVec4 = DVec4::new(0.0, 0.0, 1.0, 1.0);
+const W_MINUS_Z: DVec4 = DVec4::new(0.0, 0.0, -1.0, 1.0);
+const Z: DVec4 = DVec4::new(0.0, 0.0, 1.0, 0.0);
+
+/// Huge points may overflow in the sum; a positive factor takes that away and no sign with it.
+fn is_inside(plane: DVec4, point: DVec4) -> bool {
+    let distance = plane.dot(point);
+    if distance.is_finite() { distance >= 0.0 } else { plane.dot(point * 1e-100) >= 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn codes(volume: Volume, points: [[f64; 4]; 4]) -> [u16; 4] {
+        points.map(|p| volume.outcode(p.into()).bits())
+    }
+
+    #[test]
+    fn conventions_differ_in_the_depth_rows_only() {
+        let behind_far_low_none = [
+            [0.0, 0.0, -2.0, 1.0],
+            [0.0, 0.0, -0.5, 1.0],
+            [0.0, 0.0, 2.0, 1.0],
+            [9.0, -9.0, 0.5, 1.0],
+        ];
+        let [near, far] = [1 << 4, 1 << 5];
+        assert_eq!(codes(Volume::CHAPTER, behind_far_low_none), [far, 0, near, 0b110]);
+        assert_eq!(codes(Volume::OPENGL, behind_far_low_none), [near, 0, far, 0b110]);
+        assert_eq!(codes(Volume::ZERO_ONE, behind_far_low_none), [near, near, far, 0b110]);
+        assert_eq!(codes(Volume::ZERO_ONE_REVERSED, behind_far_low_none), [far, far, near, 0b110]);
+        assert_eq!(codes(Volume::CHAPTER.without_far(), behind_far_low_none), [0, 0, near, 0b110]);
+    }
+
+    #[test]
+    fn borders_are_inside_and_what_is_not_finite_is_not() {
+        for x in [-1.0, 1.0] {
+            assert!(Volume::CHAPTER.contains(HPoint::new(x, x, x, 1.0)));
+            assert!(!Volume::CHAPTER.contains(HPoint::new(x * 1.0000000000000002, x, x, 1.0)));
+        }
+        for bad in [f64::NAN, f64::INFINITY] {
+            for i in 0..4 {
+                let mut p = [0.0, 0.0, 0.0, 1.0];
+                p[i] = bad;
+                assert_eq!(Volume::CHAPTER.outcode(p.into()).bits(), 0b11_1111, "{p:?}");
+            }
+        }
+        assert!(!Volume::CHAPTER.contains(HPoint::new(0.0, 0.0, 0.0, 0.0)));
+        assert!(Volume::CHAPTER.contains(HPoint::new(f64::MAX, -f64::MAX, 0.0, f64::MAX)));
+    }
+
+    #[test]
+    fn bands_and_planes_are_checked() {
+        let band = Volume::CHAPTER.with_guard_band(8.0, 2.0).expect("allowed");
+        assert_eq!(band.outcode(HPoint::new(7.0, 3.0, 0.0, 1.0)).bits(), 1 << 3);
+        for k in [0.5, -1.0, 1e9, f64::NAN, f64::INFINITY] {
+            assert!(Volume::CHAPTER.with_guard_band(1.0, k).is_err(), "{k}");
+        }
+        let through_the_middle = Plane::from_raw(DVec4::new(1e300, 0.0, 0.0, 0.0));
+        let mut volume = Volume::CHAPTER;
+        for _ in 0..10 {
+            volume = volume.with_plane(through_the_middle).expect("there is room");
+        }
+        assert_eq!(volume.outcode(HPoint::new(-0.5, 0.0, 0.0, 1.0)).bits(), 0xffc0);
+        assert_eq!(volume.with_plane(through_the_middle), Err(VolumeError::TooManyPlanes));
+        for bad in [DVec4::ZERO, DVec4::NAN, DVec4::INFINITY] {
+            assert!(Volume::CHAPTER.with_plane(Plane::from_raw(bad)).is_err());
+        }
+    }
+}
