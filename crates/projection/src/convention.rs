@@ -1,0 +1,210 @@
+//! Conventions: which way the camera looks and what clip space looks like.
+//!
+//! ```text
+//!  convention      looks along   NDC y   depth at near   at far
+//!  CHAPTER             −z          up         +1           −1      Shirley's textbook, with w > 0 (PE-3)
+//!  OPENGL              −z          up         −1           +1      glFrustum, WebGL
+//!  VULKAN              −z         down         0            1
+//!  DIRECT3D            +z          up          0            1      D3DX…LH
+//!  METAL, WEBGPU       −z          up          0            1
+//! ```
+//!
+//! All have w > 0 in front of the eye. A projection is described once, without a convention, and written as a matrix
+//! of any of them; matrices made elsewhere are converted by [`Convention::convert`].
+
+use crate::ProjectionError;
+use crate::error::finite;
+use glam::DMat4;
+use homog::{Clip, Projective, View};
+
+/// The side to which the camera looks along its own z axis.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Handedness {
+    /// View space is right-handed: x right, y up, looking along −z.
+    Right,
+    /// View space is left-handed: x right, y up, looking along +z.
+    Left,
+}
+
+/// The direction of the y axis after the divide.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum NdcY {
+    /// The top edge of the window goes to y = +1.
+    Up,
+    /// The top edge of the window goes to y = −1.
+    Down,
+}
+
+/// How view space and clip space are laid out (C30, C100).
+///
+/// # Guarantees
+/// Both depths lie in [−1, 1] and are at least 10⁻⁶ apart.
+///
+/// ```
+/// use projection::Convention;
+/// let z_buffer = Convention::WEBGPU.reversed();
+/// assert_eq!((z_buffer.near_depth(), z_buffer.far_depth()), (1.0, 0.0));
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Convention {
+    handedness: Handedness,
+    ndc_y: NdcY,
+    near_depth: f64,
+    far_depth: f64,
+}
+
+impl Convention {
+    /// The textbook's canonical volume in its w > 0 form (PE-3): [−1, 1]³ with near at +1 and far at −1.
+    pub const CHAPTER: Self = Self::of(Handedness::Right, NdcY::Up, 1.0, -1.0);
+    /// OpenGL and WebGL (GL-1): near at −1, far at +1.
+    pub const OPENGL: Self = Self::of(Handedness::Right, NdcY::Up, -1.0, 1.0);
+    /// Vulkan: y down, near at 0, far at 1.
+    pub const VULKAN: Self = Self::of(Handedness::Right, NdcY::Down, 0.0, 1.0);
+    /// Direct3D as its helper library had it (D3D-1): left-handed, near at 0, far at 1.
+    pub const DIRECT3D: Self = Self::of(Handedness::Left, NdcY::Up, 0.0, 1.0);
+    /// Metal with a right-handed view space: near at 0, far at 1.
+    pub const METAL: Self = Self::of(Handedness::Right, NdcY::Up, 0.0, 1.0);
+    /// WebGPU with a right-handed view space (D3D-2): near at 0, far at 1.
+    pub const WEBGPU: Self = Self::METAL;
+
+    const fn of(handedness: Handedness, ndc_y: NdcY, near_depth: f64, far_depth: f64) -> Self {
+        Self { handedness, ndc_y, near_depth, far_depth }
+    }
+
+    /// The same with near and far depth exchanged.
+    #[must_use]
+    pub const fn reversed(self) -> Self {
+        Self::of(self.handedness, self.ndc_y, self.far_depth, self.near_depth)
+    }
+
+    /// The same for a view space that looks along −z.
+    #[must_use]
+    pub const fn right_handed(self) -> Self {
+        self.with_handedness(Handedness::Right)
+    }
+
+    /// The same for a view space that looks along +z.
+    #[must_use]
+    pub const fn left_handed(self) -> Self {
+        self.with_handedness(Handedness::Left)
+    }
+
+    /// The same with the given handedness of view space.
+    #[must_use]
+    pub const fn with_handedness(self, handedness: Handedness) -> Self {
+        Self { handedness, ..self }
+    }
+
+    /// The same with the given direction of y after the divide.
+    #[must_use]
+    pub const fn with_ndc_y(self, ndc_y: NdcY) -> Self {
+        Self { ndc_y, ..self }
+    }
+
+    /// The same with other depths at the near and the far plane.
+    ///
+    /// # Errors
+    /// Unless both depths are in [−1, 1] and at least 10⁻⁶ apart.
+    pub fn with_depths(self, near_depth: f64, far_depth: f64) -> Result<Self, ProjectionError> {
+        for (parameter, value) in [("near_depth", near_depth), ("far_depth", far_depth)] {
+            if finite(parameter, value)?.abs() > 1.0 {
+                let allowed = "between −1 and 1";
+                return Err(ProjectionError::OutOfRange { parameter, value, allowed });
+            }
+        }
+        if (near_depth - far_depth).abs() < 1e-6 {
+            let allowed = "at least 0.000001 away from `near_depth`";
+            let parameter = "far_depth";
+            return Err(ProjectionError::OutOfRange { parameter, value: far_depth, allowed });
+        }
+        Ok(Self { near_depth, far_depth, ..self })
+    }
+
+    /// Which way view space looks.
+    #[must_use]
+    pub const fn handedness(self) -> Handedness {
+        self.handedness
+    }
+
+    /// Which way y runs after the divide.
+    #[must_use]
+    pub const fn ndc_y(self) -> NdcY {
+        self.ndc_y
+    }
+
+    /// The depth after the divide of points on the near plane.
+    #[must_use]
+    pub const fn near_depth(self) -> f64 {
+        self.near_depth
+    }
+
+    /// The depth after the divide of points on the far plane.
+    #[must_use]
+    pub const fn far_depth(self) -> f64 {
+        self.far_depth
+    }
+
+    /// The z of a view-space point one unit ahead of the eye: −1 or +1.
+    #[must_use]
+    pub const fn ahead(self) -> f64 {
+        match self.handedness {
+            Handedness::Right => -1.0,
+            Handedness::Left => 1.0,
+        }
+    }
+
+    /// The y after the divide of the window's top edge: +1 or −1.
+    #[must_use]
+    pub const fn top(self) -> f64 {
+        match self.ndc_y {
+            NdcY::Up => 1.0,
+            NdcY::Down => -1.0,
+        }
+    }
+
+    /// The same projection, written for convention `to` instead of this one.
+    ///
+    /// Flips of y and z are exact; the depth is remapped linearly, which is exact between the conventions of this
+    /// module. View space is re-read with the handedness of `to`: the same scene with its z axis turned.
+    ///
+    /// ```
+    /// use projection::{Convention, Fov, Perspective};
+    /// let lens = Perspective::new(Fov::Vertical(0.7), 1.5, 0.1, 100.0)?;
+    /// let converted = Convention::OPENGL.convert(Convention::CHAPTER, lens.view_to_clip(Convention::OPENGL));
+    /// assert_eq!(converted, lens.view_to_clip(Convention::CHAPTER));
+    /// # Ok::<(), projection::ProjectionError>(())
+    /// ```
+    #[must_use]
+    pub fn convert(self, to: Self, view_to_clip: Projective<View, Clip>) -> Projective<View, Clip> {
+        let mut rows = view_to_clip.raw().transpose();
+        if self.ndc_y != to.ndc_y {
+            rows.y_axis = -rows.y_axis;
+        }
+        let (factor, offset) = self.depth_remap(to);
+        rows.z_axis = rows.z_axis * factor + rows.w_axis * offset;
+        let mut columns = rows.transpose();
+        if self.handedness != to.handedness {
+            columns.z_axis = -columns.z_axis;
+        }
+        Projective::from_raw(columns)
+    }
+
+    /// The map from this convention's clip space to that of `to`: y and depth only, since the view space stays.
+    #[must_use]
+    pub fn clip_to_clip(self, to: Self) -> Projective<Clip, Clip> {
+        let (factor, offset) = self.depth_remap(to);
+        let mut map = DMat4::IDENTITY;
+        map.y_axis.y = self.top() * to.top();
+        map.z_axis.z = factor;
+        map.w_axis.z = offset;
+        Projective::from_raw(map)
+    }
+
+    /// Factor and offset of the linear map between the depths of two conventions.
+    fn depth_remap(self, to: Self) -> (f64, f64) {
+        let length = self.far_depth - self.near_depth;
+        let factor = (to.far_depth - to.near_depth) / length;
+        let offset = (to.near_depth * self.far_depth - to.far_depth * self.near_depth) / length;
+        (factor, offset)
+    }
+}

@@ -1,0 +1,126 @@
+//! Field of view: the many ways to say how wide a lens sees.
+
+use crate::ProjectionError;
+use crate::error::{finite, opening_angle, positive};
+
+/// How wide a perspective sees; angles in radians, between 0 and π (FOV-1, C33, C49).
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Fov {
+    /// The angle between the middles of the bottom and the top edge.
+    Vertical(f64),
+    /// The angle between the middles of the left and the right edge.
+    Horizontal(f64),
+    /// The angle between opposite corners.
+    Diagonal(f64),
+    /// A lens of the given focal length before a film, in the same unit.
+    FocalLength {
+        /// The distance between lens and film.
+        focal: f64,
+        /// The extent of the film.
+        film: Film,
+    },
+}
+
+/// The extent of film or sensor that the picture fills.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Film {
+    /// The height of the film is known.
+    Height(f64),
+    /// The width of the film is known.
+    Width(f64),
+    /// The diagonal of the film is known.
+    Diagonal(f64),
+}
+
+impl Film {
+    /// The diagonal of the 36 mm × 24 mm frame to which "35 mm equivalent" focal lengths refer, in millimetres.
+    pub const FULL_FRAME_MM: Self = Self::Diagonal(43.266615305567875);
+}
+
+/// Half the width and half the height of the window one unit ahead of the eye.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct HalfSlopes {
+    /// The tangent of half the horizontal angle.
+    pub x: f64,
+    /// The tangent of half the vertical angle.
+    pub y: f64,
+}
+
+impl Fov {
+    /// The vertical field of view in degrees, as people and files speak of it.
+    #[must_use]
+    pub fn vertical_degrees(degrees: f64) -> Self {
+        Self::Vertical(degrees.to_radians())
+    }
+
+    /// The horizontal field of view in degrees.
+    #[must_use]
+    pub fn horizontal_degrees(degrees: f64) -> Self {
+        Self::Horizontal(degrees.to_radians())
+    }
+
+    /// The "35 mm equivalent" focal length in millimetres, by the film's diagonal.
+    #[must_use]
+    pub const fn equivalent_35mm(focal: f64) -> Self {
+        Self::FocalLength { focal, film: Film::FULL_FRAME_MM }
+    }
+
+    /// Half the window one unit ahead of the eye, for an image of the given aspect (width / height).
+    ///
+    /// # Errors
+    /// If the aspect, a length or the angle is not finite or out of range.
+    pub fn half_slopes(self, aspect: f64) -> Result<HalfSlopes, ProjectionError> {
+        positive("aspect", aspect)?;
+        let half = |angle: f64| libm::tan(0.5 * angle);
+        match self {
+            Self::Vertical(angle) => {
+                Ok(by_height(half(opening_angle("vertical field of view", angle)?), aspect))
+            }
+            Self::Horizontal(angle) => {
+                Ok(by_width(half(opening_angle("horizontal field of view", angle)?), aspect))
+            }
+            Self::Diagonal(angle) => {
+                Ok(by_diagonal(half(opening_angle("diagonal field of view", angle)?), aspect))
+            }
+            Self::FocalLength { focal, film } => {
+                positive("focal length", focal)?;
+                Ok(match film {
+                    Film::Height(size) => {
+                        by_height(0.5 * positive("film height", size)? / focal, aspect)
+                    }
+                    Film::Width(size) => {
+                        by_width(0.5 * positive("film width", size)? / focal, aspect)
+                    }
+                    Film::Diagonal(size) => {
+                        by_diagonal(0.5 * positive("film diagonal", size)? / focal, aspect)
+                    }
+                })
+            }
+        }
+    }
+}
+
+fn by_height(y: f64, aspect: f64) -> HalfSlopes {
+    HalfSlopes { x: aspect * y, y }
+}
+
+fn by_width(x: f64, aspect: f64) -> HalfSlopes {
+    HalfSlopes { x, y: x / aspect }
+}
+
+fn by_diagonal(half: f64, aspect: f64) -> HalfSlopes {
+    let diagonal = libm::hypot(1.0, aspect);
+    HalfSlopes { x: half * (aspect / diagonal), y: half / diagonal }
+}
+
+/// The angle under which the eye sees the stretch from `low` to `high` on a plane `distance` ahead, in radians:
+/// atan(high/distance) − atan(low/distance) (FOV-1).
+///
+/// # Errors
+/// If a number is not finite, or the distance not above 0.
+pub fn opening_angle_of(low: f64, high: f64, distance: f64) -> Result<f64, ProjectionError> {
+    finite("low", low)?;
+    finite("high", high)?;
+    positive("distance", distance)?;
+    Ok(libm::atan2(high, distance) - libm::atan2(low, distance))
+}

@@ -1,0 +1,137 @@
+//! Perspective through any window: the off-centre frustum.
+
+use crate::error::{finite, positive};
+use crate::matrix::{self, DepthRow, Fit};
+use crate::{Convention, ProjectionError, Window};
+use homog::{Clip, Projective, View};
+
+/// The perspective through a window on the near plane (PE-2 and GL-1; C91).
+///
+/// ```text
+///               top ┐            The eye is the apex; the window may lie anywhere beside
+///  eye ●────────────┤ D = near   the line of sight: stereo pairs, tiles, lens shift and
+///               bot ┘            pictures on walls need that.
+/// ```
+///
+/// # Guarantees
+/// 0 < near < far, far possibly infinite; the window is finite and not empty; matrix and inverse are finite in every
+/// [`Convention`].
+///
+/// ```
+/// use homog::Point;
+/// use projection::{Convention, Frustum};
+/// let frustum = Frustum::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0)?;
+/// let clip = frustum.view_to_clip(Convention::CHAPTER).point(Point::new(3.0, 1.0, -2.0));
+/// assert_eq!(clip.divide(), Some(Point::new(1.0, 1.0, 1.0))); // right, top, near
+/// # Ok::<(), projection::ProjectionError>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Frustum {
+    window: Window,
+    near: f64,
+    far: f64,
+}
+
+impl Frustum {
+    /// The frustum from the eye through the window [left, right] × [bottom, top] on the near plane.
+    ///
+    /// `near` and `far` are distances ahead of the eye; `far` may be infinite.
+    ///
+    /// # Errors
+    /// If a number is not finite (`far` excepted), the window is empty, or not 0 < near < far.
+    pub fn new(
+        left: f64,
+        right: f64,
+        bottom: f64,
+        top: f64,
+        near: f64,
+        far: f64,
+    ) -> Result<Self, ProjectionError> {
+        Self::from_window(Window::new(left, right, bottom, top)?, near, far)
+    }
+
+    /// The frustum through `window` on the near plane.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub fn from_window(window: Window, near: f64, far: f64) -> Result<Self, ProjectionError> {
+        check_planes(near, far)?;
+        window.fit(near)?;
+        Ok(Self { window, near, far })
+    }
+
+    /// The frustum whose window, one unit ahead of the eye, has the edges `slopes`: the tangents of the four angles.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub fn from_slopes(slopes: Window, near: f64, far: f64) -> Result<Self, ProjectionError> {
+        check_planes(near, far)?;
+        let on_near = slopes.scaled(near);
+        let window = Window::new(on_near.left(), on_near.right(), on_near.bottom(), on_near.top())?;
+        Self::from_window(window, near, far)
+    }
+
+    /// A frustum whose parts have been checked.
+    pub(crate) const fn trusted(window: Window, near: f64, far: f64) -> Self {
+        Self { window, near, far }
+    }
+
+    /// The window on the near plane.
+    #[must_use]
+    pub const fn window(self) -> Window {
+        self.window
+    }
+
+    /// The window one unit ahead of the eye: left/near, right/near, bottom/near, top/near.
+    #[must_use]
+    pub fn slopes(self) -> Window {
+        self.window.scaled(1.0 / self.near)
+    }
+
+    /// The distance of the near plane.
+    #[must_use]
+    pub const fn near(self) -> f64 {
+        self.near
+    }
+
+    /// The distance of the far plane, possibly infinite.
+    #[must_use]
+    pub const fn far(self) -> f64 {
+        self.far
+    }
+
+    /// The projection matrix.
+    #[must_use]
+    pub fn view_to_clip(self, convention: Convention) -> Projective<View, Clip> {
+        matrix::central(self.fit(), self.depth_row(convention), convention)
+    }
+
+    /// Its inverse in closed form (IV-1).
+    #[must_use]
+    pub fn clip_to_view(self, convention: Convention) -> Projective<Clip, View> {
+        matrix::central_inverse(self.fit(), self.depth_row(convention), convention)
+    }
+
+    fn fit(self) -> Fit {
+        self.window.fit_unchecked(self.near)
+    }
+
+    fn depth_row(self, convention: Convention) -> DepthRow {
+        DepthRow::central(self.near, self.far, convention)
+    }
+}
+
+/// 0 < near < far, and usable.
+pub(crate) fn check_planes(near: f64, far: f64) -> Result<(), ProjectionError> {
+    positive("near", near)?;
+    if far != f64::INFINITY {
+        finite("far", far)?;
+    }
+    if near == far {
+        return Err(ProjectionError::EmptyDepth { value: near });
+    }
+    if near > far {
+        return Err(ProjectionError::FarNotBeyondNear { near, far });
+    }
+    DepthRow::check_central(near, far)
+}

@@ -1,0 +1,159 @@
+//! The two matrix forms behind every builder, central and parallel, and their closed-form inverses (IV-1).
+//!
+//! With D the distance ahead of the eye, a window [l, r] × [b, t] and (c, e) the depth coefficients:
+//!
+//! ```text
+//!            central (window on D = near)             parallel
+//!  x' =    2N/(r−l) x − (r+l)/(r−l) D        2/(r−l) x − (r+l)/(r−l)
+//!  y' = ±( 2N/(t−b) y − (t+b)/(t−b) D )   ±( 2/(t−b) y − (t+b)/(t−b) )
+//!  z' =           c D + e                          c D + e
+//!  w' =             D                                 1
+//! ```
+
+use crate::{Convention, ProjectionError};
+use glam::{DMat4, DVec4};
+use homog::{Clip, Projective, View};
+
+/// What the window does to x and y: x' = `scale_x` x − `centre_x` (times D if central).
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Fit {
+    pub(crate) scale_x: f64,
+    pub(crate) scale_y: f64,
+    pub(crate) centre_x: f64,
+    pub(crate) centre_y: f64,
+}
+
+impl Fit {
+    /// Refuses what would overflow in the matrix or in its inverse.
+    pub(crate) fn checked(self) -> Result<Self, ProjectionError> {
+        let usable = invertible(self.scale_x)
+            && invertible(self.scale_y)
+            && bounded(self.centre_x)
+            && bounded(self.centre_y)
+            && bounded(self.centre_x / self.scale_x)
+            && bounded(self.centre_y / self.scale_y);
+        usable.then_some(self).ok_or(ProjectionError::Unrepresentable { what: "window" })
+    }
+}
+
+/// The depth row: z' = `factor` D + `offset`.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct DepthRow {
+    pub(crate) factor: f64,
+    pub(crate) offset: f64,
+}
+
+impl DepthRow {
+    /// z'/D is the near depth at D = near and the far depth at D = far, which may be infinite (IF-1..3).
+    pub(crate) fn central(near: f64, far: f64, convention: Convention) -> Self {
+        let (at_near, at_far) = (convention.near_depth(), convention.far_depth());
+        if far == f64::INFINITY {
+            return Self { factor: at_far, offset: near * (at_near - at_far) };
+        }
+        let far_part = far / (far - near);
+        let near_part = near / (far - near);
+        Self {
+            factor: at_far * far_part - at_near * near_part,
+            offset: near * far_part * (at_near - at_far),
+        }
+    }
+
+    /// z' is the near depth at D = near and the far depth at D = far.
+    pub(crate) fn parallel(near: f64, far: f64, convention: Convention) -> Self {
+        let (at_near, at_far) = (convention.near_depth(), convention.far_depth());
+        Self {
+            factor: (at_far - at_near) / (far - near),
+            offset: at_near * (far / (far - near)) - at_far * (near / (far - near)),
+        }
+    }
+
+    /// Refuses planes whose central depth row or its inverse would overflow.
+    pub(crate) fn check_central(near: f64, far: f64) -> Result<(), ProjectionError> {
+        let row = Self::central(near, far, Convention::OPENGL);
+        let usable = invertible(row.offset) && bounded(row.factor / row.offset);
+        usable.then_some(()).ok_or(ProjectionError::Unrepresentable { what: "depth range" })
+    }
+
+    /// Refuses planes whose parallel depth row or its inverse would overflow.
+    pub(crate) fn check_parallel(near: f64, far: f64) -> Result<(), ProjectionError> {
+        let row = Self::parallel(near, far, Convention::OPENGL);
+        let usable = invertible(row.factor) && bounded(row.offset);
+        usable.then_some(()).ok_or(ProjectionError::Unrepresentable { what: "depth range" })
+    }
+}
+
+/// Small enough to be multiplied by what a convention adds.
+pub(crate) fn bounded(value: f64) -> bool {
+    value.abs() < 1e280
+}
+
+/// Bounded, and so is its reciprocal.
+pub(crate) fn invertible(value: f64) -> bool {
+    bounded(value) && value.abs() > 1e-280
+}
+
+/// The central form: w is the distance ahead.
+pub(crate) fn central(fit: Fit, depth: DepthRow, convention: Convention) -> Projective<View, Clip> {
+    let (ahead, top) = (convention.ahead(), convention.top());
+    Projective::from_raw(DMat4::from_cols(
+        DVec4::new(fit.scale_x, 0.0, 0.0, 0.0),
+        DVec4::new(0.0, top * fit.scale_y, 0.0, 0.0),
+        DVec4::new(-fit.centre_x, -top * fit.centre_y, depth.factor, 1.0) * ahead,
+        DVec4::new(0.0, 0.0, depth.offset, 0.0),
+    ))
+}
+
+/// The inverse of [`central`], by IV-1.
+pub(crate) fn central_inverse(
+    fit: Fit,
+    depth: DepthRow,
+    convention: Convention,
+) -> Projective<Clip, View> {
+    let (ahead, top) = (convention.ahead(), convention.top());
+    Projective::from_raw(DMat4::from_cols(
+        DVec4::new(1.0 / fit.scale_x, 0.0, 0.0, 0.0),
+        DVec4::new(0.0, top / fit.scale_y, 0.0, 0.0),
+        DVec4::new(0.0, 0.0, 0.0, 1.0 / depth.offset),
+        DVec4::new(
+            fit.centre_x / fit.scale_x,
+            fit.centre_y / fit.scale_y,
+            ahead,
+            -depth.factor / depth.offset,
+        ),
+    ))
+}
+
+/// The parallel form: w stays 1.
+pub(crate) fn parallel(
+    fit: Fit,
+    depth: DepthRow,
+    convention: Convention,
+) -> Projective<View, Clip> {
+    let (ahead, top) = (convention.ahead(), convention.top());
+    Projective::from_raw(DMat4::from_cols(
+        DVec4::new(fit.scale_x, 0.0, 0.0, 0.0),
+        DVec4::new(0.0, top * fit.scale_y, 0.0, 0.0),
+        DVec4::new(0.0, 0.0, depth.factor * ahead, 0.0),
+        DVec4::new(-fit.centre_x, -top * fit.centre_y, depth.offset, 1.0),
+    ))
+}
+
+/// The inverse of [`parallel`].
+pub(crate) fn parallel_inverse(
+    fit: Fit,
+    depth: DepthRow,
+    convention: Convention,
+) -> Projective<Clip, View> {
+    let (ahead, top) = (convention.ahead(), convention.top());
+    Projective::from_raw(DMat4::from_cols(
+        DVec4::new(1.0 / fit.scale_x, 0.0, 0.0, 0.0),
+        DVec4::new(0.0, top / fit.scale_y, 0.0, 0.0),
+        DVec4::new(0.0, 0.0, ahead / depth.factor, 0.0),
+        DVec4::new(
+            fit.centre_x / fit.scale_x,
+            fit.centre_y / fit.scale_y,
+            -ahead * (depth.offset / depth.factor),
+            1.0,
+        ),
+    ))
+}

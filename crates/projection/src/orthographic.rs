@@ -1,0 +1,98 @@
+//! Orthographic projection: a box of view space becomes the picture.
+
+use crate::error::finite;
+use crate::matrix::{self, DepthRow, Fit};
+use crate::{Convention, ProjectionError, Window};
+use homog::{Clip, Projective, View};
+
+/// The orthographic projection of a box (OR-1, GL-3; C7, C34, C90).
+///
+/// `near` and `far` are distances ahead of the eye; they may be any two different numbers, negative ones lie behind.
+///
+/// # Guarantees
+/// The box is finite and not empty; matrix and inverse are finite in every [`Convention`].
+///
+/// ```
+/// use homog::Point;
+/// use projection::{Convention, Orthographic};
+/// let sheet = Orthographic::new(-2.0, 2.0, -1.0, 1.0, 0.0, 10.0)?;
+/// let clip = sheet.view_to_clip(Convention::CHAPTER).point(Point::new(2.0, 1.0, 0.0));
+/// assert_eq!(clip.divide(), Some(Point::new(1.0, 1.0, 1.0))); // right, top, near
+/// # Ok::<(), projection::ProjectionError>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Orthographic {
+    window: Window,
+    near: f64,
+    far: f64,
+}
+
+impl Orthographic {
+    /// The projection of the box [left, right] × [bottom, top] × [near, far].
+    ///
+    /// # Errors
+    /// If a number is not finite, or two opposite sides coincide.
+    pub fn new(
+        left: f64,
+        right: f64,
+        bottom: f64,
+        top: f64,
+        near: f64,
+        far: f64,
+    ) -> Result<Self, ProjectionError> {
+        Self::from_window(Window::new(left, right, bottom, top)?, near, far)
+    }
+
+    /// The projection of the box behind `window`, from `near` to `far`.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub fn from_window(window: Window, near: f64, far: f64) -> Result<Self, ProjectionError> {
+        finite("near", near)?;
+        finite("far", far)?;
+        if near == far {
+            return Err(ProjectionError::EmptyDepth { value: near });
+        }
+        DepthRow::check_parallel(near, far)?;
+        window.fit(1.0)?;
+        Ok(Self { window, near, far })
+    }
+
+    /// The window, the same at every depth.
+    #[must_use]
+    pub const fn window(self) -> Window {
+        self.window
+    }
+
+    /// The distance of the near plane.
+    #[must_use]
+    pub const fn near(self) -> f64 {
+        self.near
+    }
+
+    /// The distance of the far plane.
+    #[must_use]
+    pub const fn far(self) -> f64 {
+        self.far
+    }
+
+    /// The projection matrix. It is affine: w stays 1.
+    #[must_use]
+    pub fn view_to_clip(self, convention: Convention) -> Projective<View, Clip> {
+        matrix::parallel(self.fit(), self.depth_row(convention), convention)
+    }
+
+    /// Its inverse in closed form.
+    #[must_use]
+    pub fn clip_to_view(self, convention: Convention) -> Projective<Clip, View> {
+        matrix::parallel_inverse(self.fit(), self.depth_row(convention), convention)
+    }
+
+    fn fit(self) -> Fit {
+        self.window.fit_unchecked(1.0)
+    }
+
+    fn depth_row(self, convention: Convention) -> DepthRow {
+        DepthRow::parallel(self.near, self.far, convention)
+    }
+}

@@ -1,0 +1,143 @@
+//! Perspective by field of view: the window centred on the line of sight.
+
+use crate::frustum::check_planes;
+use crate::matrix::{self, DepthRow, Fit};
+use crate::{Convention, Fov, Frustum, HalfSlopes, ProjectionError, Window};
+use homog::{Clip, Projective, View};
+
+/// The symmetric perspective (GL-2, FOV-1; C61, C92).
+///
+/// # Guarantees
+/// 0 < near < far, far possibly infinite; both opening angles lie between 0 and π; matrix and inverse are finite in
+/// every [`Convention`].
+///
+/// ```
+/// use homog::Point;
+/// use projection::{Convention, Fov, Perspective};
+/// let lens = Perspective::new(Fov::vertical_degrees(90.0), 2.0, 1.0, f64::INFINITY)?;
+/// let clip = lens.view_to_clip(Convention::OPENGL).point(Point::new(0.0, 0.0, -1.0));
+/// assert_eq!(clip.divide(), Some(Point::new(0.0, 0.0, -1.0)));
+/// # Ok::<(), projection::ProjectionError>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Perspective {
+    half: HalfSlopes,
+    near: f64,
+    far: f64,
+}
+
+impl Perspective {
+    /// The perspective with the given field of view, aspect (width / height of the picture) and distances of the near
+    /// and the far plane; `far` may be infinite.
+    ///
+    /// # Errors
+    /// If a number is not finite (`far` excepted), the angle is not between 0 and π, the aspect not above 0, or not
+    /// 0 < near < far.
+    pub fn new(fov: Fov, aspect: f64, near: f64, far: f64) -> Result<Self, ProjectionError> {
+        let lens = Self { half: fov.half_slopes(aspect)?, near, far };
+        check_planes(near, far)?;
+        lens.fit().checked()?;
+        let window = lens.slopes().scaled(near);
+        Window::new(window.left(), window.right(), window.bottom(), window.top())?.fit(near)?;
+        Ok(lens)
+    }
+
+    /// Half the window one unit ahead of the eye: the tangents of half the opening angles.
+    #[must_use]
+    pub const fn half_slopes(self) -> HalfSlopes {
+        self.half
+    }
+
+    /// The window one unit ahead of the eye: left/near, right/near, bottom/near, top/near.
+    #[must_use]
+    pub fn slopes(self) -> Window {
+        Window::symmetric(self.half.x, self.half.y)
+    }
+
+    /// Width / height of the picture.
+    #[must_use]
+    pub fn aspect(self) -> f64 {
+        self.half.x / self.half.y
+    }
+
+    /// The vertical opening angle in radians.
+    #[must_use]
+    pub fn fov_y(self) -> f64 {
+        2.0 * libm::atan(self.half.y)
+    }
+
+    /// The horizontal opening angle in radians.
+    #[must_use]
+    pub fn fov_x(self) -> f64 {
+        2.0 * libm::atan(self.half.x)
+    }
+
+    /// The opening angle between opposite corners in radians.
+    #[must_use]
+    pub fn fov_diagonal(self) -> f64 {
+        2.0 * libm::atan(libm::hypot(self.half.x, self.half.y))
+    }
+
+    /// The distance of the near plane.
+    #[must_use]
+    pub const fn near(self) -> f64 {
+        self.near
+    }
+
+    /// The distance of the far plane, possibly infinite.
+    #[must_use]
+    pub const fn far(self) -> f64 {
+        self.far
+    }
+
+    /// The same projection by its window on the near plane: top = near·tan(θ/2), right = aspect·top.
+    #[must_use]
+    pub fn to_frustum(self) -> Frustum {
+        Frustum::trusted(self.slopes().scaled(self.near), self.near, self.far)
+    }
+
+    /// The projection matrix.
+    #[must_use]
+    pub fn view_to_clip(self, convention: Convention) -> Projective<View, Clip> {
+        matrix::central(self.fit(), self.depth_row(convention), convention)
+    }
+
+    /// Its inverse in closed form (IV-1).
+    #[must_use]
+    pub fn clip_to_view(self, convention: Convention) -> Projective<Clip, View> {
+        matrix::central_inverse(self.fit(), self.depth_row(convention), convention)
+    }
+
+    fn fit(self) -> Fit {
+        let HalfSlopes { x, y } = self.half;
+        Fit { scale_x: 1.0 / x, scale_y: 1.0 / y, centre_x: 0.0, centre_y: 0.0 }
+    }
+
+    fn depth_row(self, convention: Convention) -> DepthRow {
+        DepthRow::central(self.near, self.far, convention)
+    }
+}
+
+impl From<Perspective> for Frustum {
+    fn from(perspective: Perspective) -> Self {
+        perspective.to_frustum()
+    }
+}
+
+impl TryFrom<Frustum> for Perspective {
+    type Error = ProjectionError;
+
+    /// The way back, for windows that are centred on the line of sight and not mirrored (C69, M31).
+    ///
+    /// # Errors
+    /// [`ProjectionError::OffCentre`] for all others.
+    fn try_from(frustum: Frustum) -> Result<Self, ProjectionError> {
+        let slopes = frustum.slopes();
+        let centred = slopes.left() == -slopes.right() && slopes.bottom() == -slopes.top();
+        if !centred || slopes.right() < 0.0 || slopes.top() < 0.0 {
+            return Err(ProjectionError::OffCentre);
+        }
+        let half = HalfSlopes { x: slopes.right(), y: slopes.top() };
+        Ok(Self { half, near: frustum.near(), far: frustum.far() })
+    }
+}

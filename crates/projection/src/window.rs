@@ -1,0 +1,125 @@
+//! The window: the rectangle of the view plane that becomes the picture.
+
+use crate::ProjectionError;
+use crate::error::finite;
+use crate::matrix::Fit;
+
+/// A rectangle [left, right] × [bottom, top], in units of view space or, for slopes, without unit (C85).
+///
+/// # Guarantees
+/// All edges are finite and opposite ones differ. Mirrored windows, left > right or bottom > top, are allowed:
+/// they give a mirrored picture.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Window {
+    left: f64,
+    right: f64,
+    bottom: f64,
+    top: f64,
+}
+
+impl Window {
+    /// The window with the given edges.
+    ///
+    /// # Errors
+    /// If an edge is not finite or opposite edges coincide.
+    pub fn new(left: f64, right: f64, bottom: f64, top: f64) -> Result<Self, ProjectionError> {
+        finite("left", left)?;
+        finite("right", right)?;
+        finite("bottom", bottom)?;
+        finite("top", top)?;
+        if left == right {
+            return Err(ProjectionError::EmptyWindow { low: "left", high: "right", value: left });
+        }
+        if bottom == top {
+            return Err(ProjectionError::EmptyWindow { low: "bottom", high: "top", value: bottom });
+        }
+        Ok(Self { left, right, bottom, top })
+    }
+
+    /// The window of the given size around the line of sight.
+    ///
+    /// # Errors
+    /// If a size is not finite or 0.
+    pub fn centred(width: f64, height: f64) -> Result<Self, ProjectionError> {
+        let (x, y) = (0.5 * width, 0.5 * height);
+        Self::new(-x, x, -y, y)
+    }
+
+    /// Edges whose opposites are known to differ.
+    pub(crate) const fn symmetric(half_width: f64, half_height: f64) -> Self {
+        Self { left: -half_width, right: half_width, bottom: -half_height, top: half_height }
+    }
+
+    /// Where the picture begins on the left.
+    #[must_use]
+    pub const fn left(self) -> f64 {
+        self.left
+    }
+
+    /// Where the picture ends on the right.
+    #[must_use]
+    pub const fn right(self) -> f64 {
+        self.right
+    }
+
+    /// Where the picture begins below.
+    #[must_use]
+    pub const fn bottom(self) -> f64 {
+        self.bottom
+    }
+
+    /// Where the picture ends above.
+    #[must_use]
+    pub const fn top(self) -> f64 {
+        self.top
+    }
+
+    /// right − left: negative if mirrored.
+    #[must_use]
+    pub fn width(self) -> f64 {
+        self.right - self.left
+    }
+
+    /// top − bottom: negative if mirrored.
+    #[must_use]
+    pub fn height(self) -> f64 {
+        self.top - self.bottom
+    }
+
+    /// |width / height|: the aspect an image needs to show the window undistorted (PL-3).
+    #[must_use]
+    pub fn aspect(self) -> f64 {
+        (self.width() / self.height()).abs()
+    }
+
+    /// The middle of the window, (x, y).
+    #[must_use]
+    pub fn centre(self) -> (f64, f64) {
+        (0.5 * self.left + 0.5 * self.right, 0.5 * self.bottom + 0.5 * self.top)
+    }
+
+    /// The window with all edges multiplied by `factor`: the same rays, on a plane `factor` times as far away.
+    #[must_use]
+    pub(crate) fn scaled(self, factor: f64) -> Self {
+        Self {
+            left: self.left * factor,
+            right: self.right * factor,
+            bottom: self.bottom * factor,
+            top: self.top * factor,
+        }
+    }
+
+    /// What the window does to x and y, for a view plane at `distance` (1 for parallel projections).
+    pub(crate) fn fit(self, distance: f64) -> Result<Fit, ProjectionError> {
+        self.fit_unchecked(distance).checked()
+    }
+
+    pub(crate) fn fit_unchecked(self, distance: f64) -> Fit {
+        Fit {
+            scale_x: 2.0 * distance / self.width(),
+            scale_y: 2.0 * distance / self.height(),
+            centre_x: (self.right + self.left) / self.width(),
+            centre_y: (self.top + self.bottom) / self.height(),
+        }
+    }
+}

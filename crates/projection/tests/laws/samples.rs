@@ -1,0 +1,67 @@
+//! Random valid parameters and the comparisons the laws need.
+
+use glam::DMat4;
+use projection::{Convention, Fov, Frustum, Handedness, NdcY, Orthographic, Perspective};
+use proptest::prelude::*;
+
+/// So many cases; failures are not written into the source tree, since the cases are few enough to run again.
+pub(crate) fn cases(cases: u32) -> ProptestConfig {
+    ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
+}
+
+/// All conventions that are named, and the variants of each.
+pub(crate) fn conventions() -> Vec<Convention> {
+    let mut all = Vec::new();
+    for depths in [Convention::CHAPTER, Convention::OPENGL, Convention::WEBGPU] {
+        for handed in [Handedness::Right, Handedness::Left] {
+            for y in [NdcY::Up, NdcY::Down] {
+                let convention = depths.with_handedness(handed).with_ndc_y(y);
+                all.extend([convention, convention.reversed()]);
+            }
+        }
+    }
+    all.push(Convention::OPENGL.with_depths(0.25, 0.75).expect("inside [−1, 1]"));
+    all
+}
+
+pub(crate) fn convention() -> impl Strategy<Value = Convention> {
+    prop::sample::select(conventions())
+}
+
+/// Two numbers at least a little apart, in either order: mirrored windows are windows.
+pub(crate) fn edges() -> impl Strategy<Value = (f64, f64)> {
+    (-5.0..5.0, 0.05..8.0, any::<bool>())
+        .prop_map(|(a, size, mirrored)| if mirrored { (a + size, a) } else { (a, a + size) })
+}
+
+pub(crate) fn planes() -> impl Strategy<Value = (f64, f64)> {
+    let near = (-3.0..1.5).prop_map(|exponent: f64| libm::exp10(exponent));
+    let ratio =
+        prop_oneof![4 => (0.01..4.0).prop_map(|e: f64| libm::exp10(e)), 1 => Just(f64::INFINITY)];
+    (near, ratio).prop_map(|(near, ratio)| (near, near * ratio))
+}
+
+pub(crate) fn frustum() -> impl Strategy<Value = Frustum> {
+    (edges(), edges(), planes()).prop_map(|((l, r), (b, t), (near, far))| {
+        Frustum::new(l * near, r * near, b * near, t * near, near, far).expect("valid")
+    })
+}
+
+pub(crate) fn perspective() -> impl Strategy<Value = Perspective> {
+    (0.05..3.0, 0.2..5.0, planes()).prop_map(|(fov, aspect, (near, far))| {
+        Perspective::new(Fov::Vertical(fov), aspect, near, far).expect("valid")
+    })
+}
+
+pub(crate) fn orthographic() -> impl Strategy<Value = Orthographic> {
+    (edges(), edges(), edges()).prop_map(|((l, r), (b, t), (near, far))| {
+        Orthographic::new(l, r, b, t, near, far).expect("valid")
+    })
+}
+
+/// The largest difference of two matrices, relative to the larger of 1 and the largest entry.
+pub(crate) fn distance(a: DMat4, b: DMat4) -> f64 {
+    let (a, b) = (a.to_cols_array(), b.to_cols_array());
+    let size = b.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
+    a.iter().zip(b).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) / size
+}
