@@ -1,0 +1,66 @@
+//! What can be wrong with the parameters of this crate.
+
+use thiserror::Error;
+
+/// A parameter that cannot be used. Every variant names it and says what is allowed.
+#[derive(Clone, Copy, PartialEq, Debug, Error)]
+#[non_exhaustive]
+pub enum ViewportError {
+    /// A number is infinite or NaN.
+    #[error("{name} = {value} is not a finite number")]
+    NotFinite {
+        /// The parameter.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A size, a resolution or a scale is zero or negative.
+    #[error("{name} = {value} is not allowed: it must be greater than 0")]
+    NotPositive {
+        /// The parameter.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// Two borders that must differ coincide, so that there is nothing to map.
+    #[error("{name} is empty: both its ends are {value}")]
+    Empty {
+        /// The interval.
+        name: &'static str,
+        /// Both its ends.
+        value: f64,
+    },
+    /// A count is too small.
+    #[error("{name} = {count} is not allowed: it must be at least {least}")]
+    TooFew {
+        /// What is counted.
+        name: &'static str,
+        /// The count.
+        count: usize,
+        /// The least that makes sense.
+        least: usize,
+    },
+    /// The result does not fit into a finite number.
+    #[error("{name} is out of the range of numbers: the parameters are too far apart in size")]
+    OutOfRange {
+        /// The result.
+        name: &'static str,
+    },
+}
+
+pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64, ViewportError> {
+    if value.is_finite() { Ok(value) } else { Err(ViewportError::NotFinite { name, value }) }
+}
+
+pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, ViewportError> {
+    finite(name, value)?;
+    if value > 0.0 { Ok(value) } else { Err(ViewportError::NotPositive { name, value }) }
+}
+
+/// Both ends of an interval, which must differ.
+pub(crate) fn interval(name: &'static str, ends: [f64; 2]) -> Result<[f64; 2], ViewportError> {
+    let [start, end] = ends;
+    finite(name, start)?;
+    finite(name, end)?;
+    if start == end { Err(ViewportError::Empty { name, value: start }) } else { Ok(ends) }
+}
