@@ -1,0 +1,105 @@
+//! Reading numbers, points and matrices from vector files, and comparing ours with theirs.
+
+use glam::{DMat4, DVec4};
+use serde_json::Value;
+use std::fmt::Display;
+
+/// The tolerance of the vectors' README for numbers of f64 code.
+pub const TOLERANCE: f64 = 1e-12;
+
+/// A number; `"NaN"`, `"inf"` and `"-inf"` are strings in the files, for JSON has no such numbers.
+pub fn number(value: &Value) -> Result<f64, String> {
+    match value {
+        Value::String(name) if ["NaN", "inf", "-inf"].contains(&name.as_str()) => {
+            name.parse().map_err(|error| format!("{name}: {error}"))
+        }
+        _ => value.as_f64().ok_or_else(|| format!("{value} is not a number")),
+    }
+}
+
+/// The number in the field `name`.
+pub fn field(object: &Value, name: &str) -> Result<f64, String> {
+    number(&object[name]).map_err(|error| format!("{name}: {error}"))
+}
+
+/// The whole number in the field `name`, as a count.
+pub fn count(object: &Value, name: &str) -> Result<u32, String> {
+    let count = object[name].as_u64().and_then(|count| count.try_into().ok());
+    count.ok_or_else(|| format!("{name}: {} is not a count", object[name]))
+}
+
+/// The text in the field `name`.
+pub fn text<'a>(object: &'a Value, name: &str) -> Result<&'a str, String> {
+    object[name].as_str().ok_or_else(|| format!("{name}: {} is not text", object[name]))
+}
+
+/// The items of a list.
+pub fn list(value: &Value) -> Result<&[Value], String> {
+    value.as_array().map(Vec::as_slice).ok_or_else(|| format!("{value} is not a list"))
+}
+
+/// A list of exactly `N` numbers.
+pub fn numbers<const N: usize>(value: &Value) -> Result<[f64; N], String> {
+    let numbers = list(value)?.iter().map(number).collect::<Result<Vec<_>, _>>()?;
+    numbers.try_into().map_err(|_| format!("{value} is not a list of {N} numbers"))
+}
+
+/// A point or vector (x, y, z).
+pub fn point(value: &Value) -> Result<[f64; 3], String> {
+    numbers(value)
+}
+
+/// A homogeneous point (x, y, z, w).
+pub fn point4(value: &Value) -> Result<[f64; 4], String> {
+    numbers(value)
+}
+
+/// A 4×4 matrix, a list of rows.
+pub fn matrix(value: &Value) -> Result<DMat4, String> {
+    let rows: Vec<[f64; 4]> = list(value)?.iter().map(numbers).collect::<Result<_, _>>()?;
+    let rows: [[f64; 4]; 4] =
+        rows.try_into().map_err(|_| format!("{value} is not a list of four rows"))?;
+    Ok(DMat4::from_cols_array_2d(&rows).transpose())
+}
+
+/// Ours against theirs: |ours − theirs| ≤ tolerance · max(1, |theirs|).
+pub fn close(name: &str, ours: f64, theirs: f64, tolerance: f64) -> Result<(), String> {
+    let allowed = tolerance * theirs.abs().max(1.0);
+    if (ours - theirs).abs() <= allowed {
+        return Ok(());
+    }
+    Err(format!("{name} is {ours:?}, not {theirs:?}: off by {:e}", (ours - theirs).abs()))
+}
+
+/// Ours against theirs, number by number.
+pub fn close_all(name: &str, ours: &[f64], theirs: &[f64], tolerance: f64) -> Result<(), String> {
+    if ours.len() != theirs.len() {
+        return Err(format!("{name} has {} numbers, not {}", ours.len(), theirs.len()));
+    }
+    let mut pairs = ours.iter().zip(theirs).enumerate();
+    pairs.try_for_each(|(i, (&a, &b))| close(&format!("{name}[{i}]"), a, b, tolerance))
+}
+
+/// Ours against theirs, entry by entry.
+pub fn close_matrix(name: &str, ours: DMat4, theirs: DMat4, tolerance: f64) -> Result<(), String> {
+    for row in 0..4 {
+        let [a, b]: [DVec4; 2] = [ours.row(row), theirs.row(row)];
+        close_all(&format!("{name}[{row}]"), &a.to_array(), &b.to_array(), tolerance)?;
+    }
+    Ok(())
+}
+
+/// Judges a result against an expectation that may be a refusal (`{"error": …}`, whatever its code): `check` sees what
+/// was built if it had to be built.
+pub fn judge<T, E: Display>(
+    ours: Result<T, E>,
+    out: &Value,
+    check: impl FnOnce(T) -> Result<(), String>,
+) -> Result<(), String> {
+    match (ours, out.get("error")) {
+        (Err(_), Some(_)) => Ok(()),
+        (Ok(_), Some(code)) => Err(format!("must be refused: {code}")),
+        (Err(error), None) => Err(format!("is refused: {error}")),
+        (Ok(ours), None) => check(ours),
+    }
+}
