@@ -157,3 +157,14 @@ pub(crate) fn parallel_inverse(
         ),
     ))
 }
+
+/// The matrix with the given rows.
+pub(crate) fn from_rows(rows: [[f64; 4]; 4]) -> DMat4 {
+    DMat4::from_cols_array_2d(&rows).transpose()
+}
+
+/// Refuses a matrix with an entry too large to go on computing with.
+pub(crate) fn representable(matrix: DMat4, what: &'static str) -> Result<DMat4, ProjectionError> {
+    let usable = matrix.to_cols_array().into_iter().all(bounded);
+    usable.then_some(matrix).ok_or(ProjectionError::Unrepresentable { what })
+}

@@ -1,0 +1,136 @@
+//! The apex-moved frustum of the WebGL lesson: not glFrustum, though its parameters look alike.
+//!
+//! ```text
+//!   Frustum                       ApexMovedFrustum
+//!             window                         window
+//!               ┐                              ┐
+//!   eye ●───────┤ centre of the window   ●─────┤  the apex stands right behind the window's centre,
+//!               ┘ seen at an angle             ┘  in the plane of the eye
+//! ```
+//!
+//! Both agree on the near plane only, or when the window is centred (LW-1, M12). For stereo pairs, tiles and lens shift
+//! use [`Frustum`].
+
+use crate::{Convention, Frustum, ProjectionError, Window};
+use homog::{Affine, Clip, Point, Projective, View};
+
+/// The perspective of createFrustum (LW-1; C63): symmetric, from an apex moved to behind the window's centre.
+///
+/// # Guarantees
+/// As for [`Frustum`].
+///
+/// ```
+/// use homog::{HPoint, Point};
+/// use projection::{ApexMovedFrustum, Convention};
+/// let lesson = ApexMovedFrustum::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0)?;
+/// assert_eq!(lesson.apex(), Point::new(1.0, -0.5, 0.0));
+/// // The window's centre line stays in the middle of the picture at every depth.
+/// let deep = lesson.view_to_clip(Convention::OPENGL).point(Point::new(1.0, -0.5, -5.0));
+/// assert_eq!((deep.x(), deep.y()), (0.0, 0.0));
+/// # Ok::<(), projection::ProjectionError>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ApexMovedFrustum {
+    window: Window,
+    about_apex: Frustum,
+}
+
+/// The four steps of the lesson, in the order a point passes them; their product is the matrix (C66).
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ApexMovedSteps {
+    /// Eq2: moves the apex to the origin.
+    pub move_apex: Affine<View, View>,
+    /// Eq7 with the 0 it needs at the end of its last row (M14): maps the depth and sets w to the distance.
+    pub map_depth: Projective<View, View>,
+    /// Eq3: projects x and y onto the near plane by multiplying them with near.
+    pub project: Affine<View, View>,
+    /// Eq6: scales the window to 2 × 2.
+    pub scale_window: Affine<View, Clip>,
+}
+
+impl ApexMovedFrustum {
+    /// The frustum from the apex ((left + right)/2, (bottom + top)/2, 0) through the window on the near plane.
+    ///
+    /// # Errors
+    /// As for [`Frustum::new`].
+    pub fn new(
+        left: f64,
+        right: f64,
+        bottom: f64,
+        top: f64,
+        near: f64,
+        far: f64,
+    ) -> Result<Self, ProjectionError> {
+        let window = Window::new(left, right, bottom, top)?;
+        let centred = Window::centred(window.width(), window.height())?;
+        Frustum::from_window(window, near, far)?;
+        Ok(Self { window, about_apex: Frustum::from_window(centred, near, far)? })
+    }
+
+    /// The window on the near plane.
+    #[must_use]
+    pub const fn window(self) -> Window {
+        self.window
+    }
+
+    /// The distance of the near plane.
+    #[must_use]
+    pub const fn near(self) -> f64 {
+        self.about_apex.near()
+    }
+
+    /// The distance of the far plane, possibly infinite.
+    #[must_use]
+    pub const fn far(self) -> f64 {
+        self.about_apex.far()
+    }
+
+    /// The place from which the picture is right.
+    #[must_use]
+    pub fn apex(self) -> Point<View> {
+        let (x, y) = self.window.centre();
+        Point::new(x, y, 0.0)
+    }
+
+    /// The centred frustum as the apex sees it.
+    #[must_use]
+    pub const fn about_apex(self) -> Frustum {
+        self.about_apex
+    }
+
+    /// The projection matrix: move the apex to the origin, then the centred frustum.
+    #[must_use]
+    pub fn view_to_clip(self, convention: Convention) -> Projective<View, Clip> {
+        let to_apex = Affine::<View, View>::translation(Point::ORIGIN - self.apex());
+        to_apex.then_project(self.about_apex.view_to_clip(convention))
+    }
+
+    /// Its inverse in closed form.
+    #[must_use]
+    pub fn clip_to_view(self, convention: Convention) -> Projective<Clip, View> {
+        let from_apex = Affine::<View, View>::translation(self.apex() - Point::ORIGIN);
+        self.about_apex.clip_to_view(convention).then(from_apex)
+    }
+
+    /// The lesson's equations 2, 7, 3 and 6 as factors of the matrix, for the given convention.
+    #[must_use]
+    pub fn steps(self, convention: Convention) -> ApexMovedSteps {
+        let near = self.near();
+        let mut map_depth = glam::DMat4::IDENTITY;
+        let matrix = self.about_apex.view_to_clip(convention).raw();
+        map_depth.z_axis.z = matrix.z_axis.z;
+        map_depth.z_axis.w = matrix.z_axis.w;
+        map_depth.w_axis.z = matrix.w_axis.z;
+        map_depth.w_axis.w = 0.0;
+        ApexMovedSteps {
+            move_apex: Affine::translation(Point::ORIGIN - self.apex()),
+            map_depth: Projective::from_raw(map_depth),
+            project: Affine::scale(near, near, 1.0),
+            scale_window: Affine::scale(
+                2.0 / self.window.width(),
+                2.0 * convention.top() / self.window.height(),
+                1.0,
+            ),
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Builders under the names by which graphics interfaces know them.
+//!
+//! All take distances, refuse an infinite `far` where the formula has a finite one, and return the matrix only; each is
+//! one line over [`Frustum`], [`Perspective`] or [`Orthographic`] with its [`Convention`]. `fovy` is in radians (M19),
+//! `aspect` is width / height. `lh`: looks along +z; `zo`: depth from zero to one; `rev`: near at 1; `inf`: no far plane.
+//!
+//! ```
+//! use projection::{Convention, Frustum, api};
+//! let by_name = api::frustum_gl(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0)?;
+//! let by_convention = Frustum::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0)?.view_to_clip(Convention::OPENGL);
+//! assert_eq!(by_name, by_convention);
+//! # Ok::<(), projection::ProjectionError>(())
+//! ```
+
+use crate::error::finite;
+use crate::{Convention, Fov, Frustum, Orthographic, Perspective, ProjectionError};
+use homog::{Clip, Projective, View};
+
+type Matrix = Result<Projective<View, Clip>, ProjectionError>;
+
+const ZERO_ONE_RH: Convention = Convention::WEBGPU;
+const ZERO_ONE_LH: Convention = Convention::DIRECT3D;
+
+fn frustum(window: [f64; 4], near: f64, far: f64, convention: Convention) -> Matrix {
+    let [left, right, bottom, top] = window;
+    let frustum = Frustum::new(left, right, bottom, top, near, finite("far", far)?)?;
+    Ok(frustum.view_to_clip(convention))
+}
+
+fn perspective(fovy: f64, aspect: f64, near: f64, far: f64, convention: Convention) -> Matrix {
+    endless(fovy, aspect, near, finite("far", far)?, convention)
+}
+
+fn endless(fovy: f64, aspect: f64, near: f64, far: f64, convention: Convention) -> Matrix {
+    Ok(Perspective::new(Fov::Vertical(fovy), aspect, near, far)?.view_to_clip(convention))
+}
+
+macro_rules! by_window {
+    ($(#[$doc:meta])* $name:ident, $convention:expr) => {
+        $(#[$doc])*
+        ///
+        /// # Errors
+        /// If a number is not finite, the window is empty, or not 0 < near < far.
+        pub fn $name(left: f64, right: f64, bottom: f64, top: f64, near: f64, far: f64) -> Matrix {
+            frustum([left, right, bottom, top], near, far, $convention)
+        }
+    };
+}
+
+macro_rules! by_box {
+    ($(#[$doc:meta])* $name:ident, $convention:expr) => {
+        $(#[$doc])*
+        /// near and far may be any two different distances.
+        ///
+        /// # Errors
+        /// If a number is not finite or two opposite sides coincide.
+        pub fn $name(left: f64, right: f64, bottom: f64, top: f64, near: f64, far: f64) -> Matrix {
+            Ok(Orthographic::new(left, right, bottom, top, near, far)?.view_to_clip($convention))
+        }
+    };
+}
+
+macro_rules! by_angle {
+    ($(#[$doc:meta])* $name:ident, $convention:expr) => {
+        $(#[$doc])*
+        ///
+        /// # Errors
+        /// If a number is not finite, fovy not between 0 and π, aspect not above 0, or not 0 < near < far.
+        pub fn $name(fovy: f64, aspect: f64, near: f64, far: f64) -> Matrix {
+            perspective(fovy, aspect, near, far, $convention)
+        }
+    };
+    ($(#[$doc:meta])* $name:ident, $convention:expr, infinite) => {
+        $(#[$doc])*
+        ///
+        /// # Errors
+        /// If a number is not finite, fovy not between 0 and π, or aspect or near not above 0.
+        pub fn $name(fovy: f64, aspect: f64, near: f64) -> Matrix {
+            endless(fovy, aspect, near, f64::INFINITY, $convention)
+        }
+    };
+}
+
+by_window! {
+    /// GL-1, glFrustum (C91): right-handed, near at −1, far at +1.
+    frustum_gl, Convention::OPENGL
+}
+by_window! {
+    /// D3D-4: right-handed, near at 0, far at 1.
+    frustum_rh_zo, ZERO_ONE_RH
+}
+by_window! {
+    /// D3D-3: left-handed, near at 0, far at 1.
+    frustum_lh_zo, ZERO_ONE_LH
+}
+by_box! {
+    /// GL-3, glOrtho and `MV.js` ortho (C90): right-handed, near at −1, far at +1.
+    ortho_gl, Convention::OPENGL
+}
+by_box! {
+    /// D3D-6: right-handed, near at 0, far at 1.
+    ortho_rh_zo, ZERO_ONE_RH
+}
+by_box! {
+    /// D3D-5: left-handed, near at 0, far at 1.
+    ortho_lh_zo, ZERO_ONE_LH
+}
+by_angle! {
+    /// GL-2 and LW-2: gluPerspective, `MV.js` perspective, createPerspective (C92).
+    perspective_gl, Convention::OPENGL
+}
+by_angle! {
+    /// D3D-2: right-handed, near at 0, far at 1.
+    perspective_rh_zo, ZERO_ONE_RH
+}
+by_angle! {
+    /// D3D-1: D3DXMatrixPerspectiveFovLH (C60), for column vectors.
+    perspective_lh_zo, ZERO_ONE_LH
+}
+by_angle! {
+    /// RV-1: right-handed, near at 1, far at 0.
+    perspective_rh_zo_rev, ZERO_ONE_RH.reversed()
+}
+by_angle! {
+    /// IF-1: right-handed, near at −1, infinity at +1.
+    perspective_gl_inf, Convention::OPENGL, infinite
+}
+by_angle! {
+    /// IF-2: right-handed, near at 0, infinity at 1.
+    perspective_rh_zo_inf, ZERO_ONE_RH, infinite
+}
+by_angle! {
+    /// IF-3: right-handed, near at 1, infinity at 0: depth = near/distance.
+    perspective_rh_zo_rev_inf, ZERO_ONE_RH.reversed(), infinite
+}

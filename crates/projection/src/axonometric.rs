@@ -1,0 +1,210 @@
+//! Axonometric projection: orthographic onto a plane that is parallel to no face (AX-1; C76).
+//!
+//! ```text
+//!      isometric 1:1:1        dimetric 42°/7°  1:1:½      trimetric
+//!            │ y                     │ y                     │ y
+//!            │                       │                       │
+//!           ⟋ ⟍                     ⟋ ╲___                  ⟋ ‾‾⟍
+//!        z ⟋   ⟍ x               z ⟋      x              z ⟋     x
+//! ```
+//!
+//! The object is turned by −α about y and by β about x until the plane's normal points at the viewer; then z is
+//! dropped. A unit along an axis with angle γ to the plane shrinks to cos γ; the squares of the three ratios sum to 2.
+
+use crate::ProjectionError;
+use crate::error::{finite, positive};
+use crate::matrix::representable;
+use homog::{Affine, Normal, Point, Vector, View};
+
+/// An axonometric projection; [`foreshortening`](Self::foreshortening) tells which kind.
+///
+/// ```
+/// use projection::{Axonometric, AxonometricKind};
+/// let iso = Axonometric::isometric();
+/// assert_eq!(iso.kind(), AxonometricKind::Isometric);
+/// let all = (2.0_f64 / 3.0).sqrt();
+/// assert!(iso.foreshortening().iter().all(|ratio| (ratio - all).abs() < 1e-15));
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Axonometric {
+    alpha: f64,
+    beta: f64,
+    origin: Point<View>,
+}
+
+/// Axonometric projections by how many axes shrink alike.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum AxonometricKind {
+    /// All three alike.
+    Isometric,
+    /// Two alike.
+    Dimetric,
+    /// None alike.
+    Trimetric,
+    /// An axis stands on the plane: a principal view, turned perhaps.
+    Multiview,
+}
+
+impl Axonometric {
+    /// The projection that turns by −`alpha` about y, then by `beta` about x, in radians.
+    ///
+    /// # Errors
+    /// If an angle is not finite.
+    pub fn by_angles(alpha: f64, beta: f64) -> Result<Self, ProjectionError> {
+        finite("alpha", alpha)?;
+        finite("beta", beta)?;
+        Ok(Self { alpha, beta, origin: Point::ORIGIN })
+    }
+
+    /// The projection onto the plane with the given normal, which points to the viewer; y stays upright. For a normal
+    /// along ±y, α is 0.
+    ///
+    /// # Errors
+    /// If the normal is zero or not finite.
+    pub fn by_normal(normal: Normal<View>) -> Result<Self, ProjectionError> {
+        for value in normal.raw().to_array() {
+            finite("normal", value)?;
+        }
+        let unit =
+            normal.normalized().ok_or(ProjectionError::ZeroVector { parameter: "normal" })?.raw();
+        let level = libm::hypot(unit.x, unit.z);
+        let alpha = if level == 0.0 { 0.0 } else { libm::atan2(unit.x, unit.z) };
+        Self::by_angles(alpha, libm::atan2(unit.y, level))
+    }
+
+    /// The projection that shortens the x, y and z axis as x : y : z, seen from the octant of positive axes.
+    ///
+    /// The ratios may have any common factor. None may be so large that its square exceeds the sum of the squares of
+    /// the other two.
+    ///
+    /// # Errors
+    /// If a ratio is not finite and above 0, or no plane shortens the axes so.
+    pub fn by_foreshortening(x: f64, y: f64, z: f64) -> Result<Self, ProjectionError> {
+        positive("x ratio", x)?;
+        positive("y ratio", y)?;
+        positive("z ratio", z)?;
+        let largest = x.max(y).max(z);
+        let squares = [x, y, z].map(|ratio| (ratio / largest) * (ratio / largest));
+        let sum = squares[0] + squares[1] + squares[2];
+        // The ratio's square, scaled to the sum 2, is 1 − n² for that coordinate of the unit normal.
+        let normal = squares.map(|square| 1.0 - 2.0 * square / sum);
+        if normal.iter().any(|&square| square < -4.0 * f64::EPSILON) {
+            let reason = "no square may exceed the sum of the other two";
+            return Err(ProjectionError::ImpossibleForeshortening { x, y, z, reason });
+        }
+        let [nx, ny, nz] = normal.map(|square| libm::sqrt(square.max(0.0)));
+        Self::by_normal(Normal::new(nx, ny, nz))
+    }
+
+    /// All axes alike: α = 45°, sin β = 1/√3.
+    #[must_use]
+    pub fn isometric() -> Self {
+        let beta = libm::atan(core::f64::consts::FRAC_1_SQRT_2);
+        Self { alpha: core::f64::consts::FRAC_PI_4, beta, origin: Point::ORIGIN }
+    }
+
+    /// The dimetric projection of engineering drawing (ISO 5456-3): x and y in full, z by half; drawn, z leaves at
+    /// 41.4° (called 42°) and x at 7.2° (called 7°) from the horizontal.
+    #[must_use]
+    pub fn dimetric_42_7() -> Self {
+        // The normal is (1, 1, √7)/3.
+        let alpha = libm::atan2(1.0, libm::sqrt(7.0));
+        Self { alpha, beta: libm::asin(1.0 / 3.0), origin: Point::ORIGIN }
+    }
+
+    /// The same projection with `origin` going to the origin of the picture.
+    ///
+    /// # Errors
+    /// If the origin is not finite.
+    pub fn about(self, origin: Point<View>) -> Result<Self, ProjectionError> {
+        for value in <[f64; 3]>::from(origin) {
+            finite("origin", value)?;
+        }
+        let moved = Self { origin, ..self };
+        representable(moved.depth_kept().raw(), "origin")?;
+        Ok(moved)
+    }
+
+    /// α, the turn about y, in radians.
+    #[must_use]
+    pub const fn alpha(self) -> f64 {
+        self.alpha
+    }
+
+    /// β, the turn about x, in radians.
+    #[must_use]
+    pub const fn beta(self) -> f64 {
+        self.beta
+    }
+
+    /// The place that goes to the origin of the picture.
+    #[must_use]
+    pub const fn origin(self) -> Point<View> {
+        self.origin
+    }
+
+    /// The images of the three axes' units as columns; the third row is the depth.
+    fn axes(self) -> [Vector<View>; 3] {
+        let (sin_a, cos_a) = libm::sincos(self.alpha);
+        let (sin_b, cos_b) = libm::sincos(self.beta);
+        [
+            Vector::new(cos_a, -sin_a * sin_b, sin_a * cos_b),
+            Vector::new(0.0, cos_b, sin_b),
+            Vector::new(-sin_a, -cos_a * sin_b, cos_a * cos_b),
+        ]
+    }
+
+    /// The turned object, depth kept: Rx(β) Ry(−α) T(−origin). Its z axis points to the viewer.
+    #[must_use]
+    pub fn depth_kept(self) -> Affine<View, View> {
+        let [x, y, z] = self.axes();
+        let to_origin = Affine::translation(Point::ORIGIN - self.origin);
+        to_origin.then(Affine::from_frame(x, y, z, Point::ORIGIN))
+    }
+
+    /// Its inverse: the transposed rotation, then back from the origin.
+    #[must_use]
+    pub fn depth_kept_inverse(self) -> Affine<View, View> {
+        let [x, y, z] = self.axes().map(|axis| axis.raw());
+        let back = |a: f64, b: f64, c: f64| Vector::new(a, b, c);
+        let (to_x, to_y, to_z) = (back(x.x, y.x, z.x), back(x.y, y.y, z.y), back(x.z, y.z, z.z));
+        Affine::from_frame(to_x, to_y, to_z, self.origin)
+    }
+
+    /// The classical projection: the turned object with z dropped. Singular.
+    #[must_use]
+    pub fn onto_plane(self) -> Affine<View, View> {
+        self.depth_kept().then(Affine::scale(1.0, 1.0, 0.0))
+    }
+
+    /// The lengths of the images of units along x, y and z: their squares sum to 2.
+    #[must_use]
+    pub fn foreshortening(self) -> [f64; 3] {
+        self.axes().map(|axis| libm::hypot(axis.x(), axis.y()))
+    }
+
+    /// The directions in which the x, y and z axis are drawn, in radians counterclockwise from the right; `None` for an
+    /// axis that shows as a point.
+    #[must_use]
+    pub fn drawn_angles(self) -> [Option<f64>; 3] {
+        self.axes().map(|axis| {
+            let seen = libm::hypot(axis.x(), axis.y()) > 1e-15;
+            seen.then(|| libm::atan2(axis.y(), axis.x()))
+        })
+    }
+
+    /// Which ratios agree, to twelve digits.
+    #[must_use]
+    pub fn kind(self) -> AxonometricKind {
+        let [x, y, z] = self.foreshortening();
+        let alike = |a: f64, b: f64| (a - b).abs() < 1e-12;
+        if [x, y, z].iter().any(|&ratio| alike(ratio, 0.0)) {
+            return AxonometricKind::Multiview;
+        }
+        match (alike(x, y), alike(y, z), alike(z, x)) {
+            (true, true, _) | (true, _, true) | (_, true, true) => AxonometricKind::Isometric,
+            (false, false, false) => AxonometricKind::Trimetric,
+            _ => AxonometricKind::Dimetric,
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! The textbook's own matrices P, M_orth and M_per, in its signs and under its names.
+//!
+//! Here `n` and `f` are *z-coordinates*, not distances: the camera looks along −z, so that 0 > n > f. Near goes to +1,
+//! far to −1. After P and M_per a visible point has w = z < 0; for clipping use [`m_per_positive`], the same map with
+//! the sign of w turned (PE-3), which is [`Convention::CHAPTER`].
+//!
+//! ```
+//! use homog::Point;
+//! use projection::chapter;
+//! // Exercises 8 and 9: n = 1, f = 2 takes (x, y, z, 1) to (x, y, 3z − 2, z).
+//! let p = chapter::p(1.0, 2.0)?;
+//! assert_eq!(<[f64; 4]>::from(p.point(Point::new(1.0, 2.0, 4.0))), [1.0, 2.0, 10.0, 4.0]);
+//! # Ok::<(), projection::ProjectionError>(())
+//! ```
+
+use crate::error::{finite, positive};
+use crate::matrix::{from_rows, representable};
+use crate::{Convention, Fov, Frustum, Orthographic, ProjectionError, Window};
+use homog::{Affine, Clip, Projective, View};
+
+/// P: keeps z on the planes z = n and z = f and divides x and y by z/n (PE-1; C22, C24).
+///
+/// ```text
+/// [ n 0  0    0  ]
+/// [ 0 n  0    0  ]      (x, y, z) ↦ (n x/z, n y/z, n + f − f n/z)
+/// [ 0 0 n+f  −fn ]
+/// [ 0 0  1    0  ]
+/// ```
+///
+/// # Errors
+/// If n or f is 0 or not finite, n = f, or they lie on different sides of the eye.
+pub fn p(n: f64, f: f64) -> Result<Projective<View, View>, ProjectionError> {
+    check_same_side(n, f)?;
+    let rows =
+        [[n, 0.0, 0.0, 0.0], [0.0, n, 0.0, 0.0], [0.0, 0.0, n + f, -f * n], [0.0, 0.0, 1.0, 0.0]];
+    p_inverse(n, f)?;
+    Ok(Projective::from_raw(representable(from_rows(rows), "depth range")?))
+}
+
+/// The true inverse of [`p`] (C25).
+///
+/// # Errors
+/// As for [`p`].
+pub fn p_inverse(n: f64, f: f64) -> Result<Projective<View, View>, ProjectionError> {
+    check_same_side(n, f)?;
+    let nf = n * f;
+    let rows = [
+        [1.0 / n, 0.0, 0.0, 0.0],
+        [0.0, 1.0 / n, 0.0, 0.0],
+        [0.0, 0.0, 0.0, 1.0],
+        [0.0, 0.0, -1.0 / nf, (n + f) / nf],
+    ];
+    Ok(Projective::from_raw(representable(from_rows(rows), "depth range")?))
+}
+
+/// The inverse of [`p`] times nf, without fractions; as a projective map it is the same (exercise 6, M14).
+///
+/// # Errors
+/// As for [`p`].
+pub fn p_inverse_scaled(n: f64, f: f64) -> Result<Projective<View, View>, ProjectionError> {
+    check_same_side(n, f)?;
+    let nf = n * f;
+    let rows =
+        [[f, 0.0, 0.0, 0.0], [0.0, f, 0.0, 0.0], [0.0, 0.0, 0.0, nf], [0.0, 0.0, -1.0, n + f]];
+    Ok(Projective::from_raw(representable(from_rows(rows), "depth range")?))
+}
+
+fn check_same_side(n: f64, f: f64) -> Result<(), ProjectionError> {
+    for (parameter, value) in [("n", n), ("f", f)] {
+        if finite(parameter, value)? == 0.0 {
+            let allowed = "a plane beside the eye, not through it";
+            return Err(ProjectionError::OutOfRange { parameter, value, allowed });
+        }
+    }
+    if n == f {
+        return Err(ProjectionError::EmptyDepth { value: n });
+    }
+    if (n > 0.0) != (f > 0.0) {
+        let allowed = "on the same side of the eye as `n`";
+        return Err(ProjectionError::OutOfRange { parameter: "f", value: f, allowed });
+    }
+    Ok(())
+}
+
+/// M_orth: the box [l, r] × [b, t] × [f, n] to [−1, 1]³ (OR-1; C7, C8).
+///
+/// # Errors
+/// If a number is not finite, two opposite sides coincide, or not n > f.
+pub fn m_orth(
+    l: f64,
+    r: f64,
+    b: f64,
+    t: f64,
+    n: f64,
+    f: f64,
+) -> Result<Affine<View, Clip>, ProjectionError> {
+    let raw = signed_box(l, r, b, t, n, f)?.view_to_clip(Convention::CHAPTER).raw();
+    Affine::from_raw(raw).ok_or(ProjectionError::Unrepresentable { what: "box" })
+}
+
+/// The inverse of [`m_orth`].
+///
+/// # Errors
+/// As for [`m_orth`].
+pub fn m_orth_inverse(
+    l: f64,
+    r: f64,
+    b: f64,
+    t: f64,
+    n: f64,
+    f: f64,
+) -> Result<Affine<Clip, View>, ProjectionError> {
+    let raw = signed_box(l, r, b, t, n, f)?.clip_to_view(Convention::CHAPTER).raw();
+    Affine::from_raw(raw).ok_or(ProjectionError::Unrepresentable { what: "box" })
+}
+
+fn signed_box(
+    l: f64,
+    r: f64,
+    b: f64,
+    t: f64,
+    n: f64,
+    f: f64,
+) -> Result<Orthographic, ProjectionError> {
+    let volume = Orthographic::new(l, r, b, t, -n, -f)?;
+    if n < f {
+        return Err(ProjectionError::FarNotBeyondNear { near: n, far: f });
+    }
+    Ok(volume)
+}
+
+/// M_per = M_orth P as the textbook writes it: w = z, negative in front of the eye (PE-2; C27, C29).
+///
+/// # Errors
+/// If a number is not finite, the window on z = n is empty, or not 0 > n > f.
+pub fn m_per(
+    l: f64,
+    r: f64,
+    b: f64,
+    t: f64,
+    n: f64,
+    f: f64,
+) -> Result<Projective<View, Clip>, ProjectionError> {
+    Ok(Projective::from_raw(-m_per_positive(l, r, b, t, n, f)?.raw()))
+}
+
+/// −M_per: the same map as [`m_per`] with w = −z, positive in front of the eye (PE-3).
+///
+/// # Errors
+/// As for [`m_per`].
+pub fn m_per_positive(
+    l: f64,
+    r: f64,
+    b: f64,
+    t: f64,
+    n: f64,
+    f: f64,
+) -> Result<Projective<View, Clip>, ProjectionError> {
+    Ok(signed_frustum(l, r, b, t, n, f)?.view_to_clip(Convention::CHAPTER))
+}
+
+/// The inverse of [`m_per`].
+///
+/// # Errors
+/// As for [`m_per`].
+pub fn m_per_inverse(
+    l: f64,
+    r: f64,
+    b: f64,
+    t: f64,
+    n: f64,
+    f: f64,
+) -> Result<Projective<Clip, View>, ProjectionError> {
+    let positive = signed_frustum(l, r, b, t, n, f)?.clip_to_view(Convention::CHAPTER);
+    Ok(Projective::from_raw(-positive.raw()))
+}
+
+fn signed_frustum(
+    l: f64,
+    r: f64,
+    b: f64,
+    t: f64,
+    n: f64,
+    f: f64,
+) -> Result<Frustum, ProjectionError> {
+    for (parameter, value) in [("n", n), ("f", f)] {
+        if finite(parameter, value)? >= 0.0 {
+            let allowed = "below 0, since the camera looks along −z";
+            return Err(ProjectionError::OutOfRange { parameter, value, allowed });
+        }
+    }
+    Frustum::new(l, r, b, t, -n, -f)
+}
+
+/// The window on z = n for a vertical field of view `theta` and an image of nx × ny square pixels (FOV-1, C33):
+/// t = |n| tan(θ/2), r = t nx/ny.
+///
+/// # Errors
+/// If theta is not between 0 and π, nx or ny not above 0, n not below 0, or one of them not finite.
+pub fn window_from_fov(theta: f64, nx: f64, ny: f64, n: f64) -> Result<Window, ProjectionError> {
+    let aspect = positive("nx", nx)? / positive("ny", ny)?;
+    let distance = -n;
+    positive("−n", distance)?;
+    let half = Fov::Vertical(theta).half_slopes(aspect)?;
+    let (right, top) = (half.x * distance, half.y * distance);
+    Window::new(-right, right, -top, top)
+}
+
+/// The vertical field of view of the symmetric window whose top edge is at `t` on z = n: θ = 2 atan(t/|n|) (FOV-1).
+///
+/// # Errors
+/// If t is not above 0, n not below 0, or one of them not finite.
+pub fn fov_from_window(t: f64, n: f64) -> Result<f64, ProjectionError> {
+    let distance = -n;
+    Ok(2.0 * libm::atan2(positive("t", t)?, positive("−n", distance)?))
+}

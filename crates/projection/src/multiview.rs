@@ -1,0 +1,118 @@
+//! Multiview orthographic projection: front, top and side on the coordinate planes (MV-1..3; C75).
+//!
+//! ```text
+//!        y                    top ⟂ y          third angle: top above the front view,
+//!        │                      │              the right side at its right
+//!        │    ⟋ front ⟂ z     ┌───┐
+//!        └──── x              │top│
+//!      ⟋                      ├───┼────┐
+//!     z                       │frt│side│
+//!                             └───┴────┘
+//! ```
+
+use crate::matrix::from_rows;
+use homog::{Affine, Space, View};
+
+/// A coordinate plane to project onto.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum PrincipalPlane {
+    /// x = 0: side views.
+    Yoz,
+    /// y = 0: views from above and below.
+    Zox,
+    /// z = 0: views from the front and the back.
+    Xoy,
+}
+
+impl PrincipalPlane {
+    /// All three, in the order of the axis they drop.
+    pub const ALL: [Self; 3] = [Self::Yoz, Self::Zox, Self::Xoy];
+
+    /// The classical projection: sets the coordinate across the plane to 0. Singular; applying it again changes nothing.
+    #[must_use]
+    pub fn onto_plane<S: Space>(self) -> Affine<S, S> {
+        match self {
+            Self::Yoz => Affine::scale(0.0, 1.0, 1.0),
+            Self::Zox => Affine::scale(1.0, 0.0, 1.0),
+            Self::Xoy => Affine::scale(1.0, 1.0, 0.0),
+        }
+    }
+}
+
+/// The six principal views of an object whose front looks along +z and whose top along +y.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum PrincipalView {
+    /// From +z: x right, y up.
+    Front,
+    /// From −z.
+    Back,
+    /// From +x, the object's right-hand side in the front view.
+    Right,
+    /// From −x.
+    Left,
+    /// From +y, the front below.
+    Top,
+    /// From −y, the front above.
+    Bottom,
+}
+
+impl PrincipalView {
+    /// All six.
+    pub const ALL: [Self; 6] =
+        [Self::Front, Self::Back, Self::Right, Self::Left, Self::Top, Self::Bottom];
+
+    /// The plane it projects onto.
+    #[must_use]
+    pub const fn plane(self) -> PrincipalPlane {
+        match self {
+            Self::Front | Self::Back => PrincipalPlane::Xoy,
+            Self::Right | Self::Left => PrincipalPlane::Yoz,
+            Self::Top | Self::Bottom => PrincipalPlane::Zox,
+        }
+    }
+
+    /// The turn that brings the view's own x right, y up and the viewer to +z: exact, entries 0 and ±1.
+    #[must_use]
+    pub fn depth_kept(self) -> Affine<View, View> {
+        let (x, y, z) = match self {
+            Self::Front => ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]),
+            Self::Back => ([-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]),
+            Self::Right => ([0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]),
+            Self::Left => ([0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]),
+            Self::Top => ([1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]),
+            Self::Bottom => ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]),
+        };
+        let row = |[a, b, c]: [f64; 3]| [a, b, c, 0.0];
+        let rows = from_rows([row(x), row(y), row(z), [0.0, 0.0, 0.0, 1.0]]);
+        Affine::from_raw(rows).unwrap_or(Affine::IDENTITY)
+    }
+
+    /// The column and row of the view on a sheet, from the front view at (0, 0), x right and y up.
+    ///
+    /// In third angle a view lies on the side it is seen from, in first angle on the opposite one. The back view
+    /// continues the right or left side.
+    #[must_use]
+    pub const fn place(self, angle: SheetAngle) -> (i32, i32) {
+        let (x, y) = match self {
+            Self::Front => (0, 0),
+            Self::Right => (1, 0),
+            Self::Left => (-1, 0),
+            Self::Top => (0, 1),
+            Self::Bottom => (0, -1),
+            Self::Back => (2, 0),
+        };
+        match (angle, self) {
+            (SheetAngle::Third, _) | (SheetAngle::First, Self::Back) => (x, y),
+            (SheetAngle::First, _) => (-x, -y),
+        }
+    }
+}
+
+/// Where views lie on a sheet (ISO 5456-2).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum SheetAngle {
+    /// The object stands between viewer and sheet: the view from the left lies on the right. Usual in Europe and China.
+    First,
+    /// The sheet stands between viewer and object: the view from the left lies on the left. Usual in America.
+    Third,
+}

@@ -1,0 +1,82 @@
+//! A near plane of any inclination: mirrors and portals clip at their own surface (Lengyel 2005).
+//!
+//! Only the depth row is changed, so that the picture stays the same; what lies between the eye and the plane is cut
+//! away by ordinary near clipping. The far plane tilts with it, as far out as the opposite corner of the volume allows.
+
+use crate::{Convention, ProjectionError, ViewVolume};
+use glam::DVec4;
+use homog::{Clip, HPoint, Plane, Projective, View};
+
+/// The same projection with `plane` as its near plane, for a matrix of any kind and convention.
+///
+/// The plane's normal points to what stays visible; the eye must be on the other side. Depth is the convention's near
+/// depth on the plane and its far depth in the corner of the old volume that lies farthest behind it.
+///
+/// Source: Lengyel, "Oblique View Frustum Depth Projection and Clipping", Journal of Game Development 1(2), 2005.
+///
+/// # Errors
+/// If a number is not finite, the projection singular, the normal zero, the eye not behind the plane, or nothing of the
+/// volume in front of it.
+///
+/// ```
+/// use homog::{Normal, Plane, Point};
+/// use projection::{Convention, Fov, Perspective, oblique_near_plane};
+/// let lens = Perspective::new(Fov::Vertical(1.0), 1.0, 0.1, 100.0)?;
+/// let mirror = Plane::through(Point::new(0.0, 0.0, -5.0), Normal::new(0.0, 0.6, -0.8));
+/// let c = Convention::CHAPTER;
+/// let cut = oblique_near_plane(lens.view_to_clip(c), c, mirror)?;
+/// let on_mirror = cut.point(Point::new(0.3, 0.8, -4.4)).divide().expect("in front");
+/// assert!((on_mirror.z() - c.near_depth()).abs() < 1e-12);
+/// # Ok::<(), projection::ProjectionError>(())
+/// ```
+pub fn oblique_near_plane(
+    view_to_clip: Projective<View, Clip>,
+    convention: Convention,
+    plane: Plane<View>,
+) -> Result<Projective<View, Clip>, ProjectionError> {
+    let volume = ViewVolume::new(view_to_clip, convention);
+    let unusable = ProjectionError::Unrepresentable { what: "projection" };
+    let clip_to_view = view_to_clip.inverse().ok_or(unusable)?;
+    let plane = normalised(plane)?;
+    let towards_eye = volume.eye().ok_or(unusable)?;
+    let side = plane.evaluate(towards_eye);
+    if side.is_nan() || side >= 0.0 {
+        let allowed = "a plane with the eye behind it";
+        return Err(ProjectionError::OutOfRange {
+            parameter: "plane at the eye",
+            value: side,
+            allowed,
+        });
+    }
+    let seen = clip_to_view.raw().transpose() * plane.raw();
+    let corner = DVec4::new(seen.x.signum(), seen.y.signum(), convention.far_depth(), 1.0);
+    let farthest = plane.evaluate(clip_to_view.hpoint(HPoint::from_raw(corner)));
+    if farthest.is_nan() || farthest <= 0.0 {
+        let allowed = "a plane that leaves something visible";
+        return Err(ProjectionError::OutOfRange {
+            parameter: "plane at the far corner",
+            value: farthest,
+            allowed,
+        });
+    }
+    let mut rows = view_to_clip.raw().transpose();
+    let depths = convention.far_depth() - convention.near_depth();
+    rows.z_axis = rows.w_axis * convention.near_depth() + plane.raw() * (depths / farthest);
+    let result = rows.transpose();
+    result.is_finite().then_some(Projective::from_raw(result)).ok_or(unusable)
+}
+
+/// The same plane with a normal of length 1.
+fn normalised(plane: Plane<View>) -> Result<Plane<View>, ProjectionError> {
+    for value in plane.raw().to_array() {
+        crate::error::finite("plane", value)?;
+    }
+    let length = homog::Vector::<View>::from_raw(plane.raw().truncate()).length();
+    let unit = plane.raw() / length;
+    if length == 0.0 {
+        return Err(ProjectionError::ZeroVector { parameter: "plane normal" });
+    }
+    unit.is_finite()
+        .then_some(Plane::from_raw(unit))
+        .ok_or(ProjectionError::Unrepresentable { what: "plane" })
+}

@@ -1,0 +1,127 @@
+//! Projection from first principles: a centre, a plane, and straight projectors between them (C72).
+//!
+//! ```text
+//!        ● centre (a point, or a direction if the projectors are parallel)
+//!        │╲
+//!        │ ╲ projector
+//!   ─────●──●────── plane        M = (π·c) I − c πᵀ
+//!        │   ╲
+//!        ●    ●  object
+//! ```
+//!
+//! With the centre c as a homogeneous point and the plane π as four numbers, every point x goes to the one point of its
+//! projector that lies in the plane, (π·c) x − (π·x) c. A centre with w = 0 is the limit of an eye that goes to infinity:
+//! parallel projection is not a case of its own (PR-1).
+
+use crate::ProjectionError;
+use crate::error::finite;
+use crate::matrix::representable;
+use glam::{DMat4, DVec4};
+use homog::{HPoint, Plane, Point, Projective, Space, Vector};
+
+/// A centre and a plane of projection in space `S`.
+///
+/// # Guarantees
+/// The centre is finite and not in the plane, the plane has a unit normal.
+///
+/// ```
+/// use homog::{Normal, Plane, Point, View};
+/// use projection::Projector;
+/// // A lamp 4 above the floor: shadows are central projections.
+/// let floor = Plane::<View>::through(Point::ORIGIN, Normal::new(0.0, 1.0, 0.0));
+/// let lamp = Projector::from_eye(Point::new(0.0, 4.0, 0.0), floor)?;
+/// let shadow = lamp.onto_plane().point(Point::new(1.0, 2.0, 0.0)).divide();
+/// assert_eq!(shadow, Some(Point::new(2.0, 0.0, 0.0)));
+/// # Ok::<(), projection::ProjectionError>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Projector<S: Space> {
+    centre: HPoint<S>,
+    plane: Plane<S>,
+    /// π·c, not 0.
+    reach: f64,
+}
+
+impl<S: Space> Projector<S> {
+    /// Central projection from `eye` onto `plane`.
+    ///
+    /// # Errors
+    /// If a number is not finite, the plane has no normal, or the eye lies in it.
+    pub fn from_eye(eye: Point<S>, plane: Plane<S>) -> Result<Self, ProjectionError> {
+        for value in <[f64; 3]>::from(eye) {
+            finite("eye", value)?;
+        }
+        Self::checked(HPoint::from(eye), plane, ProjectionError::CentreOnPlane)
+    }
+
+    /// Parallel projection along `direction` onto `plane`.
+    ///
+    /// # Errors
+    /// If a number is not finite, the direction or the plane's normal is zero, or both are parallel.
+    pub fn along(direction: Vector<S>, plane: Plane<S>) -> Result<Self, ProjectionError> {
+        for value in <[f64; 3]>::from(direction) {
+            finite("direction", value)?;
+        }
+        let unit =
+            direction.normalized().ok_or(ProjectionError::ZeroVector { parameter: "direction" })?;
+        Self::checked(HPoint::from(unit), plane, ProjectionError::ParallelToPlane)
+    }
+
+    fn checked(
+        centre: HPoint<S>,
+        plane: Plane<S>,
+        touching: ProjectionError,
+    ) -> Result<Self, ProjectionError> {
+        for value in plane.raw().to_array() {
+            finite("plane", value)?;
+        }
+        let length = Vector::<S>::from_raw(plane.raw().truncate()).length();
+        if length == 0.0 {
+            return Err(ProjectionError::ZeroVector { parameter: "plane normal" });
+        }
+        let unit = plane.raw() / length;
+        representable(DMat4::from_diagonal(unit), "plane")?;
+        let plane = Plane::from_raw(unit);
+        let reach = plane.evaluate(centre);
+        let projector = Self { centre, plane, reach };
+        let size = centre.raw().abs() * plane.raw().abs();
+        if reach.abs() <= 8.0 * f64::EPSILON * (size.x + size.y + size.z + size.w) {
+            return Err(touching);
+        }
+        representable(projector.depth_kept().raw(), "projector")?;
+        Ok(projector)
+    }
+
+    /// The centre of projection; w = 0 if the projectors are parallel.
+    #[must_use]
+    pub const fn centre(self) -> HPoint<S> {
+        self.centre
+    }
+
+    /// The plane of projection, its normal of length 1.
+    #[must_use]
+    pub const fn plane(self) -> Plane<S> {
+        self.plane
+    }
+
+    /// The classical projection: every point to the plane. Singular, and points of the plane stay (with w = 1).
+    #[must_use]
+    pub fn onto_plane(self) -> Projective<S, S> {
+        let toward = self.centre.raw() / self.reach;
+        Projective::from_raw(DMat4::IDENTITY - outer(toward, self.plane.raw()))
+    }
+
+    /// The same image beside the plane instead of in it: the distance from the plane is kept before the divide, so that
+    /// the map has an inverse and what hides what can be told (PR-1, C102).
+    #[must_use]
+    pub fn depth_kept(self) -> Projective<S, S> {
+        let normal = self.plane.normal().raw().extend(0.0);
+        let kept = outer(normal, self.plane.raw());
+        Projective::from_raw(self.onto_plane().raw() + kept)
+    }
+}
+
+/// a bᵀ.
+fn outer(a: DVec4, b: DVec4) -> DMat4 {
+    DMat4::from_cols(a * b.x, a * b.y, a * b.z, a * b.w)
+}

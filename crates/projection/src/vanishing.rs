@@ -1,0 +1,142 @@
+//! Vanishing points: where the images of parallel lines meet (VN-1; C80, C81).
+//!
+//! Parallel lines share one point at infinity, (d, 0). Its image is their vanishing point; if that again lies at
+//! infinity, the images stay parallel. How many of the three axes vanish at a finite place says whether a picture is in
+//! one-, two- or three-point perspective.
+
+use crate::ProjectionError;
+use crate::error::finite;
+use glam::DVec4;
+use homog::{Point, Projective, Space, Vector};
+
+/// Where the images of all lines of one direction run to.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum VanishingPoint<S: Space> {
+    /// They meet here.
+    At {
+        /// The common point, after the divide.
+        point: Point<S>,
+        /// True if the lines reach it going along the given direction, false if going against it (w < 0).
+        ahead: bool,
+    },
+    /// They stay parallel.
+    AtInfinity {
+        /// The direction of the images; its length has no meaning.
+        direction: Vector<S>,
+    },
+    /// The lines run along the projectors, so that each of them shows as a single point.
+    AlongProjectors,
+}
+
+impl<S: Space> VanishingPoint<S> {
+    /// The common point of the images, if they meet.
+    #[must_use]
+    pub const fn point(self) -> Option<Point<S>> {
+        match self {
+            Self::At { point, .. } => Some(point),
+            Self::AtInfinity { .. } | Self::AlongProjectors => None,
+        }
+    }
+}
+
+/// The vanishing point of lines along `direction` under `map`. `direction` and its opposite share it.
+///
+/// ```
+/// use homog::{Point, Vector, View};
+/// use projection::{Convention, Frustum, VanishingPoint, vanishing_point};
+/// let frustum = Frustum::new(-1.0, 1.0, -1.0, 1.0, 1.0, 10.0)?;
+/// let rails = Vector::<View>::new(0.0, 0.0, -1.0);
+/// let meet = vanishing_point(frustum.view_to_clip(Convention::OPENGL), rails)?;
+/// let beyond_far = 11.0 / 9.0;
+/// assert_eq!(meet, VanishingPoint::At { point: Point::new(0.0, 0.0, beyond_far), ahead: true });
+/// # Ok::<(), projection::ProjectionError>(())
+/// ```
+///
+/// # Errors
+/// If the direction is zero or not finite, or the map not finite.
+pub fn vanishing_point<A: Space, B: Space>(
+    map: Projective<A, B>,
+    direction: Vector<A>,
+) -> Result<VanishingPoint<B::Divided>, ProjectionError> {
+    for value in <[f64; 3]>::from(direction) {
+        finite("direction", value)?;
+    }
+    let unit =
+        direction.normalized().ok_or(ProjectionError::ZeroVector { parameter: "direction" })?;
+    let image = map.direction(unit).raw();
+    if !image.is_finite() {
+        return Err(ProjectionError::Unrepresentable { what: "image of the direction" });
+    }
+    Ok(classified(image, rounding(map, unit)))
+}
+
+/// The largest part of each image coordinate that can be rounding only.
+fn rounding<A: Space, B: Space>(map: Projective<A, B>, direction: Vector<A>) -> DVec4 {
+    let m = map.raw();
+    let d = direction.raw().abs();
+    (m.x_axis.abs() * d.x + m.y_axis.abs() * d.y + m.z_axis.abs() * d.z) * (4.0 * f64::EPSILON)
+}
+
+fn classified<S: Space>(image: DVec4, rounding: DVec4) -> VanishingPoint<S> {
+    let significant = image.abs().cmpgt(rounding);
+    if significant.w {
+        let point = Point::from_raw(image.truncate() / image.w);
+        return VanishingPoint::At { point, ahead: image.w > 0.0 };
+    }
+    if significant.x || significant.y || significant.z {
+        return VanishingPoint::AtInfinity { direction: Vector::from_raw(image.truncate()) };
+    }
+    VanishingPoint::AlongProjectors
+}
+
+/// How many of the three axes have a vanishing point at a finite place.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum PointPerspective {
+    /// None: a parallel projection, or a central one with all axes parallel to the plane.
+    NoPoint,
+    /// One: the plane is parallel to two axes.
+    OnePoint,
+    /// Two: the plane is parallel to one axis.
+    TwoPoint,
+    /// Three: the plane meets all axes.
+    ThreePoint,
+}
+
+/// The vanishing points of the three axes (C81, C83).
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct PrincipalVanishingPoints<S: Space> {
+    /// Those of the x, y and z axis.
+    pub axes: [VanishingPoint<S>; 3],
+}
+
+impl<S: Space> PrincipalVanishingPoints<S> {
+    /// The number of axes that vanish at a finite place.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.axes.iter().filter(|axis| axis.point().is_some()).count()
+    }
+
+    /// The kind of perspective that number makes.
+    #[must_use]
+    pub fn class(&self) -> PointPerspective {
+        match self.count() {
+            0 => PointPerspective::NoPoint,
+            1 => PointPerspective::OnePoint,
+            2 => PointPerspective::TwoPoint,
+            _ => PointPerspective::ThreePoint,
+        }
+    }
+}
+
+/// The vanishing points of the three axes of space `A` under `map`.
+///
+/// For a map without rotation (the bottom row p, q, r, s) this counts the non-zero among p, q and r.
+///
+/// # Errors
+/// If the map is not finite.
+pub fn principal_vanishing_points<A: Space, B: Space>(
+    map: Projective<A, B>,
+) -> Result<PrincipalVanishingPoints<B::Divided>, ProjectionError> {
+    let of = |axis| vanishing_point(map, axis);
+    Ok(PrincipalVanishingPoints { axes: [of(Vector::X)?, of(Vector::Y)?, of(Vector::Z)?] })
+}
