@@ -29,6 +29,8 @@
 #![no_std]
 
 mod affine;
+mod bounds;
+mod display;
 mod hpoint;
 mod normal;
 mod plane;
@@ -38,6 +40,7 @@ mod space;
 mod vector;
 
 pub use affine::Affine;
+pub use bounds::Bounds;
 pub use hpoint::HPoint;
 pub use normal::Normal;
 pub use plane::Plane;

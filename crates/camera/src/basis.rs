@@ -1,0 +1,160 @@
+//! The orientation of a camera: three unit vectors at right angles (CA-1).
+//!
+//! ```text
+//!        v (up in the picture)        w = −g / ‖g‖          against the gaze
+//!        │   view-up t                u = (t × w) / ‖t × w‖   to the right
+//!        │  ╱                         v = w × u             up
+//!        │ ╱
+//!      eye ────── u (right)           The view-up t need not be perpendicular to the gaze g;
+//!      ╱                              it only says on which side of the picture up is.
+//!     w          g runs from the eye into the page, against w
+//! ```
+//!
+//! Source: chapter §8.1.3, formula CA-1.
+
+use crate::{CameraError, exact};
+use homog::{Affine, Point, Vector, View, World};
+
+/// ‖t × g‖ ≤ this · ‖t‖ ‖g‖ counts as parallel. Directions a millionth of a radian apart are far from it.
+const PARALLEL: f64 = 1e-12;
+
+/// The orientation of a camera: right-handed orthonormal axes u (right), v (up), w (backwards) in world space.
+///
+/// ```
+/// use camera::Basis;
+/// use homog::Vector;
+/// let down = Basis::from_gaze(Vector::new(0.0, -1.0, 0.0), Vector::new(1.0, 1.0, 0.0))?;
+/// assert_eq!(down.u(), Vector::Z);
+/// assert_eq!(down.v(), Vector::X);
+/// assert_eq!(down.w(), Vector::Y);
+/// # Ok::<(), camera::CameraError>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Basis {
+    u: Vector<World>,
+    v: Vector<World>,
+    w: Vector<World>,
+}
+
+impl Basis {
+    /// The axes of the world: looking along −z with y up.
+    pub const WORLD: Self = Self { u: Vector::X, v: Vector::Y, w: Vector::Z };
+
+    /// The basis that looks along `gaze` with the side of `up` upwards (CA-1). Lengths do not matter.
+    ///
+    /// # Errors
+    /// A zero or non-finite vector; an `up` parallel to the gaze, that is with a sine of the angle between them of
+    /// at most 10⁻¹².
+    pub fn from_gaze(gaze: Vector<World>, up: Vector<World>) -> Result<Self, CameraError> {
+        let backwards = -unit(gaze, "gaze", CameraError::ZeroGaze)?;
+        unit(up, "view-up", CameraError::ZeroUp)?;
+        let right = exact::cross(gaze.raw(), up.raw());
+        let lengths = exact::near_one(gaze.raw()).length() * exact::near_one(up.raw()).length();
+        if right.length() <= PARALLEL * lengths {
+            let suggestion = Self::fallback_up(gaze);
+            return Err(CameraError::UpParallelToGaze { up, gaze, suggestion });
+        }
+        Ok(Self::from_right(Vector::from_raw(right), backwards))
+    }
+
+    /// As [`from_gaze`](Self::from_gaze), but an `up` that is zero or parallel to the gaze is replaced by
+    /// [`fallback_up`](Self::fallback_up) instead of being refused.
+    ///
+    /// # Errors
+    /// A gaze that is zero, or any vector that is not finite.
+    pub fn from_gaze_or_fallback(
+        gaze: Vector<World>,
+        up: Vector<World>,
+    ) -> Result<Self, CameraError> {
+        Self::from_gaze(gaze, up).or_else(|error| match error {
+            CameraError::ZeroUp | CameraError::UpParallelToGaze { .. } => {
+                Self::from_gaze(gaze, Self::fallback_up(gaze))
+            }
+            other => Err(other),
+        })
+    }
+
+    /// The view-up to take where the wanted one is of no use: −z when looking mostly down (as a map has north
+    /// at the top), +z when looking mostly up, +y otherwise. Never nearer to the gaze than 45°.
+    #[must_use]
+    pub fn fallback_up(gaze: Vector<World>) -> Vector<World> {
+        let [x, y, z] = gaze.raw().abs().to_array();
+        match () {
+            () if x.max(z) > y => Vector::Y,
+            () if gaze.y() < 0.0 => -Vector::Z,
+            () => Vector::Z,
+        }
+    }
+
+    /// `backwards` has length 1; `right` is perpendicular to it, of any length.
+    fn from_right(right: Vector<World>, backwards: Vector<World>) -> Self {
+        let w = backwards;
+        let right = right / right.length();
+        // Both were rounded on ways of their own; this takes the last digit's error along w away.
+        let right = right - w * right.dot(w);
+        let u = right / right.length();
+        let v = w.cross(u);
+        Self { u, v: v / v.length(), w }
+    }
+
+    /// To the right in the picture: a unit vector.
+    #[must_use]
+    pub const fn u(self) -> Vector<World> {
+        self.u
+    }
+
+    /// Upwards in the picture: a unit vector.
+    #[must_use]
+    pub const fn v(self) -> Vector<World> {
+        self.v
+    }
+
+    /// Out of the picture towards the viewer, against the gaze: a unit vector.
+    #[must_use]
+    pub const fn w(self) -> Vector<World> {
+        self.w
+    }
+
+    /// Where the camera looks: −w, a unit vector.
+    #[must_use]
+    pub fn gaze(self) -> Vector<World> {
+        -self.w
+    }
+
+    /// The rotation that turns u, v, w into the axes x, y, z of view space: the left factor of M_cam (CA-2).
+    #[must_use]
+    pub fn world_to_view_rotation(self) -> Affine<World, View> {
+        let [u, v, w] = [self.u, self.v, self.w];
+        let column = |x: f64, y: f64, z: f64| Vector::new(x, y, z);
+        Affine::from_frame(
+            column(u.x(), v.x(), w.x()),
+            column(u.y(), v.y(), w.y()),
+            column(u.z(), v.z(), w.z()),
+            Point::ORIGIN,
+        )
+    }
+
+    /// The world vector with the given coordinates along u, v and w.
+    #[must_use]
+    pub fn to_world(self, along: Vector<View>) -> Vector<World> {
+        self.u * along.x() + self.v * along.y() + self.w * along.z()
+    }
+
+    /// The coordinates of a world vector along u, v and w.
+    #[must_use]
+    pub fn to_view(self, vector: Vector<World>) -> Vector<View> {
+        Vector::new(self.u.dot(vector), self.v.dot(vector), self.w.dot(vector))
+    }
+}
+
+/// The unit vector along `vector`, or the error that says what it lacks.
+fn unit(
+    vector: Vector<World>,
+    name: &'static str,
+    zero: CameraError,
+) -> Result<Vector<World>, CameraError> {
+    if !vector.is_finite() {
+        return Err(CameraError::NotFinite { name, value: vector });
+    }
+    vector.normalized().ok_or(zero)
+}

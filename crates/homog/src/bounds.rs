@@ -1,0 +1,131 @@
+//! Bounds: the smallest box along the axes that holds some points.
+
+use crate::{Affine, Point, Space, Vector};
+
+/// A closed box along the axes of space `S`, never empty: `min ≤ max` in every coordinate, all of them finite.
+///
+/// One point has bounds of size zero; no points have none, which is why [`Bounds::of`] returns an `Option`.
+///
+/// ```
+/// use homog::{Bounds, Point, World};
+/// let corners = [[0.0, 3.0, 1.0], [2.0, -1.0, 1.0]].map(Point::<World>::from);
+/// let bounds = Bounds::of(corners).expect("two finite points");
+/// assert_eq!(bounds.center(), Point::new(1.0, 1.0, 1.0));
+/// assert_eq!(<[f64; 3]>::from(bounds.size()), [2.0, 4.0, 0.0]);
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Bounds<S: Space> {
+    min: Point<S>,
+    max: Point<S>,
+}
+
+impl<S: Space> Bounds<S> {
+    /// The smallest box that holds all `points`; `None` if there are none or one of them is not finite.
+    #[must_use]
+    pub fn of(points: impl IntoIterator<Item = Point<S>>) -> Option<Self> {
+        let mut points = points.into_iter();
+        let first = points.next()?;
+        let (mut min, mut max) = (first.raw(), first.raw());
+        let mut finite = first.is_finite();
+        for point in points {
+            finite &= point.is_finite();
+            min = min.min(point.raw());
+            max = max.max(point.raw());
+        }
+        finite.then_some(Self { min: Point::from_raw(min), max: Point::from_raw(max) })
+    }
+
+    /// The least x, y and z.
+    #[must_use]
+    pub const fn min(self) -> Point<S> {
+        self.min
+    }
+
+    /// The greatest x, y and z.
+    #[must_use]
+    pub const fn max(self) -> Point<S> {
+        self.max
+    }
+
+    /// The smallest box that holds both.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        Self {
+            min: Point::from_raw(self.min.raw().min(other.min.raw())),
+            max: Point::from_raw(self.max.raw().max(other.max.raw())),
+        }
+    }
+
+    /// The eight corners: bit 0 of the index chooses the greatest x, bit 1 the greatest y, bit 2 the greatest z.
+    #[must_use]
+    pub fn corners(self) -> [Point<S>; 8] {
+        let ends = [self.min.raw(), self.max.raw()];
+        core::array::from_fn(|i| Point::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z))
+    }
+
+    /// The middle of the box.
+    #[must_use]
+    pub fn center(self) -> Point<S> {
+        Point::from_raw(self.min.raw() * 0.5 + self.max.raw() * 0.5)
+    }
+
+    /// From the least corner to the greatest: the three edge lengths. Infinite where the numbers do not reach.
+    #[must_use]
+    pub fn size(self) -> Vector<S> {
+        self.max - self.min
+    }
+
+    /// The length of the space diagonal.
+    #[must_use]
+    pub fn diagonal(self) -> f64 {
+        self.size().length()
+    }
+
+    /// True if `point` is inside or on the box.
+    #[must_use]
+    pub fn contains(self, point: Point<S>) -> bool {
+        self.min.raw().cmple(point.raw()).all() && self.max.raw().cmpge(point.raw()).all()
+    }
+
+    /// The bounds of the image of this box, in general larger than the bounds of what is in the box; `None` if
+    /// a corner leaves the finite numbers.
+    #[must_use]
+    pub fn transformed<T: Space>(self, map: Affine<S, T>) -> Option<Bounds<T>> {
+        Bounds::of(self.corners().map(|corner| map.point(corner)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Model, World};
+
+    #[test]
+    fn nothing_and_nan_have_no_bounds() {
+        assert_eq!(Bounds::<World>::of([]), None);
+        let nan = Point::new(0.0, f64::NAN, 0.0);
+        assert_eq!(Bounds::<World>::of([Point::ORIGIN, nan]), None);
+        assert_eq!(Bounds::<World>::of([nan, Point::ORIGIN]), None);
+    }
+
+    #[test]
+    fn corners_are_all_different_and_span_the_box_again() {
+        let bounds = Bounds::<Model>::of([[-1.0, 2.0, 3.0], [4.0, 5.0, 7.0]].map(Point::from))
+            .expect("two finite points");
+        let corners = bounds.corners();
+        for (i, a) in corners.iter().enumerate() {
+            assert!(bounds.contains(*a));
+            assert!(corners[..i].iter().all(|b| a != b), "corner {i} is there twice");
+        }
+        assert_eq!(Bounds::of(corners), Some(bounds));
+    }
+
+    #[test]
+    fn a_turned_box_is_held_by_its_new_bounds() {
+        let bounds = Bounds::<Model>::of([[-1.0; 3], [1.0; 3]].map(Point::from)).expect("a box");
+        let turn = Affine::<Model, World>::rotation_z(core::f64::consts::FRAC_PI_4);
+        let turned = bounds.transformed(turn).expect("finite");
+        assert!((turned.size().x() - 8_f64.sqrt()).abs() < 1e-15);
+        assert!((turned.size().z() - 2.0).abs() < 1e-15);
+    }
+}
