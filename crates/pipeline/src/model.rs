@@ -7,11 +7,13 @@ mod image;
 mod instance;
 mod material;
 mod mesh;
+mod posed;
 
 pub use image::{Filter, Image, Mipmap, Sampler, Texture, Wrap};
 pub use instance::Instance;
 pub use material::{AlphaMode, Material, TextureUse};
 pub use mesh::{Mesh, Primitive, Topology};
+pub use posed::Posed;
 
 use homog::{Affine, Model as ModelSpace};
 
@@ -33,9 +35,10 @@ pub struct Model {
     pub nodes: Vec<Node>,
     /// The root nodes of the scene that is shown: the file's default scene, else its first, else all roots.
     pub roots: Vec<usize>,
-    /// The skins, as numbered in the file.
+    /// The skins, as numbered in the file; one that cannot be used has no joints, and no node names it.
     pub skins: Vec<Skin>,
-    /// The cameras, as numbered in the file.
+    /// The cameras, as numbered in the file; one whose numbers make no view has a usual lens instead, and no node
+    /// names it.
     pub cameras: Vec<Lens>,
     /// What the file says of its animations.
     pub animations: Vec<AnimationSummary>,
@@ -52,6 +55,8 @@ pub struct Node {
     pub name: Option<String>,
     /// The node's transform: from its own coordinates to its parent's (the model's, for a root).
     pub to_parent: Affine<ModelSpace, ModelSpace>,
+    /// The node above it; `None` for a root.
+    pub parent: Option<usize>,
     /// The nodes below it.
     pub children: Vec<usize>,
     /// The mesh that is shown here.

@@ -1,0 +1,89 @@
+//! The bytes of the file's buffers, each read once and when it is first needed.
+
+use super::error::{Fault, FaultKind};
+use super::resolver::Resolver;
+use gltf::json::Root;
+use std::sync::OnceLock;
+
+/// The buffers of a file.
+pub(super) struct Buffers<'a> {
+    root: &'a Root,
+    resolver: &'a Resolver<'a>,
+    /// The binary chunk of the file itself.
+    chunk: Option<&'a [u8]>,
+    /// What has been read from elsewhere.
+    read: Vec<OnceLock<Vec<u8>>>,
+}
+
+impl<'a> Buffers<'a> {
+    pub(super) fn new(root: &'a Root, resolver: &'a Resolver<'a>, chunk: Option<&'a [u8]>) -> Self {
+        let read = root.buffers.iter().map(|_| OnceLock::new()).collect();
+        Self { root, resolver, chunk, read }
+    }
+
+    /// The bytes of a buffer view, and its stride if it has one. `user` is the pointer to the member that names it.
+    pub(super) fn view(&self, view: usize, user: &str) -> Result<View<'_>, Fault> {
+        let Some(json) = self.root.buffer_views.get(view) else {
+            let count = self.root.buffer_views.len();
+            return Err(Fault::unresolved(user, "buffer view", view, count));
+        };
+        let pointer = format!("/bufferViews/{view}");
+        let bytes = self.buffer(json.buffer.value(), &pointer)?;
+        let start = json.byte_offset.unwrap_or_default().0;
+        let part = slice(bytes, start, json.byte_length.0).ok_or_else(|| {
+            let problem = format!(
+                "bytes {start} to {start} + {} are not all in buffer {}, which has {}",
+                json.byte_length.0,
+                json.buffer.value(),
+                bytes.len()
+            );
+            Fault::invalid(&pointer, problem)
+        })?;
+        Ok(View { bytes: part, stride: json.byte_stride.map(|stride| stride.0), pointer })
+    }
+
+    fn buffer(&self, buffer: usize, view: &str) -> Result<&[u8], Fault> {
+        let (Some(json), Some(read)) = (self.root.buffers.get(buffer), self.read.get(buffer))
+        else {
+            let pointer = format!("{view}/buffer");
+            return Err(Fault::unresolved(&pointer, "buffer", buffer, self.root.buffers.len()));
+        };
+        let all = match (&json.uri, self.chunk) {
+            (None, Some(chunk)) if buffer == 0 => chunk,
+            (None, _) => return Err(no_data(buffer)),
+            (Some(uri), _) => match read.get() {
+                Some(bytes) => bytes,
+                None => {
+                    let bytes = self.resolver.read(uri, &format!("/buffers/{buffer}/uri"))?;
+                    read.get_or_init(|| bytes)
+                }
+            },
+        };
+        let length = usize::try_from(json.byte_length.0).unwrap_or(usize::MAX);
+        Ok(&all[..length.min(all.len())])
+    }
+}
+
+/// A part of a buffer.
+pub(super) struct View<'a> {
+    pub(super) bytes: &'a [u8],
+    pub(super) stride: Option<usize>,
+    /// Where it is declared.
+    pub(super) pointer: String,
+}
+
+/// The `length` bytes from `start` on, if they are all there.
+pub(super) fn slice(bytes: &[u8], start: u64, length: u64) -> Option<&[u8]> {
+    let start = usize::try_from(start).ok()?;
+    let length = usize::try_from(length).ok()?;
+    bytes.get(start..)?.get(..length)
+}
+
+fn no_data(buffer: usize) -> Fault {
+    Fault::new(
+        FaultKind::Invalid,
+        &format!("/buffers/{buffer}"),
+        "the buffer has no data: it has no URI, and the file no binary chunk for it".to_owned(),
+        "export the file again; compressed files may need their extension",
+    )
+}

@@ -1,0 +1,126 @@
+//! Decoding PNG and JPEG into 8-bit RGBA.
+//!
+//! What an image is, its first bytes say; the file's name and the glTF `mimeType` are not asked.
+
+use crate::model::Image;
+use png::{BitDepth, ColorType, Transformations};
+use std::io::Cursor;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use zune_jpeg::JpegDecoder;
+use zune_jpeg::zune_core::bytestream::ZCursor;
+use zune_jpeg::zune_core::colorspace::ColorSpace;
+use zune_jpeg::zune_core::options::DecoderOptions;
+
+/// Width and height, from the header alone.
+pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), String> {
+    guarded(|| match Kind::of(bytes)? {
+        Kind::Png => {
+            let mut decoder = png::Decoder::new(Cursor::new(bytes));
+            let header = decoder.read_header_info().map_err(|error| png_problem(&error))?;
+            Ok((header.width, header.height))
+        }
+        Kind::Jpeg => {
+            let mut decoder = jpeg_decoder(bytes);
+            decoder.decode_headers().map_err(|error| jpeg_problem(&error))?;
+            let info = decoder.info().ok_or("the JPEG has no header")?;
+            Ok((u32::from(info.width), u32::from(info.height)))
+        }
+    })
+}
+
+/// The whole image. Its size should have been asked first: this allocates as much as the image has texels.
+pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
+    guarded(|| match Kind::of(bytes)? {
+        Kind::Png => decode_png(bytes),
+        Kind::Jpeg => decode_jpeg(bytes),
+    })
+}
+
+/// A decoder that panics has met a broken image.
+fn guarded<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| Err("the decoder gave up".to_owned()))
+}
+
+enum Kind {
+    Png,
+    Jpeg,
+}
+
+impl Kind {
+    fn of(bytes: &[u8]) -> Result<Self, String> {
+        let other = match bytes {
+            [0x89, b'P', b'N', b'G', ..] => return Ok(Self::Png),
+            [0xFF, 0xD8, 0xFF, ..] => return Ok(Self::Jpeg),
+            [] => return Err("the image is empty".to_owned()),
+            [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => "a WebP image",
+            [0xAB, b'K', b'T', b'X', ..] => "a KTX image",
+            [b'D', b'D', b'S', b' ', ..] => "a DDS image",
+            [b'G', b'I', b'F', b'8', ..] => "a GIF image",
+            [b'B', b'M', ..] => "a BMP image",
+            [b'<', ..] => "an SVG image or a web page",
+            _ => "of an unknown format",
+        };
+        Err(format!("this is {other}; only PNG and JPEG are read"))
+    }
+}
+
+fn png_problem(error: &png::DecodingError) -> String {
+    format!("the PNG is broken: {error}")
+}
+
+fn decode_png(bytes: &[u8]) -> Result<Image, String> {
+    let problem = |error: png::DecodingError| png_problem(&error);
+    let mut decoder =
+        png::Decoder::new_with_limits(Cursor::new(bytes), png::Limits { bytes: 1 << 30 });
+    decoder.set_transformations(Transformations::normalize_to_color8());
+    decoder.set_ignore_text_chunk(true);
+    decoder.set_ignore_iccp_chunk(true);
+    let mut reader = decoder.read_info().map_err(problem)?;
+    let length = reader.output_buffer_size().ok_or("the PNG is too large")?;
+    let mut samples = vec![0; length];
+    let frame = reader.next_frame(&mut samples).map_err(problem)?;
+    if frame.bit_depth != BitDepth::Eight {
+        return Err(format!("the PNG has samples of {:?} bits", frame.bit_depth));
+    }
+    let rgba = match frame.color_type {
+        ColorType::Rgba => samples.as_chunks().0.to_vec(),
+        ColorType::Rgb => samples.as_chunks().0.iter().map(|&[r, g, b]| [r, g, b, 255]).collect(),
+        ColorType::GrayscaleAlpha => {
+            samples.as_chunks().0.iter().map(|&[y, alpha]| [y, y, y, alpha]).collect()
+        }
+        ColorType::Grayscale => samples.iter().map(|&y| [y, y, y, 255]).collect(),
+        ColorType::Indexed => return Err("the PNG's palette could not be read".to_owned()),
+    };
+    whole(frame.width, frame.height, rgba)
+}
+
+fn jpeg_decoder(bytes: &[u8]) -> JpegDecoder<ZCursor<&[u8]>> {
+    let options = DecoderOptions::default()
+        .jpeg_set_out_colorspace(ColorSpace::RGBA)
+        .set_max_width(usize::from(u16::MAX))
+        .set_max_height(usize::from(u16::MAX));
+    JpegDecoder::new_with_options(ZCursor::new(bytes), options)
+}
+
+fn jpeg_problem(error: &zune_jpeg::errors::DecodeErrors) -> String {
+    format!("the JPEG is broken: {error}")
+}
+
+fn decode_jpeg(bytes: &[u8]) -> Result<Image, String> {
+    let mut decoder = jpeg_decoder(bytes);
+    decoder.decode_headers().map_err(|error| jpeg_problem(&error))?;
+    if let Some(space @ (ColorSpace::CMYK | ColorSpace::YCCK)) = decoder.input_colorspace() {
+        return Err(format!("the JPEG is in {space:?}, for printing; only RGB and grey are read"));
+    }
+    let info = decoder.info().ok_or("the JPEG has no header")?;
+    let samples = decoder.decode().map_err(|error| jpeg_problem(&error))?;
+    whole(u32::from(info.width), u32::from(info.height), samples.as_chunks().0.to_vec())
+}
+
+fn whole(width: u32, height: u32, rgba: Vec<[u8; 4]>) -> Result<Image, String> {
+    if rgba.len() as u64 == u64::from(width) * u64::from(height) {
+        Ok(Image { width, height, rgba })
+    } else {
+        Err("the image is incomplete".to_owned())
+    }
+}

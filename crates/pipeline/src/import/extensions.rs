@@ -1,0 +1,96 @@
+//! What is done about each extension.
+
+use super::error::{Fault, FaultKind};
+use super::warnings::Warnings;
+use gltf::json::Root;
+
+/// What an extension means to us.
+enum Support {
+    /// It is read.
+    Full,
+    /// It changes nothing that is drawn.
+    Harmless,
+    /// The file can be shown without it; the text says what is then missing.
+    Without(&'static str),
+    /// The text says what it does that is not possible here.
+    None(&'static str),
+}
+
+use Support::{Full, Harmless, None as Never, Without};
+
+/// All extensions that are known, by name.
+const KNOWN: [(&str, Support); 36] = [
+    ("CESIUM_primitive_outline", Without("the outlines are not drawn")),
+    ("EXT_mesh_features", Harmless),
+    ("EXT_mesh_gpu_instancing", Never("instances in accessors are not read")),
+    ("EXT_mesh_manifold", Harmless),
+    ("EXT_mesh_primitive_edge_visibility", Without("the edges are found from the shape")),
+    ("EXT_meshopt_compression", Never("data compressed by meshopt is not read")),
+    ("EXT_structural_metadata", Harmless),
+    ("EXT_texture_webp", Never("WebP images are not read")),
+    ("KHR_animation_pointer", Without("the animations by pointer are left out")),
+    ("KHR_draco_mesh_compression", Never("data compressed by Draco is not read")),
+    ("KHR_lights_punctual", Without("the lights of the file are not used")),
+    ("KHR_materials_anisotropy", Without("highlights are shown round")),
+    ("KHR_materials_clearcoat", Without("surfaces are shown without the coat")),
+    ("KHR_materials_diffuse_transmission", Without("light through surfaces is not shown")),
+    ("KHR_materials_dispersion", Without("colours are not split")),
+    ("KHR_materials_emissive_strength", Full),
+    ("KHR_materials_ior", Without("all surfaces have the usual index of refraction")),
+    ("KHR_materials_iridescence", Without("surfaces are shown without the film")),
+    ("KHR_materials_pbrSpecularGlossiness", Without("highlights are shown without colour")),
+    ("KHR_materials_sheen", Without("cloth is shown without sheen")),
+    ("KHR_materials_specular", Without("all highlights have the usual strength")),
+    ("KHR_materials_transmission", Without("transparent surfaces are shown solid")),
+    ("KHR_materials_unlit", Full),
+    ("KHR_materials_variants", Without("the default variant is shown")),
+    ("KHR_materials_volume", Without("bodies are shown without depth")),
+    ("KHR_mesh_quantization", Full),
+    ("KHR_meshopt_compression", Never("data compressed by meshopt is not read")),
+    ("KHR_node_visibility", Without("hidden nodes are shown")),
+    ("KHR_texture_basisu", Never("KTX2 images are not read")),
+    ("KHR_texture_transform", Full),
+    ("KHR_xmp", Harmless),
+    ("KHR_xmp_json_ld", Harmless),
+    ("MSFT_lod", Without("the finest level is shown")),
+    ("MSFT_packing_normalRoughnessMetallic", Harmless),
+    ("MSFT_packing_occlusionRoughnessMetallic", Harmless),
+    ("MSFT_texture_dds", Never("DDS images are not read")),
+];
+
+/// Refuses a file that requires what we lack, and warns of what will not be seen.
+pub(super) fn check(root: &Root, warnings: &mut Warnings) -> Result<(), Fault> {
+    for (at, name) in root.extensions_required.iter().enumerate() {
+        let reason = match support(name) {
+            Some(Never(reason)) => *reason,
+            Some(_) => continue,
+            None => "it is not known here",
+        };
+        return Err(Fault::new(
+            FaultKind::Extension,
+            &format!("/extensionsRequired/{at}"),
+            format!("the file requires the extension {name}: {reason}"),
+            "export the file without it",
+        ));
+    }
+    for (at, name) in root.extensions_used.iter().enumerate() {
+        if let Some(Without(reason) | Never(reason)) = support(name) {
+            warnings.add(&format!("/extensionsUsed/{at}"), format!("{name}: {reason}"));
+        }
+    }
+    Ok(())
+}
+
+fn support(name: &str) -> Option<&'static Support> {
+    KNOWN.iter().find(|known| known.0 == name).map(|known| &known.1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_table_is_sorted_and_without_doubles() {
+        assert!(KNOWN.windows(2).all(|pair| pair[0].0 < pair[1].0));
+    }
+}

@@ -1,0 +1,148 @@
+//! Images: which ones are needed, their bytes, and decoding them in parallel.
+//!
+//! Only images that a visible surface uses are read. A broken image costs a warning, never the model. Which thread
+//! decodes which image makes no difference: results are kept by number, and the budget of texels is spent in the order
+//! of the file, from the sizes in the headers, before any decoder runs.
+
+use super::accessor::Source;
+use super::decode;
+use super::error::Fault;
+use super::limits::Limits;
+use super::resolver::Resolver;
+use super::warnings::Warnings;
+use crate::model::{Image, Material, Mesh, Texture};
+use gltf::json::image::Image as JsonImage;
+use std::borrow::Cow;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+/// An encoded image.
+pub(super) struct Encoded<'a> {
+    number: usize,
+    bytes: Cow<'a, [u8]>,
+}
+
+/// Which images the primitives of the given meshes need, by number.
+pub(super) fn needed(
+    meshes: &[Mesh],
+    shown: &[bool],
+    materials: &[Material],
+    textures: &[Texture],
+    images: usize,
+) -> Vec<bool> {
+    let mut needed = vec![false; images];
+    let visible = meshes.iter().zip(shown).filter(|(_, shown)| **shown).map(|(mesh, _)| mesh);
+    for primitive in visible.flat_map(|mesh| &mesh.primitives).filter(|p| p.count() > 0) {
+        let material = primitive.material.and_then(|at| materials.get(at));
+        let texture = material.and_then(|material| material.base_color_texture);
+        let image = texture.and_then(|used| textures.get(used.texture)?.image);
+        if let Some(flag) = image.and_then(|image| needed.get_mut(image)) {
+            *flag = true;
+        }
+    }
+    needed
+}
+
+/// The bytes of the needed images; those that cannot be had are a warning.
+pub(super) fn read<'a>(
+    needed: &[bool],
+    source: &'a Source<'_>,
+    resolver: &Resolver<'_>,
+    warnings: &mut Warnings,
+) -> Vec<Encoded<'a>> {
+    let mut texels_left = source.limits.image_texels;
+    let mut found = Vec::new();
+    for number in (0..needed.len()).filter(|&at| needed[at]) {
+        let pointer = format!("/images/{number}");
+        let bytes = bytes(&source.root.images[number], &pointer, source, resolver);
+        let checked = bytes.and_then(|bytes| {
+            let (width, height) = decode::size(&bytes).map_err(|p| Fault::invalid(&pointer, p))?;
+            check_size(width, height, &mut texels_left, source.limits, &pointer)?;
+            Ok(bytes)
+        });
+        match checked {
+            Ok(bytes) => found.push(Encoded { number, bytes }),
+            Err(fault) => warnings.soft(&fault, LEFT_OUT),
+        }
+    }
+    found
+}
+
+const LEFT_OUT: &str = "the surface is shown without it";
+
+fn bytes<'a>(
+    json: &JsonImage,
+    pointer: &str,
+    source: &'a Source<'_>,
+    resolver: &Resolver<'_>,
+) -> Result<Cow<'a, [u8]>, Fault> {
+    match (&json.uri, json.buffer_view) {
+        (Some(uri), _) => Ok(resolver.read(uri, &format!("{pointer}/uri"))?.into()),
+        (None, Some(view)) => {
+            let user = format!("{pointer}/bufferView");
+            Ok(source.buffers.view(view.value(), &user)?.bytes.into())
+        }
+        (None, None) => Err(Fault::invalid(pointer, "the image has neither URI nor buffer view")),
+    }
+}
+
+fn check_size(
+    width: u32,
+    height: u32,
+    texels_left: &mut u64,
+    limits: &Limits,
+    pointer: &str,
+) -> Result<(), Fault> {
+    let what = format!("the image has {width} x {height} texels");
+    if width == 0 || height == 0 {
+        return Err(Fault::invalid(pointer, what));
+    }
+    if width.max(height) > limits.image_side {
+        return Err(Fault::limit(pointer, &what, "image_side", u64::from(limits.image_side)));
+    }
+    match texels_left.checked_sub(u64::from(width) * u64::from(height)) {
+        Some(left) => *texels_left = left,
+        None => return Err(Fault::limit(pointer, &what, "image_texels", limits.image_texels)),
+    }
+    Ok(())
+}
+
+/// Decodes the images on all processors; the result has an entry for each of the file's `count` images.
+pub(super) fn decode_all(
+    encoded: &[Encoded<'_>],
+    count: usize,
+    warnings: &mut Warnings,
+) -> Vec<Option<Image>> {
+    let results: Vec<Mutex<Option<Result<Image, String>>>> =
+        encoded.iter().map(|_| Mutex::new(None)).collect();
+    let next = AtomicUsize::new(0);
+    let work = || {
+        while let Some(image) = encoded.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let result = decode::decode(&image.bytes);
+            let slot = encoded.iter().position(|other| other.number == image.number);
+            if let Some(mut slot) = slot.and_then(|slot| results[slot].lock().ok()) {
+                *slot = Some(result);
+            }
+        }
+    };
+    let processors = thread::available_parallelism().map_or(1, usize::from);
+    thread::scope(|scope| {
+        for _ in 1..processors.min(encoded.len()) {
+            scope.spawn(work);
+        }
+        work();
+    });
+    let mut images = vec![None; count];
+    for (image, result) in encoded.iter().zip(results) {
+        match result.into_inner().ok().flatten() {
+            Some(Ok(decoded)) => images[image.number] = Some(decoded),
+            Some(Err(problem)) => {
+                let fault = Fault::invalid(&format!("/images/{}", image.number), problem);
+                warnings.soft(&fault, LEFT_OUT);
+            }
+            None => {}
+        }
+    }
+    images
+}

@@ -1,0 +1,204 @@
+//! Which file a URI of a glTF file means, and whether it may be read.
+//!
+//! A model comes from a stranger, so its URIs are not trusted: they name files by a relative path below one folder,
+//! the root, and nothing else. No absolute path, no scheme but `data:`, no `..` above the root, no symbolic link that
+//! leads out of it, no device or pipe, no file larger than the limit. Everything is checked before a file is opened,
+//! and a path that would leave the root is refused without looking whether something is there.
+
+use super::error::{Fault, FaultKind};
+use super::limits::Limits;
+use base64::Engine;
+use base64::alphabet;
+use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+use std::fs::File;
+use std::io::Read;
+use std::path::{Component, Path, PathBuf};
+
+/// Reads the files that a glTF file refers to.
+#[derive(Debug)]
+pub(super) struct Resolver<'a> {
+    /// The folder of the glTF file.
+    folder: PathBuf,
+    /// The folder that everything must stay below.
+    root: PathBuf,
+    limits: &'a Limits,
+}
+
+impl<'a> Resolver<'a> {
+    /// A resolver for the assets of `file`, which must be below `root`, or, without one, below the file's own folder.
+    pub(super) fn new(file: &Path, root: Option<&Path>, limits: &'a Limits) -> Result<Self, Fault> {
+        let parent = match file.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent,
+            _ => Path::new("."),
+        };
+        let folder = canonical(parent)?;
+        let root = root.map_or_else(|| Ok(folder.clone()), canonical)?;
+        Ok(Self { folder, root, limits })
+    }
+
+    /// The bytes that a URI stands for; `pointer` is where the URI is.
+    pub(super) fn read(&self, uri: &str, pointer: &str) -> Result<Vec<u8>, Fault> {
+        match uri.split_once(':') {
+            Some((scheme, data)) if scheme.eq_ignore_ascii_case("data") => decode(data, pointer),
+            _ => read_file(&self.find(uri, pointer)?, self.limits, pointer),
+        }
+    }
+
+    /// The file that a URI names: as it is written, else percent-decoded, else with `\` read as `/`.
+    fn find(&self, uri: &str, pointer: &str) -> Result<PathBuf, Fault> {
+        if uri.is_empty() {
+            return Err(Fault::invalid(pointer, "the URI is empty"));
+        }
+        let decoded = percent_decoded(uri);
+        let candidates =
+            [Some(uri.to_owned()), decoded.clone(), decoded.map(|d| d.replace('\\', "/"))];
+        for candidate in candidates.into_iter().flatten() {
+            let path = self.below_root(&candidate, pointer)?;
+            if let Ok(path) = path.canonicalize() {
+                return self.checked(path, uri, pointer);
+            }
+        }
+        Err(match scheme(uri) {
+            Some(scheme) => {
+                forbidden(pointer, &format!("the scheme {scheme:?} of {uri:?} is not read"))
+            }
+            None => Fault::new(
+                FaultKind::Unreadable,
+                pointer,
+                format!("the file {uri:?} does not exist"),
+                "put it beside the glTF file",
+            ),
+        })
+    }
+
+    /// The path of a relative name, if it stays below the root by its letters alone.
+    fn below_root(&self, name: &str, pointer: &str) -> Result<PathBuf, Fault> {
+        let outside =
+            || Err(forbidden(pointer, &format!("{name:?} is outside of the model's folder")));
+        let drive = cfg!(windows) && name.contains(':');
+        if name.starts_with(['/', '\\']) || name.contains('\0') || drive {
+            return outside();
+        }
+        let mut path = self.folder.clone();
+        for part in Path::new(name).components() {
+            match part {
+                Component::Normal(part) => path.push(part),
+                Component::CurDir => {}
+                Component::ParentDir if path != self.root && path.pop() => {}
+                _ => return outside(),
+            }
+        }
+        if path.starts_with(&self.root) { Ok(path) } else { outside() }
+    }
+
+    /// A path that exists, if neither symbolic links lead it out of the root nor it is something else than a file.
+    fn checked(&self, path: PathBuf, uri: &str, pointer: &str) -> Result<PathBuf, Fault> {
+        if !path.starts_with(&self.root) {
+            return Err(forbidden(pointer, &format!("{uri:?} leads out of the model's folder")));
+        }
+        if !path.is_file() {
+            return Err(forbidden(pointer, &format!("{uri:?} is not a regular file")));
+        }
+        Ok(path)
+    }
+}
+
+/// Reads a whole regular file, but no more than the limit.
+pub(super) fn read_file(path: &Path, limits: &Limits, pointer: &str) -> Result<Vec<u8>, Fault> {
+    let fault = |error: std::io::Error| unreadable(pointer, path, &error);
+    let metadata = path.metadata().map_err(fault)?;
+    if !metadata.is_file() {
+        let problem =
+            if metadata.is_dir() { "this is a folder" } else { "this is not a regular file" };
+        return Err(Fault::new(FaultKind::Unreadable, pointer, problem.to_owned(), "give a file"));
+    }
+    let allowed = limits.file_bytes;
+    let mut bytes = Vec::new();
+    if metadata.len() <= allowed {
+        // Room for one byte more: reading to the end then needs no second allocation.
+        bytes.reserve_exact(usize::try_from(metadata.len()).unwrap_or(0).saturating_add(1));
+        let file = File::open(path).map_err(fault)?;
+        file.take(allowed.saturating_add(1)).read_to_end(&mut bytes).map_err(fault)?;
+    }
+    let length = metadata.len().max(bytes.len() as u64);
+    if length > allowed {
+        let what = format!("the file has {length} bytes");
+        return Err(Fault::limit(pointer, &what, "file_bytes", allowed));
+    }
+    Ok(bytes)
+}
+
+fn canonical(folder: &Path) -> Result<PathBuf, Fault> {
+    folder.canonicalize().map_err(|error| unreadable("", folder, &error))
+}
+
+fn unreadable(pointer: &str, path: &Path, error: &std::io::Error) -> Fault {
+    let name = path.display();
+    let (problem, remedy) = match error.kind() {
+        std::io::ErrorKind::NotFound => (format!("{name} does not exist"), "check the name"),
+        std::io::ErrorKind::PermissionDenied => {
+            (format!("{name} may not be read"), "check its permissions")
+        }
+        _ => (format!("{name} cannot be read: {error}"), "check the file"),
+    };
+    Fault::new(FaultKind::Unreadable, pointer, problem, remedy)
+}
+
+fn forbidden(pointer: &str, problem: &str) -> Fault {
+    let remedy = "copy the file beside the glTF file and name it by a relative path";
+    Fault::new(FaultKind::Forbidden, pointer, problem.to_owned(), remedy)
+}
+
+/// The scheme of a URI (RFC 3986 §3.1), if it has one.
+fn scheme(uri: &str) -> Option<&str> {
+    let (scheme, _) = uri.split_once(':')?;
+    let mut letters = scheme.chars();
+    let first = letters.next()?.is_ascii_alphabetic();
+    let rest = letters.all(|c| c.is_ascii_alphanumeric() || "+-.".contains(c));
+    (first && rest).then_some(scheme)
+}
+
+/// The text with every `%41` replaced by the byte it stands for; `None` if that is not possible or not UTF-8.
+fn percent_decoded(text: &str) -> Option<String> {
+    let mut bytes = Vec::with_capacity(text.len());
+    let mut rest = text.as_bytes();
+    while let Some((&byte, after)) = rest.split_first() {
+        let digit = |at: usize| after.get(at).and_then(|&d| char::from(d).to_digit(16));
+        match (byte, digit(0), digit(1)) {
+            (b'%', Some(high), Some(low)) => {
+                bytes.push((high * 16 + low) as u8);
+                rest = &after[2..];
+            }
+            (b'%', ..) => return None,
+            _ => {
+                bytes.push(byte);
+                rest = after;
+            }
+        }
+    }
+    String::from_utf8(bytes).ok()
+}
+
+/// Either alphabet of base64, with or without padding.
+const LENIENT: GeneralPurposeConfig = GeneralPurposeConfig::new()
+    .with_decode_allow_trailing_bits(true)
+    .with_decode_padding_mode(DecodePaddingMode::Indifferent);
+
+/// The data of a data URI, whose scheme is already cut off (RFC 2397).
+fn decode(data: &str, pointer: &str) -> Result<Vec<u8>, Fault> {
+    let Some((kind, data)) = data.split_once(',') else {
+        return Err(Fault::invalid(pointer, "the data URI has no comma before its data"));
+    };
+    if !kind.to_ascii_lowercase().ends_with(";base64") {
+        // Text, or binary by %00 escapes; rare and small.
+        return match percent_decoded(data) {
+            Some(text) => Ok(text.into_bytes()),
+            None => Err(Fault::invalid(pointer, "the data URI is neither base64 nor text")),
+        };
+    }
+    let standard = GeneralPurpose::new(&alphabet::STANDARD, LENIENT).decode(data);
+    let bytes = standard.or_else(|error| {
+        GeneralPurpose::new(&alphabet::URL_SAFE, LENIENT).decode(data).map_err(|_| error)
+    });
+    bytes.map_err(|error| Fault::invalid(pointer, format!("the data URI is not base64: {error}")))
+}

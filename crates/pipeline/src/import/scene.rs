@@ -1,0 +1,179 @@
+//! The node tree: nodes with their transforms, proof that they form a forest, and the roots of the shown scene.
+
+use super::error::Fault;
+use super::json::Document;
+use super::limits::Limits;
+use super::warnings::Warnings;
+use crate::model::{Model, Node};
+use gltf::json::Index;
+use homog::{Affine, Model as ModelSpace};
+
+/// Reads all nodes of a file. They form a forest of bounded depth, and every index in them is right.
+pub(super) fn nodes(
+    document: &Document,
+    limits: &Limits,
+    warnings: &mut Warnings,
+) -> Result<Vec<Node>, Fault> {
+    let count = document.root.nodes.len();
+    if count > limits.nodes {
+        let what = format!("the file has {count} nodes");
+        return Err(Fault::limit("/nodes", &what, "nodes", limits.nodes as u64));
+    }
+    let mut nodes =
+        (0..count).map(|at| node(document, at, warnings)).collect::<Result<Vec<_>, _>>()?;
+    connect(&mut nodes)?;
+    check_forest(&nodes, limits)?;
+    Ok(nodes)
+}
+
+fn node(document: &Document, at: usize, warnings: &mut Warnings) -> Result<Node, Fault> {
+    let root = &document.root;
+    let json = &root.nodes[at];
+    let pointer = format!("/nodes/{at}");
+    let placement = document.placements.get(at);
+    let to_parent = placement.map_or(Ok(Affine::IDENTITY), |p| p.to_parent(&pointer))?;
+    let children = json.children.iter().flatten().map(Index::value).collect();
+    let mesh = existing(json.mesh, "mesh", root.meshes.len(), &pointer)?;
+    let mut skin = existing(json.skin, "skin", root.skins.len(), &pointer)?;
+    if skin.is_some() && mesh.is_none() {
+        warnings.add(&format!("{pointer}/skin"), "there is no mesh that the skin could bend");
+        skin = None;
+    }
+    let camera = existing(json.camera, "camera", root.cameras.len(), &pointer)?;
+    Ok(Node { name: json.name.clone(), to_parent, parent: None, children, mesh, skin, camera })
+}
+
+fn existing<T>(
+    index: Option<Index<T>>,
+    what: &str,
+    count: usize,
+    node: &str,
+) -> Result<Option<usize>, Fault> {
+    match index.map(|index| index.value()) {
+        Some(index) if index >= count => {
+            Err(Fault::unresolved(&format!("{node}/{what}"), what, index, count))
+        }
+        index => Ok(index),
+    }
+}
+
+/// Tells every node its parent; each may have one only.
+fn connect(nodes: &mut [Node]) -> Result<(), Fault> {
+    for parent in 0..nodes.len() {
+        for place in 0..nodes[parent].children.len() {
+            let child = nodes[parent].children[place];
+            let pointer = format!("/nodes/{parent}/children/{place}");
+            let count = nodes.len();
+            let Some(node) = nodes.get_mut(child) else {
+                return Err(Fault::unresolved(&pointer, "node", child, count));
+            };
+            if let Some(other) = node.parent.replace(parent) {
+                let problem = format!("node {child} is a child of node {other} already");
+                return Err(Fault::invalid(&pointer, problem));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// With one parent each, the nodes form a forest if a walk from the roots meets them all; what it misses are cycles.
+fn check_forest(nodes: &[Node], limits: &Limits) -> Result<(), Fault> {
+    let mut met = vec![false; nodes.len()];
+    let roots = (0..nodes.len()).filter(|&at| nodes[at].parent.is_none());
+    let mut open: Vec<(usize, usize, Affine<ModelSpace, ModelSpace>)> =
+        roots.map(|root| (root, 1, Affine::IDENTITY)).collect();
+    while let Some((at, depth, above)) = open.pop() {
+        met[at] = true;
+        if depth > limits.node_depth {
+            let what = format!("the node tree is {depth} levels deep");
+            let allowed = limits.node_depth as u64;
+            return Err(Fault::limit(&format!("/nodes/{at}"), &what, "node_depth", allowed));
+        }
+        let to_model = nodes[at].to_parent.then(above);
+        if !to_model.is_finite() {
+            let problem = "the product of the transforms down to here is too large for numbers";
+            return Err(Fault::invalid(&format!("/nodes/{at}"), problem));
+        }
+        open.extend(nodes[at].children.iter().map(|&child| (child, depth + 1, to_model)));
+    }
+    match met.iter().position(|met| !met) {
+        None => Ok(()),
+        Some(at) => {
+            let problem = format!("node {at} is below itself");
+            Err(Fault::invalid(&format!("/nodes/{at}/children"), problem))
+        }
+    }
+}
+
+/// The roots of the scene that is shown: the default scene, else the first, else all roots.
+pub(super) fn roots(
+    document: &Document,
+    nodes: &[Node],
+    warnings: &mut Warnings,
+) -> Result<Vec<usize>, Fault> {
+    let root = &document.root;
+    let scene = match root.scene {
+        Some(scene) if scene.value() >= root.scenes.len() => {
+            return Err(Fault::unresolved("/scene", "scene", scene.value(), root.scenes.len()));
+        }
+        Some(scene) => scene.value(),
+        None => 0,
+    };
+    let Some(json) = root.scenes.get(scene) else {
+        return Ok((0..nodes.len()).filter(|&at| nodes[at].parent.is_none()).collect());
+    };
+    let mut listed = vec![false; nodes.len()];
+    let mut roots = Vec::with_capacity(json.nodes.len());
+    for (place, node) in json.nodes.iter().enumerate() {
+        let pointer = format!("/scenes/{scene}/nodes/{place}");
+        match listed.get_mut(node.value()) {
+            None => return Err(Fault::unresolved(&pointer, "node", node.value(), nodes.len())),
+            Some(true) => warnings.add(&pointer, "the node is listed twice; it is shown once"),
+            Some(seen) => {
+                *seen = true;
+                roots.push(node.value());
+            }
+        }
+    }
+    let scene = format!("/scenes/{scene}/nodes");
+    roots.retain(|&at| is_shown_once(nodes, &listed, at, &scene, warnings));
+    Ok(roots)
+}
+
+/// Whether a listed node is to be shown as a root: not if another listed node is above it and shows it already.
+fn is_shown_once(
+    nodes: &[Node],
+    listed: &[bool],
+    at: usize,
+    scene: &str,
+    warnings: &mut Warnings,
+) -> bool {
+    let mut above = nodes[at].parent;
+    if above.is_some() {
+        warnings.add(scene, format!("node {at} is listed, but it is no root"));
+    }
+    while let Some(node) = above {
+        if listed[node] {
+            return false;
+        }
+        above = nodes[node].parent;
+    }
+    true
+}
+
+/// Counts what the shown scene draws, each item as often as it is drawn, and refuses more than the limit.
+pub(super) fn check_items(model: &Model, limits: &Limits) -> Result<(), Fault> {
+    let items = |mesh: usize| -> u64 {
+        let mesh = model.meshes.get(mesh);
+        mesh.map_or(0, |mesh| mesh.primitives.iter().map(|p| p.count() as u64).sum())
+    };
+    let mut total = 0u64;
+    for instance in model.instances() {
+        total = total.saturating_add(model.nodes[instance.node].mesh.map_or(0, items));
+    }
+    if total <= limits.scene_items {
+        return Ok(());
+    }
+    let what = format!("the scene shows {total} points, lines and triangles");
+    Err(Fault::limit("/scenes", &what, "scene_items", limits.scene_items))
+}

@@ -1,0 +1,68 @@
+//! Textures: which image, read how.
+
+use super::error::Fault;
+use super::warnings::Warnings;
+use crate::model::{Filter, Mipmap, Sampler, Texture, Wrap};
+use gltf::json::Root;
+use gltf::json::texture::{MagFilter, MinFilter, WrappingMode};
+use gltf::json::validation::Checked;
+
+/// What `Texture::source` is in the JSON types where the file has none.
+const NO_SOURCE: usize = u32::MAX as usize;
+
+/// Reads all textures of a file. What is wrong with one is a warning.
+pub(super) fn textures(root: &Root, warnings: &mut Warnings) -> Vec<Texture> {
+    let mut textures = Vec::with_capacity(root.textures.len());
+    for (at, json) in root.textures.iter().enumerate() {
+        let pointer = format!("/textures/{at}");
+        let sampler = json.sampler.as_ref().map_or_else(Sampler::default, |index| {
+            root.samplers.get(index.value()).map_or_else(
+                || {
+                    let pointer = format!("{pointer}/sampler");
+                    let count = root.samplers.len();
+                    let fault = Fault::unresolved(&pointer, "sampler", index.value(), count);
+                    warnings.soft(&fault, "the texture is read in the usual way");
+                    Sampler::default()
+                },
+                sampler,
+            )
+        });
+        textures.push(Texture { image: source(root, at, warnings), sampler });
+    }
+    textures
+}
+
+fn source(root: &Root, at: usize, warnings: &mut Warnings) -> Option<usize> {
+    let image = root.textures[at].source.value();
+    if image < root.images.len() {
+        return Some(image);
+    }
+    if image != NO_SOURCE {
+        let pointer = format!("/textures/{at}/source");
+        let fault = Fault::unresolved(&pointer, "image", image, root.images.len());
+        warnings.soft(&fault, "the texture is not shown");
+    }
+    None
+}
+
+/// The JSON sampler in our words; what is missing or unknown is read in the usual way.
+fn sampler(json: &gltf::json::texture::Sampler) -> Sampler {
+    let wrap = |mode: Checked<WrappingMode>| match mode {
+        Checked::Valid(WrappingMode::ClampToEdge) => Wrap::Clamp,
+        Checked::Valid(WrappingMode::MirroredRepeat) => Wrap::Mirror,
+        Checked::Valid(WrappingMode::Repeat) | Checked::Invalid => Wrap::Repeat,
+    };
+    let magnify = match json.mag_filter {
+        Some(Checked::Valid(MagFilter::Nearest)) => Filter::Nearest,
+        _ => Filter::Linear,
+    };
+    let (minify, mipmap) = match json.min_filter {
+        Some(Checked::Valid(MinFilter::Nearest)) => (Filter::Nearest, Mipmap::None),
+        Some(Checked::Valid(MinFilter::Linear)) => (Filter::Linear, Mipmap::None),
+        Some(Checked::Valid(MinFilter::NearestMipmapNearest)) => (Filter::Nearest, Mipmap::Nearest),
+        Some(Checked::Valid(MinFilter::LinearMipmapNearest)) => (Filter::Linear, Mipmap::Nearest),
+        Some(Checked::Valid(MinFilter::NearestMipmapLinear)) => (Filter::Nearest, Mipmap::Linear),
+        _ => (Filter::Linear, Mipmap::Linear),
+    };
+    Sampler { wrap_u: wrap(json.wrap_s), wrap_v: wrap(json.wrap_t), magnify, minify, mipmap }
+}
