@@ -165,7 +165,7 @@ impl Axonometric {
     /// Its inverse: the transposed rotation, then back from the origin.
     #[must_use]
     pub fn depth_kept_inverse(self) -> Affine<View, View> {
-        let [x, y, z] = self.axes().map(|axis| axis.raw());
+        let [x, y, z] = self.axes().map(Vector::raw);
         let back = |a: f64, b: f64, c: f64| Vector::new(a, b, c);
         let (to_x, to_y, to_z) = (back(x.x, y.x, z.x), back(x.y, y.y, z.y), back(x.z, y.z, z.z));
         Affine::from_frame(to_x, to_y, to_z, self.origin)

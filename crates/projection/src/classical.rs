@@ -1,0 +1,152 @@
+//! Any classical projection, ready to be rendered.
+//!
+//! The classical projections drop z: their matrices are singular and tell nothing about what hides what. With depth kept
+//! and a view volume around the object each becomes a matrix like any other, from view space to clip space (PR-1, C89).
+
+use crate::{
+    Axonometric, Convention, NPoint, Oblique, Orthographic, Planometric, PrincipalView,
+    ProjectionError,
+};
+use homog::{Affine, Clip, Projective, View};
+
+/// One of the planar projections of the textbooks.
+///
+/// ```
+/// use homog::Point;
+/// use projection::{Axonometric, Classical, Convention, Orthographic};
+/// let picture = Classical::from(Axonometric::dimetric_42_7());
+/// let volume = Orthographic::new(-2.0, 2.0, -2.0, 2.0, -5.0, 5.0)?;
+/// let view_to_clip = picture.view_to_clip(volume, Convention::CHAPTER)?;
+/// assert_eq!(view_to_clip.point(Point::ORIGIN).divide(), Some(Point::ORIGIN));
+/// # Ok::<(), projection::ProjectionError>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Classical {
+    /// A principal view.
+    Multiview(PrincipalView),
+    /// Orthographic onto an inclined plane.
+    Axonometric(Axonometric),
+    /// Parallel at a slant onto z = const.
+    Oblique(Oblique),
+    /// Parallel at a slant onto the ground.
+    Planometric(Planometric),
+    /// Central.
+    NPoint(NPoint),
+}
+
+impl Classical {
+    /// The singular matrix of the textbook: z is dropped.
+    #[must_use]
+    pub fn onto_plane(self) -> Projective<View, View> {
+        match self {
+            Self::Multiview(view) => view.depth_kept().then(Affine::scale(1.0, 1.0, 0.0)).into(),
+            Self::Axonometric(axonometric) => axonometric.onto_plane().into(),
+            Self::Oblique(oblique) => oblique.onto_plane().into(),
+            Self::Planometric(plan) => plan.onto_plane().into(),
+            Self::NPoint(perspective) => perspective.onto_plane(),
+        }
+    }
+
+    /// The same with depth kept: x and y as in the picture, larger z nearer to the viewer.
+    #[must_use]
+    pub fn depth_kept(self) -> Projective<View, View> {
+        match self {
+            Self::Multiview(view) => view.depth_kept().into(),
+            Self::Axonometric(axonometric) => axonometric.depth_kept().into(),
+            Self::Oblique(oblique) => oblique.depth_kept().into(),
+            Self::Planometric(plan) => plan.depth_kept().into(),
+            Self::NPoint(perspective) => perspective.depth_kept(),
+        }
+    }
+
+    /// The inverse of [`depth_kept`](Self::depth_kept), in closed form.
+    #[must_use]
+    pub fn depth_kept_inverse(self) -> Projective<View, View> {
+        match self {
+            // The back view is its own inverse; a quarter turn is undone by the opposite one.
+            Self::Multiview(view) => Projective::from_raw(view.depth_kept().raw().transpose()),
+            Self::Axonometric(axonometric) => axonometric.depth_kept_inverse().into(),
+            Self::Oblique(oblique) => oblique.depth_kept_inverse().into(),
+            Self::Planometric(plan) => plan.depth_kept_inverse().into(),
+            Self::NPoint(perspective) => perspective.depth_kept_inverse(),
+        }
+    }
+
+    /// The whole projection.
+    ///
+    /// `volume` is what is shown of the picture: its window lies on the picture, its near and far are measured from the
+    /// picture plane away from the viewer, for perspectives on the line x = y = 0 before the divide.
+    ///
+    /// # Errors
+    /// If a perspective's near or far plane lies behind its eye.
+    pub fn view_to_clip(
+        self,
+        volume: Orthographic,
+        convention: Convention,
+    ) -> Result<Projective<View, Clip>, ProjectionError> {
+        let upright = convention.right_handed();
+        let fit = self.picture_box(volume)?.view_to_clip(upright);
+        Ok(upright.convert(convention, self.depth_kept().then(fit)))
+    }
+
+    /// The inverse of [`view_to_clip`](Self::view_to_clip), in closed form.
+    ///
+    /// # Errors
+    /// As for [`view_to_clip`](Self::view_to_clip).
+    pub fn clip_to_view(
+        self,
+        volume: Orthographic,
+        convention: Convention,
+    ) -> Result<Projective<Clip, View>, ProjectionError> {
+        let upright = convention.right_handed();
+        let unfit = self.picture_box(volume)?.clip_to_view(upright);
+        let inverse = convention.clip_to_clip(upright).then(unfit).then(self.depth_kept_inverse());
+        let turn = Affine::<View, View>::scale(1.0, 1.0, upright.ahead() * convention.ahead());
+        Ok(inverse.then(turn))
+    }
+
+    /// The box of the picture after the divide.
+    fn picture_box(self, volume: Orthographic) -> Result<Orthographic, ProjectionError> {
+        let Self::NPoint(perspective) = self else { return Ok(volume) };
+        let image = |parameter, distance: f64| {
+            let behind = ProjectionError::OutOfRange {
+                parameter,
+                value: distance,
+                allowed: "before the eye, where r z + 1 > 0 with z = −distance",
+            };
+            perspective.depth_on_axis(-distance).map(|z| -z).ok_or(behind)
+        };
+        let (near, far) = (image("near", volume.near())?, image("far", volume.far())?);
+        Orthographic::from_window(volume.window(), near, far)
+    }
+}
+
+impl From<PrincipalView> for Classical {
+    fn from(view: PrincipalView) -> Self {
+        Self::Multiview(view)
+    }
+}
+
+impl From<Axonometric> for Classical {
+    fn from(axonometric: Axonometric) -> Self {
+        Self::Axonometric(axonometric)
+    }
+}
+
+impl From<Oblique> for Classical {
+    fn from(oblique: Oblique) -> Self {
+        Self::Oblique(oblique)
+    }
+}
+
+impl From<Planometric> for Classical {
+    fn from(plan: Planometric) -> Self {
+        Self::Planometric(plan)
+    }
+}
+
+impl From<NPoint> for Classical {
+    fn from(perspective: NPoint) -> Self {
+        Self::NPoint(perspective)
+    }
+}

@@ -1,0 +1,180 @@
+//! Perspective constructed as draughtsmen do: vanishing points are chosen on the picture, the eye follows.
+//!
+//! ```text
+//!   three points:  the principal point is the orthocentre of their triangle,
+//!                  the eye's distance from it the height of the box corner above the triangle
+//!   two points:    the principal point lies on the horizon between them, the eye on the half circle over them
+//!   one point:     the principal point is the vanishing point
+//!
+//!   VP x ●──────────────┼──────● VP z     horizon
+//!         ╲      principal   ╱
+//!            ╲             ╱              d² = −(VPx − P)·(VPz − P)
+//!               ╲___●___╱  eye, turned down into the picture plane
+//! ```
+
+use crate::error::{finite, positive};
+use crate::{Frustum, ProjectionError, Window};
+use glam::DVec2;
+use homog::{Affine, Point, Vector, View, World};
+
+/// The eye and the attitude of the world that give three axes the chosen vanishing points.
+///
+/// The picture plane stands `distance` ahead of the eye; places on it are (x, y) in any unit and from any origin.
+///
+/// ```
+/// use homog::{Point, Vector};
+/// use projection::{ConstructedPerspective, Convention, Window, vanishing_point};
+/// let drawing = ConstructedPerspective::two_point((-3.0, 0.0), (2.0, 0.0), 0.6)?;
+/// let frustum = drawing.frustum(Window::new(-1.0, 1.0, -1.0, 1.0)?, 0.1, 100.0)?;
+/// let world_to_clip = drawing.world_to_view().then_project(frustum.view_to_clip(Convention::OPENGL));
+/// let right = vanishing_point(world_to_clip, Vector::Z)?.point().expect("finite");
+/// assert!((right.x() - 2.0).abs() < 1e-12 && right.y().abs() < 1e-12);
+/// # Ok::<(), projection::ProjectionError>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ConstructedPerspective {
+    principal: DVec2,
+    distance: f64,
+    axes: [Vector<View>; 3],
+}
+
+impl ConstructedPerspective {
+    /// One-point perspective: lines along z meet at `z`, the eye stands `distance` before it.
+    ///
+    /// # Errors
+    /// If a number is not finite, or the distance not above 0.
+    pub fn one_point(z: (f64, f64), distance: f64) -> Result<Self, ProjectionError> {
+        let principal = place("vanishing point of z", z)?;
+        positive("distance", distance)?;
+        Ok(Self { principal, distance, axes: [Vector::X, Vector::Y, Vector::Z] })
+    }
+
+    /// Two-point perspective: lines along x meet at `x`, those along z at `z`, and y stays in the picture plane.
+    ///
+    /// `fraction` says where between the two the principal point lies, 0 at `x` and 1 at `z`.
+    ///
+    /// # Errors
+    /// If a number is not finite, the points coincide, or the fraction is not between 0 and 1.
+    pub fn two_point(x: (f64, f64), z: (f64, f64), fraction: f64) -> Result<Self, ProjectionError> {
+        let (x, z) = (place("vanishing point of x", x)?, place("vanishing point of z", z)?);
+        if finite("fraction", fraction)? <= 0.0 || fraction >= 1.0 {
+            let allowed = "between 0 and 1, both excluded";
+            return Err(ProjectionError::OutOfRange {
+                parameter: "fraction",
+                value: fraction,
+                allowed,
+            });
+        }
+        let principal = x + (z - x) * fraction;
+        let horizon = z - x;
+        let length = libm::hypot(horizon.x, horizon.y);
+        let distance = length * libm::sqrt(fraction * (1.0 - fraction));
+        if !usable(distance) {
+            let reason = "the points coincide or lie too far apart";
+            return Err(ProjectionError::ImpossibleVanishingPoints { reason });
+        }
+        let across = DVec2::new(-horizon.y, horizon.x) / length;
+        let up = if across.y < 0.0 { -across } else { across };
+        let up = Vector::new(up.x, up.y, 0.0);
+        Self::oriented(principal, distance, up, into_picture(z - principal, distance)?)
+    }
+
+    /// Three-point perspective: lines along x, y and z meet at the three given points.
+    ///
+    /// # Errors
+    /// If a number is not finite, or the points are not the corners of a triangle with acute angles only.
+    pub fn three_point(
+        x: (f64, f64),
+        y: (f64, f64),
+        z: (f64, f64),
+    ) -> Result<Self, ProjectionError> {
+        let (x, y) = (place("vanishing point of x", x)?, place("vanishing point of y", y)?);
+        let z = place("vanishing point of z", z)?;
+        let impossible = |reason| ProjectionError::ImpossibleVanishingPoints { reason };
+        let principal = orthocentre(x, y, z).ok_or(impossible("they lie on one line"))?;
+        let [square_1, square_2, square_3] =
+            [(x, y), (y, z), (z, x)].map(|(a, b)| -(a - principal).dot(b - principal));
+        let square = (square_1 + square_2 + square_3) / 3.0;
+        let distance = libm::sqrt(square);
+        if square_1.min(square_2).min(square_3) <= 0.0 || !usable(distance) {
+            return Err(impossible("their triangle has an angle of 90° or more"));
+        }
+        let vertical = into_picture(y - principal, distance)?;
+        let up = if vertical.y() < 0.0 { -vertical } else { vertical };
+        Self::oriented(principal, distance, up, into_picture(z - principal, distance)?)
+    }
+
+    /// Lets z point out of the picture and x be what makes the world right-handed.
+    fn oriented(
+        principal: DVec2,
+        distance: f64,
+        up: Vector<View>,
+        into: Vector<View>,
+    ) -> Result<Self, ProjectionError> {
+        let out = -into;
+        let flat = ProjectionError::ImpossibleVanishingPoints {
+            reason: "the axes are not at right angles",
+        };
+        let right = up.cross(out).normalized().ok_or(flat)?;
+        Ok(Self { principal, distance, axes: [right, up, out] })
+    }
+
+    /// The foot of the perpendicular from the eye to the picture plane.
+    #[must_use]
+    pub fn principal_point(self) -> (f64, f64) {
+        self.principal.into()
+    }
+
+    /// The distance of the eye from the picture plane.
+    #[must_use]
+    pub const fn distance(self) -> f64 {
+        self.distance
+    }
+
+    /// The attitude of the world before the eye, which stands in the world's origin.
+    #[must_use]
+    pub fn world_to_view(self) -> Affine<World, View> {
+        let [x, y, z] = self.axes;
+        Affine::from_frame(x, y, z, Point::ORIGIN)
+    }
+
+    /// The frustum through `window`, a part of the picture in the coordinates of the vanishing points.
+    ///
+    /// # Errors
+    /// If not 0 < near < far.
+    pub fn frustum(self, window: Window, near: f64, far: f64) -> Result<Frustum, ProjectionError> {
+        let slope = |edge: f64, principal: f64| (edge - principal) / self.distance;
+        let slopes = Window::new(
+            slope(window.left(), self.principal.x),
+            slope(window.right(), self.principal.x),
+            slope(window.bottom(), self.principal.y),
+            slope(window.top(), self.principal.y),
+        )?;
+        Frustum::from_slopes(slopes, near, far)
+    }
+}
+
+fn place(parameter: &'static str, (x, y): (f64, f64)) -> Result<DVec2, ProjectionError> {
+    Ok(DVec2::new(finite(parameter, x)?, finite(parameter, y)?))
+}
+
+fn usable(distance: f64) -> bool {
+    (1e-140..1e140).contains(&distance)
+}
+
+/// The unit direction from the eye to a place of the picture plane.
+fn into_picture(from_principal: DVec2, distance: f64) -> Result<Vector<View>, ProjectionError> {
+    let direction = Vector::new(from_principal.x, from_principal.y, -distance);
+    direction.normalized().ok_or(ProjectionError::Unrepresentable { what: "vanishing point" })
+}
+
+/// Where the heights of the triangle meet; `None` for flat ones.
+fn orthocentre(a: DVec2, b: DVec2, c: DVec2) -> Option<DVec2> {
+    // (h − a)·(c − b) = 0 and (h − b)·(a − c) = 0
+    let (u, v) = (c - b, a - c);
+    let area = u.perp_dot(v);
+    let (left, right) = (a.dot(u), b.dot(v));
+    let h = DVec2::new(left * v.y - right * u.y, right * u.x - left * v.x) / area;
+    let flat = area.abs() <= 1e-12 * (u.length() * v.length());
+    (!flat && h.is_finite()).then_some(h)
+}

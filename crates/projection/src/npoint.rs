@@ -1,0 +1,148 @@
+//! One-, two- and three-point perspective by the bottom row (p, q, r, 1) (ONE-1, TWO-1, THREE-1; C82, C83).
+//!
+//! ```text
+//! [ 1 0 0 0 ]      each of p, q, r that is not 0 gives its axis a vanishing point: x at (1/p, 0, 0),
+//! [ 0 1 0 0 ]      y at (0, 1/q, 0), z at (0, 0, 1/r). What is drawn is z = 0 after the divide;
+//! [ 0 0 1 0 ]      points of the plane px + qy + rz = 0 stay where they are. The eye stands at (0, 0, −1/r),
+//! [ p q r 1 ]      or for r = 0 infinitely far away along z.
+//! ```
+//!
+//! One-point perspective from an eye (0, 0, d) is p = q = 0, r = −1/d. The factor d/(d − z) by which a point's image
+//! grows is below 1 behind the plane (z < 0), above 1 between plane and eye, and negative behind the eye (M20).
+
+use crate::ProjectionError;
+use crate::error::finite;
+use crate::matrix::{bounded, from_rows, invertible};
+use homog::{HPoint, Projective, View};
+
+/// A perspective by p, q and r.
+///
+/// # Guarantees
+/// p, q and r are finite and not all 0.
+///
+/// ```
+/// use homog::Point;
+/// use projection::NPoint;
+/// let eye_at_5 = NPoint::from_eye(5.0)?;
+/// let image = eye_at_5.onto_plane().point(Point::new(1.0, 2.0, 2.5)).divide();
+/// assert_eq!(image, Some(Point::new(2.0, 4.0, 0.0)));
+/// # Ok::<(), projection::ProjectionError>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct NPoint {
+    p: f64,
+    q: f64,
+    r: f64,
+}
+
+impl NPoint {
+    /// The perspective with bottom row (p, q, r, 1).
+    ///
+    /// # Errors
+    /// If a number is not finite, or all are 0.
+    pub fn new(p: f64, q: f64, r: f64) -> Result<Self, ProjectionError> {
+        for (parameter, value) in [("p", p), ("q", q), ("r", r)] {
+            finite(parameter, value)?;
+            if value != 0.0 && !invertible(value) {
+                return Err(ProjectionError::Unrepresentable { what: "vanishing point" });
+            }
+        }
+        if p == 0.0 && q == 0.0 && r == 0.0 {
+            return Err(ProjectionError::NoVanishingPoint);
+        }
+        Ok(Self { p, q, r })
+    }
+
+    /// The one-point perspective onto z = 0 from the eye (0, 0, d) (ONE-1).
+    ///
+    /// # Errors
+    /// If d is 0 or not finite.
+    pub fn from_eye(d: f64) -> Result<Self, ProjectionError> {
+        if finite("d", d)? == 0.0 {
+            return Err(ProjectionError::CentreOnPlane);
+        }
+        Self::new(0.0, 0.0, -1.0 / d)
+    }
+
+    /// The perspective whose axes vanish at (x, 0, 0), (0, y, 0) and (0, 0, z); `None` keeps an axis' lines parallel.
+    ///
+    /// # Errors
+    /// If a coordinate is 0 or not finite, or all are `None`.
+    pub fn by_vanishing_points(
+        x: Option<f64>,
+        y: Option<f64>,
+        z: Option<f64>,
+    ) -> Result<Self, ProjectionError> {
+        let reciprocal = |parameter, at: Option<f64>| match at {
+            None => Ok(0.0),
+            Some(0.0) => {
+                let allowed = "any coordinate but 0";
+                Err(ProjectionError::OutOfRange { parameter, value: 0.0, allowed })
+            }
+            Some(value) => Ok(1.0 / finite(parameter, value)?),
+        };
+        let x = reciprocal("vanishing point of x", x)?;
+        let y = reciprocal("vanishing point of y", y)?;
+        Self::new(x, y, reciprocal("vanishing point of z", z)?)
+    }
+
+    /// (p, q, r).
+    #[must_use]
+    pub const fn bottom_row(self) -> [f64; 3] {
+        [self.p, self.q, self.r]
+    }
+
+    /// How many of p, q, r are not 0: the number of principal vanishing points.
+    #[must_use]
+    pub fn count(self) -> usize {
+        self.bottom_row().iter().filter(|&&entry| entry != 0.0).count()
+    }
+
+    /// True if this is a real central projection onto z = 0: p = q = 0, so that points of that plane stay.
+    #[must_use]
+    pub fn keeps_picture_plane(self) -> bool {
+        self.p == 0.0 && self.q == 0.0
+    }
+
+    /// The eye: (0, 0, −1/r), or for r = 0 the direction of z.
+    #[must_use]
+    pub fn eye(self) -> HPoint<View> {
+        if self.r == 0.0 {
+            return HPoint::new(0.0, 0.0, 1.0, 0.0);
+        }
+        HPoint::new(0.0, 0.0, -1.0 / self.r, 1.0)
+    }
+
+    fn matrix(self, z: f64, sign: f64) -> Projective<View, View> {
+        Projective::from_raw(from_rows([
+            [1.0, 0.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0],
+            [0.0, 0.0, z, 0.0],
+            [sign * self.p, sign * self.q, sign * self.r, 1.0],
+        ]))
+    }
+
+    /// The map that keeps z before the divide; it has an inverse.
+    #[must_use]
+    pub fn depth_kept(self) -> Projective<View, View> {
+        self.matrix(1.0, 1.0)
+    }
+
+    /// Its inverse: the bottom row with p, q, r turned.
+    #[must_use]
+    pub fn depth_kept_inverse(self) -> Projective<View, View> {
+        self.matrix(1.0, -1.0)
+    }
+
+    /// The classical projection: z dropped. Singular.
+    #[must_use]
+    pub fn onto_plane(self) -> Projective<View, View> {
+        self.matrix(0.0, 1.0)
+    }
+
+    /// Where the divide puts a point of the line x = y = 0; `None` in the eye's plane and behind.
+    pub(crate) fn depth_on_axis(self, z: f64) -> Option<f64> {
+        let h = self.r * z + 1.0;
+        (h > 0.0 && bounded(z / h)).then_some(z / h)
+    }
+}

@@ -1,0 +1,274 @@
+//! Oblique projection: parallel projectors that meet the plane at a slant (OB-1, OB-2; C77..C79).
+//!
+//! ```text
+//!        y │   ● image of (0,0,1)        α  angle between projector and plane
+//!          │ ⟋ L1                        L1 = cot α, the image's length of a unit of depth
+//!          ⟋ φ                           φ  direction in which depth is drawn
+//!   ───────┼────── x
+//! ```
+//!
+//! Faces parallel to the plane keep their shape and size. Cavalier: L1 = 1, α = 45°; cabinet: L1 = ½, tan α = 2.
+
+use crate::ProjectionError;
+use crate::error::finite;
+use crate::matrix::{bounded, from_rows};
+use homog::{Affine, Vector, View};
+
+/// An oblique (or, with L1 = 0, the orthographic) projection onto a plane z = const.
+///
+/// # Guarantees
+/// The slant and the plane are finite.
+///
+/// ```
+/// use homog::Point;
+/// use projection::Oblique;
+/// let cabinet = Oblique::cabinet(0.0)?;
+/// // Half of the depth, drawn to the right.
+/// assert_eq!(cabinet.onto_plane().point(Point::new(1.0, 2.0, 3.0)), Point::new(2.5, 2.0, 0.0));
+/// # Ok::<(), projection::ProjectionError>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Oblique {
+    slant_x: f64,
+    slant_y: f64,
+    plane_z: f64,
+}
+
+/// Oblique projections by the drawn length of a unit of depth.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ObliqueKind {
+    /// L1 = 0: the projectors are perpendicular to the plane.
+    Orthographic,
+    /// L1 = 1: depth in full.
+    Cavalier,
+    /// L1 = ½: depth by half.
+    Cabinet,
+    /// Any other length.
+    General,
+}
+
+impl Oblique {
+    /// Onto z = 0, with a unit of depth drawn `length` long in direction `phi`, in radians counterclockwise from the
+    /// right (OB-1).
+    ///
+    /// # Errors
+    /// If a number is not finite, or the length below 0.
+    pub fn new(length: f64, phi: f64) -> Result<Self, ProjectionError> {
+        if finite("length", length)? < 0.0 {
+            let allowed = "0 or greater";
+            return Err(ProjectionError::OutOfRange {
+                parameter: "length",
+                value: length,
+                allowed,
+            });
+        }
+        let (sin, cos) = libm::sincos(finite("phi", phi)?);
+        Self::checked(length * cos, length * sin, 0.0)
+    }
+
+    /// Onto z = 0, with projectors at angle `alpha` to the plane and depth drawn in direction `phi`: L1 = cot α.
+    ///
+    /// # Errors
+    /// If an angle is not finite, or α not in (0, π/2].
+    pub fn by_angle(alpha: f64, phi: f64) -> Result<Self, ProjectionError> {
+        if finite("alpha", alpha)? <= 0.0 || alpha > core::f64::consts::FRAC_PI_2 {
+            let allowed = "above 0 and up to π/2 radians";
+            return Err(ProjectionError::OutOfRange { parameter: "alpha", value: alpha, allowed });
+        }
+        let (sin, cos) = libm::sincos(alpha);
+        Self::new((cos / sin).max(0.0), phi)
+    }
+
+    /// Onto the plane z = `plane_z` with projectors along `direction` (OB-2).
+    ///
+    /// # Errors
+    /// If a number is not finite, the direction is zero or parallel to the plane.
+    pub fn by_direction(direction: Vector<View>, plane_z: f64) -> Result<Self, ProjectionError> {
+        for value in <[f64; 3]>::from(direction) {
+            finite("direction", value)?;
+        }
+        if direction == Vector::ZERO {
+            return Err(ProjectionError::ZeroVector { parameter: "direction" });
+        }
+        if direction.z() == 0.0 {
+            return Err(ProjectionError::ParallelToPlane);
+        }
+        let (x, y) = (-direction.x() / direction.z(), -direction.y() / direction.z());
+        Self::checked(x, y, finite("plane z", plane_z)?)
+    }
+
+    /// Depth in full, in direction `phi` (usually 45° or 30°).
+    ///
+    /// # Errors
+    /// If the angle is not finite.
+    pub fn cavalier(phi: f64) -> Result<Self, ProjectionError> {
+        Self::new(1.0, phi)
+    }
+
+    /// Depth by half, in direction `phi` (usually 45° or 30°).
+    ///
+    /// # Errors
+    /// If the angle is not finite.
+    pub fn cabinet(phi: f64) -> Result<Self, ProjectionError> {
+        Self::new(0.5, phi)
+    }
+
+    fn checked(slant_x: f64, slant_y: f64, plane_z: f64) -> Result<Self, ProjectionError> {
+        let usable = [slant_x, slant_y, plane_z, slant_x * plane_z, slant_y * plane_z];
+        if usable.into_iter().all(bounded) {
+            Ok(Self { slant_x, slant_y, plane_z })
+        } else {
+            Err(ProjectionError::Unrepresentable { what: "slant" })
+        }
+    }
+
+    /// L1, the drawn length of a unit of depth.
+    #[must_use]
+    pub fn length(self) -> f64 {
+        libm::hypot(self.slant_x, self.slant_y)
+    }
+
+    /// φ, the direction in which depth is drawn; 0 for the orthographic projection.
+    #[must_use]
+    pub fn phi(self) -> f64 {
+        libm::atan2(self.slant_y, self.slant_x)
+    }
+
+    /// α, the angle between projectors and plane: π/2 for the orthographic projection.
+    #[must_use]
+    pub fn alpha(self) -> f64 {
+        libm::atan2(1.0, self.length())
+    }
+
+    /// The direction of the projectors, away from the viewer: (L1 cos φ, L1 sin φ, −1).
+    #[must_use]
+    pub const fn direction(self) -> Vector<View> {
+        Vector::new(self.slant_x, self.slant_y, -1.0)
+    }
+
+    /// The plane of projection is z = this.
+    #[must_use]
+    pub const fn plane_z(self) -> f64 {
+        self.plane_z
+    }
+
+    /// The kind by length, to twelve digits.
+    #[must_use]
+    pub fn kind(self) -> ObliqueKind {
+        let is = |length: f64| (self.length() - length).abs() < 1e-12;
+        match (is(0.0), is(1.0), is(0.5)) {
+            (true, ..) => ObliqueKind::Orthographic,
+            (_, true, _) => ObliqueKind::Cavalier,
+            (_, _, true) => ObliqueKind::Cabinet,
+            _ => ObliqueKind::General,
+        }
+    }
+
+    /// The shear that makes the projectors parallel to z and keeps z: x' = x + (z − z_p) L1 cos φ, y' alike.
+    #[must_use]
+    pub fn depth_kept(self) -> Affine<View, View> {
+        self.shear(self.slant_x, self.slant_y)
+    }
+
+    /// Its inverse: the opposite shear.
+    #[must_use]
+    pub fn depth_kept_inverse(self) -> Affine<View, View> {
+        self.shear(-self.slant_x, -self.slant_y)
+    }
+
+    fn shear(self, x: f64, y: f64) -> Affine<View, View> {
+        let rows = from_rows([
+            [1.0, 0.0, x, -x * self.plane_z],
+            [0.0, 1.0, y, -y * self.plane_z],
+            [0.0, 0.0, 1.0, 0.0],
+            [0.0, 0.0, 0.0, 1.0],
+        ]);
+        Affine::from_raw(rows).unwrap_or(Affine::IDENTITY)
+    }
+
+    /// The classical projection: every point to the plane z = z_p. Singular.
+    #[must_use]
+    pub fn onto_plane(self) -> Affine<View, View> {
+        let drop = Affine::<View, View>::scale(1.0, 1.0, 0.0);
+        let lift = Affine::translation(Vector::new(0.0, 0.0, self.plane_z));
+        self.depth_kept().then(drop).then(lift)
+    }
+}
+
+/// The plan oblique or planometric projection: the ground plan keeps its shape, heights are drawn straight up.
+///
+/// With a full height scale it is the military projection.
+///
+/// ```
+/// use homog::Point;
+/// use projection::Planometric;
+/// let military = Planometric::military(0.0)?;
+/// // x to the right, −z (away) up, and the height added to it.
+/// assert_eq!(military.onto_plane().point(Point::new(1.0, 2.0, -3.0)), Point::new(1.0, 5.0, 0.0));
+/// # Ok::<(), projection::ProjectionError>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Planometric {
+    turn: f64,
+    rise: Oblique,
+}
+
+impl Planometric {
+    /// The plan turned by `turn` radians counterclockwise, heights drawn `height` times as long.
+    ///
+    /// # Errors
+    /// If a number is not finite, or the height below 0.
+    pub fn new(turn: f64, height: f64) -> Result<Self, ProjectionError> {
+        finite("turn", turn)?;
+        if finite("height", height)? < 0.0 {
+            let allowed = "0 or greater";
+            return Err(ProjectionError::OutOfRange {
+                parameter: "height",
+                value: height,
+                allowed,
+            });
+        }
+        Ok(Self { turn, rise: Oblique::checked(0.0, height, 0.0)? })
+    }
+
+    /// The military projection: heights in full, the plan usually turned by 45° or 30°.
+    ///
+    /// # Errors
+    /// If the angle is not finite.
+    pub fn military(turn: f64) -> Result<Self, ProjectionError> {
+        Self::new(turn, 1.0)
+    }
+
+    /// The angle by which the plan is turned, in radians counterclockwise.
+    #[must_use]
+    pub const fn turn(self) -> f64 {
+        self.turn
+    }
+
+    /// How many times its length a height is drawn.
+    #[must_use]
+    pub const fn height(self) -> f64 {
+        self.rise.slant_y
+    }
+
+    /// Turned, seen from above, and sheared so that heights rise: z is the height.
+    #[must_use]
+    pub fn depth_kept(self) -> Affine<View, View> {
+        let from_above = crate::PrincipalView::Top.depth_kept();
+        Affine::<View, View>::rotation_y(self.turn).then(from_above).then(self.rise.depth_kept())
+    }
+
+    /// Its inverse.
+    #[must_use]
+    pub fn depth_kept_inverse(self) -> Affine<View, View> {
+        // The view from below turns the other way about x.
+        let from_front = crate::PrincipalView::Bottom.depth_kept();
+        self.rise.depth_kept_inverse().then(from_front).then(Affine::rotation_y(-self.turn))
+    }
+
+    /// The classical projection onto the picture, z = 0. Singular.
+    #[must_use]
+    pub fn onto_plane(self) -> Affine<View, View> {
+        self.depth_kept().then(Affine::scale(1.0, 1.0, 0.0))
+    }
+}

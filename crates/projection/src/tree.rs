@@ -1,0 +1,229 @@
+//! The classification tree of planar geometric projections (C73).
+//!
+//! ```text
+//! planar geometric projection
+//! ├── parallel
+//! │   ├── orthographic
+//! │   │   ├── multiview
+//! │   │   └── axonometric
+//! │   │       ├── isometric
+//! │   │       ├── dimetric
+//! │   │       └── trimetric
+//! │   └── oblique
+//! │       ├── cavalier
+//! │       ├── cabinet
+//! │       ├── military
+//! │       └── general oblique
+//! └── perspective
+//!     ├── one-point
+//!     ├── two-point
+//!     └── three-point
+//! ```
+
+use crate::{
+    Axonometric, AxonometricKind, Classical, NPoint, Oblique, ObliqueKind, Planometric,
+    PrincipalView, ProjectionError,
+};
+
+/// A node of the tree.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum ProjectionClass {
+    /// The root: straight projectors and a plane.
+    Planar,
+    /// The centre of projection is at infinity.
+    Parallel,
+    /// Parallel projectors perpendicular to the plane.
+    Orthographic,
+    /// The plane is parallel to a principal face.
+    Multiview,
+    /// The plane is parallel to no principal face.
+    Axonometric,
+    /// All three axes shrink alike.
+    Isometric,
+    /// Two axes shrink alike.
+    Dimetric,
+    /// No two axes shrink alike.
+    Trimetric,
+    /// Parallel projectors at a slant to the plane.
+    Oblique,
+    /// Depth drawn in full.
+    Cavalier,
+    /// Depth drawn by half.
+    Cabinet,
+    /// The ground plan in true shape, heights drawn in full.
+    Military,
+    /// Depth drawn with any other length.
+    GeneralOblique,
+    /// The centre of projection is at a finite place.
+    Perspective,
+    /// One axis meets the plane.
+    OnePoint,
+    /// Two axes meet the plane.
+    TwoPoint,
+    /// Three axes meet the plane.
+    ThreePoint,
+}
+
+impl ProjectionClass {
+    /// All nodes, parents before their children and siblings in order.
+    pub const ALL: [Self; 17] = [
+        Self::Planar,
+        Self::Parallel,
+        Self::Orthographic,
+        Self::Multiview,
+        Self::Axonometric,
+        Self::Isometric,
+        Self::Dimetric,
+        Self::Trimetric,
+        Self::Oblique,
+        Self::Cavalier,
+        Self::Cabinet,
+        Self::Military,
+        Self::GeneralOblique,
+        Self::Perspective,
+        Self::OnePoint,
+        Self::TwoPoint,
+        Self::ThreePoint,
+    ];
+
+    /// The usual name.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Planar => "planar geometric projection",
+            Self::Parallel => "parallel",
+            Self::Orthographic => "orthographic",
+            Self::Multiview => "multiview",
+            Self::Axonometric => "axonometric",
+            Self::Isometric => "isometric",
+            Self::Dimetric => "dimetric",
+            Self::Trimetric => "trimetric",
+            Self::Oblique => "oblique",
+            Self::Cavalier => "cavalier",
+            Self::Cabinet => "cabinet",
+            Self::Military => "military",
+            Self::GeneralOblique => "general oblique",
+            Self::Perspective => "perspective",
+            Self::OnePoint => "one-point",
+            Self::TwoPoint => "two-point",
+            Self::ThreePoint => "three-point",
+        }
+    }
+
+    /// The class this one belongs to; `None` for the root.
+    #[must_use]
+    pub const fn parent(self) -> Option<Self> {
+        match self {
+            Self::Planar => None,
+            Self::Parallel | Self::Perspective => Some(Self::Planar),
+            Self::Orthographic | Self::Oblique => Some(Self::Parallel),
+            Self::Multiview | Self::Axonometric => Some(Self::Orthographic),
+            Self::Isometric | Self::Dimetric | Self::Trimetric => Some(Self::Axonometric),
+            Self::Cavalier | Self::Cabinet | Self::Military | Self::GeneralOblique => {
+                Some(Self::Oblique)
+            }
+            Self::OnePoint | Self::TwoPoint | Self::ThreePoint => Some(Self::Perspective),
+        }
+    }
+
+    /// The classes directly below this one, in order.
+    pub fn children(self) -> impl Iterator<Item = Self> {
+        Self::ALL.into_iter().filter(move |class| class.parent() == Some(self))
+    }
+
+    /// This class, its parent, and so on to the root.
+    pub fn ancestors(self) -> impl Iterator<Item = Self> {
+        core::iter::successors(Some(self), |class| class.parent())
+    }
+
+    /// True if no class lies below this one.
+    #[must_use]
+    pub fn is_leaf(self) -> bool {
+        self.children().next().is_none()
+    }
+
+    /// The builder that makes projections of this class, for the leaves.
+    #[must_use]
+    pub const fn builder(self) -> Option<&'static str> {
+        Some(match self {
+            Self::Multiview => "PrincipalView::{Front, Back, Right, Left, Top, Bottom}",
+            Self::Isometric => "Axonometric::isometric()",
+            Self::Dimetric => {
+                "Axonometric::by_foreshortening(x, y, z), two equal; Axonometric::dimetric_42_7()"
+            }
+            Self::Trimetric => "Axonometric::by_foreshortening(x, y, z), all different",
+            Self::Cavalier => "Oblique::cavalier(phi)",
+            Self::Cabinet => "Oblique::cabinet(phi)",
+            Self::Military => "Planometric::military(turn)",
+            Self::GeneralOblique => {
+                "Oblique::new(length, phi), by_angle(alpha, phi), by_direction(direction, z)"
+            }
+            Self::OnePoint => "NPoint::from_eye(d), ConstructedPerspective::one_point",
+            Self::TwoPoint => "NPoint::new(0, q, r), ConstructedPerspective::two_point",
+            Self::ThreePoint => "NPoint::new(p, q, r), ConstructedPerspective::three_point",
+            Self::Planar
+            | Self::Parallel
+            | Self::Orthographic
+            | Self::Axonometric
+            | Self::Oblique
+            | Self::Perspective => return None,
+        })
+    }
+
+    /// A typical projection of this class, for the leaves: what a gallery shows.
+    #[must_use]
+    pub fn example(self) -> Option<Classical> {
+        let typical: Result<Classical, ProjectionError> = match self {
+            Self::Multiview => Ok(PrincipalView::Front.into()),
+            Self::Isometric => Ok(Axonometric::isometric().into()),
+            Self::Dimetric => Ok(Axonometric::dimetric_42_7().into()),
+            Self::Trimetric => Axonometric::by_foreshortening(1.0, 0.9, 0.6).map(Into::into),
+            Self::Cavalier => Oblique::cavalier(DEGREES_45).map(Into::into),
+            Self::Cabinet => Oblique::cabinet(DEGREES_45).map(Into::into),
+            Self::Military => Planometric::military(DEGREES_45).map(Into::into),
+            Self::GeneralOblique => Oblique::new(0.7, DEGREES_45).map(Into::into),
+            Self::OnePoint => NPoint::from_eye(5.0).map(Into::into),
+            Self::TwoPoint => NPoint::new(0.1, 0.0, -0.15).map(Into::into),
+            Self::ThreePoint => NPoint::new(0.1, -0.08, -0.15).map(Into::into),
+            Self::Planar
+            | Self::Parallel
+            | Self::Orthographic
+            | Self::Axonometric
+            | Self::Oblique
+            | Self::Perspective => return None,
+        };
+        typical.ok()
+    }
+}
+
+const DEGREES_45: f64 = core::f64::consts::FRAC_PI_4;
+
+impl Classical {
+    /// The leaf of the tree this projection belongs to.
+    #[must_use]
+    pub fn class(self) -> ProjectionClass {
+        match self {
+            Self::Multiview(_) => ProjectionClass::Multiview,
+            Self::Axonometric(axonometric) => match axonometric.kind() {
+                AxonometricKind::Isometric => ProjectionClass::Isometric,
+                AxonometricKind::Dimetric => ProjectionClass::Dimetric,
+                AxonometricKind::Trimetric => ProjectionClass::Trimetric,
+                AxonometricKind::Multiview => ProjectionClass::Multiview,
+            },
+            Self::Oblique(oblique) => match oblique.kind() {
+                ObliqueKind::Orthographic => ProjectionClass::Multiview,
+                ObliqueKind::Cavalier => ProjectionClass::Cavalier,
+                ObliqueKind::Cabinet => ProjectionClass::Cabinet,
+                ObliqueKind::General => ProjectionClass::GeneralOblique,
+            },
+            Self::Planometric(plan) if plan.height() == 0.0 => ProjectionClass::Multiview,
+            Self::Planometric(plan) if plan.height() == 1.0 => ProjectionClass::Military,
+            Self::Planometric(_) => ProjectionClass::GeneralOblique,
+            Self::NPoint(perspective) => match perspective.count() {
+                1 => ProjectionClass::OnePoint,
+                2 => ProjectionClass::TwoPoint,
+                _ => ProjectionClass::ThreePoint,
+            },
+        }
+    }
+}
