@@ -8,6 +8,7 @@ mod instance;
 mod material;
 mod mesh;
 mod posed;
+mod shown;
 
 pub use image::{Filter, Image, Mipmap, Sampler, Texture, Wrap};
 pub use instance::Instance;

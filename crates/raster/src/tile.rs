@@ -37,7 +37,7 @@ impl Tile {
     ) {
         let size = rect.width() * rect.height() * frame.samples.count();
         self.depth.clear();
-        self.depth.resize(size, 0.0);
+        self.depth.resize(size, f32::NEG_INFINITY);
         self.piece.clear();
         self.piece.resize(size, NOTHING);
         self.layers.clear();

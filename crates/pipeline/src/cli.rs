@@ -1,0 +1,26 @@
+//! The command line: what may be asked for, and who does it.
+
+mod args;
+mod failure;
+mod info;
+mod progress;
+mod render;
+
+pub(crate) use args::Args;
+pub(crate) use failure::Failure;
+
+use args::Command;
+use std::io::Write;
+
+/// Does what was asked for.
+pub(crate) fn run(args: Args) -> Result<(), Failure> {
+    match args.command {
+        Command::Render(args) => render::run(&args),
+        Command::Info(args) => info::run(&args),
+    }
+}
+
+/// Tells the person something on the standard error stream. That the stream may be closed is no reason to fail.
+pub(crate) fn complain(level: &str, message: &str) {
+    let _ = writeln!(std::io::stderr(), "{level}: {message}");
+}

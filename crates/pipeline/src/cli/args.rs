@@ -1,0 +1,117 @@
+//! Flags and arguments.
+
+use clap::{Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Pictures of glTF models, without a GPU, a display or a browser.
+///
+/// The same input gives the same bytes on every machine, whatever the number of threads.
+#[derive(Debug, Parser)]
+#[command(name = "alberti", version, max_term_width = 100, after_help = EXAMPLES)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  alberti render model.glb                        a picture in model.png, framed and lit
+  alberti render model.glb --view front --size 512x512 -o thumb.png
+  alberti render scene.ron                        a scene: models, camera, lights, style
+  alberti info model.glb                          what is in the file
+
+Exit codes: 0 done, 1 the input or the work failed (no output file is touched), 2 wrong usage.";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Render a scene file or a bare model to a PNG
+    Render(RenderArgs),
+    /// Tell what is in a model: meshes, bounds, cameras, materials, extensions
+    Info(InfoArgs),
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct RenderArgs {
+    /// A scene (.ron) or a model (.gltf, .glb)
+    pub(crate) input: PathBuf,
+    /// Where the picture goes [default: the input's name with .png, in the current folder]
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+    /// Width and height in pixels, such as 1920x1080
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub(crate) size: Option<(u32, u32)>,
+    /// How surfaces are drawn
+    #[arg(long)]
+    pub(crate) style: Option<StyleArg>,
+    /// A camera of the model, by name or by number from 0
+    #[arg(long, value_name = "NAME|INDEX", conflicts_with = "view")]
+    pub(crate) camera: Option<String>,
+    /// Frame everything from this side
+    #[arg(long)]
+    pub(crate) view: Option<ViewArg>,
+    /// The projection
+    #[arg(long)]
+    pub(crate) projection: Option<ProjectionArg>,
+    /// What is seen where no model is: transparent, or a colour such as #f4f1ea
+    #[arg(long, value_name = "COLOR")]
+    pub(crate) background: Option<String>,
+    /// Coverage samples per pixel: 1, 4, 8 or 16
+    #[arg(long, value_name = "N")]
+    pub(crate) samples: Option<u32>,
+    /// Threads to use; the picture does not depend on it [default: as many as there are cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub(crate) threads: Option<u16>,
+    /// Let the scene's paths lead out of its folder
+    #[arg(long)]
+    pub(crate) allow_outside: bool,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct InfoArgs {
+    /// A model (.gltf, .glb)
+    pub(crate) file: PathBuf,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum StyleArg {
+    /// Lit, with the smooth normals of the file
+    Shaded,
+    /// Lit, each triangle with one normal
+    Flat,
+    /// The edges of all triangles
+    Wireframe,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum ViewArg {
+    Front,
+    Back,
+    Left,
+    Right,
+    Top,
+    Bottom,
+    /// From the front, a little from the right and from above
+    ThreeQuarter,
+    /// All three axes shortened alike
+    #[value(alias = "iso")]
+    Isometric,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum ProjectionArg {
+    /// What is farther away is smaller
+    Perspective,
+    /// Parallel, at right angles to the picture
+    Orthographic,
+}
+
+fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let fault =
+        || format!("expected WIDTHxHEIGHT, such as 1920x1080, each from 1 to {}", raster::MAX_SIDE);
+    let (width, height) = text.split_once(['x', 'X']).ok_or_else(fault)?;
+    let side = |digits: &str| {
+        let side: u32 = digits.parse().map_err(|_| fault())?;
+        (1..=raster::MAX_SIDE).contains(&side).then_some(side).ok_or_else(fault)
+    };
+    Ok((side(width)?, side(height)?))
+}

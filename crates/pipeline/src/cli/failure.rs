@@ -1,0 +1,21 @@
+//! What can go wrong in the program.
+
+use pipeline::import::ImportError;
+use pipeline::{OutputError, RenderError, ResolveError};
+
+/// A failed run; its message is what the person sees.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Failure {
+    #[error(transparent)]
+    Resolve(#[from] ResolveError),
+    #[error(transparent)]
+    Import(#[from] ImportError),
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    #[error("cannot write to the standard output: {0}")]
+    Stdout(#[from] std::io::Error),
+    #[error("{0}")]
+    Usage(String),
+}

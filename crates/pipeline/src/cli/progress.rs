@@ -1,0 +1,61 @@
+//! Progress on a terminal: what is being done, once it takes longer than a moment. Silent in a pipe.
+
+use std::io::{IsTerminal, Write};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+/// How long work may take before anything is said.
+const MOMENT: Duration = Duration::from_millis(400);
+/// How often the time is told.
+const TICK: Duration = Duration::from_millis(100);
+
+/// A line on the terminal that says what is being done and since when; it is gone when the work is.
+#[derive(Debug)]
+pub(crate) struct Progress {
+    stages: Option<(Sender<&'static str>, JoinHandle<()>)>,
+}
+
+impl Progress {
+    /// Starts to watch the work, if there is a terminal to show it on.
+    pub(crate) fn start(stage: &'static str) -> Self {
+        if !std::io::stderr().is_terminal() {
+            return Self { stages: None };
+        }
+        let (sender, receiver) = channel();
+        let watcher = std::thread::spawn(move || {
+            let (mut stage, begin) = (stage, Instant::now());
+            loop {
+                match receiver.recv_timeout(TICK) {
+                    Ok(next) => stage = next,
+                    Err(RecvTimeoutError::Timeout) if begin.elapsed() > MOMENT => {
+                        let seconds = begin.elapsed().as_secs_f32();
+                        let _ = write!(std::io::stderr(), "\r\x1b[K{stage} … {seconds:.1} s");
+                    }
+                    Err(RecvTimeoutError::Timeout) => {}
+                    Err(RecvTimeoutError::Disconnected) => break,
+                }
+            }
+            if begin.elapsed() > MOMENT {
+                let _ = write!(std::io::stderr(), "\r\x1b[K");
+            }
+        });
+        Self { stages: Some((sender, watcher)) }
+    }
+
+    /// The work has come to another stage.
+    pub(crate) fn stage(&self, stage: &'static str) {
+        if let Some((sender, _)) = &self.stages {
+            let _ = sender.send(stage);
+        }
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        if let Some((sender, watcher)) = self.stages.take() {
+            drop(sender);
+            let _ = watcher.join();
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! `alberti render`: a scene or a bare model becomes a PNG.
+
+use super::args::{ProjectionArg, RenderArgs, StyleArg, ViewArg};
+use super::progress::Progress;
+use super::{Failure, complain};
+use pipeline::scene::ResolveOptions;
+use pipeline::scene::file::{
+    BackgroundFile, CameraChoice, FromFile, ProjectionFile, SceneFile, StyleFile, ViewFile,
+};
+use pipeline::{Origin, Scene, render};
+use std::path::{Path, PathBuf};
+
+/// The most warnings of one model that are told; the rest is counted.
+const MOST_WARNINGS: usize = 8;
+
+pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
+    let output = output_of(args)?;
+    let progress = Progress::start("loading");
+    let (origin, mut file) = open(&args.input)?;
+    override_with(&mut file, args);
+    let options = ResolveOptions { allow_outside: args.allow_outside, ..ResolveOptions::default() };
+    let scene = Scene::resolve(&origin, &file, &options)?;
+    progress.stage("rendering");
+    let picture = render(&scene, threads(args))?;
+    progress.stage("writing");
+    picture.write_png(&output)?;
+    drop(progress);
+    warn(&scene);
+    Ok(())
+}
+
+fn open(input: &Path) -> Result<(Origin, SceneFile), Failure> {
+    let is_scene = input.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"));
+    if is_scene { Ok(Origin::read(input)?) } else { Ok(Origin::bare_model(input)) }
+}
+
+fn output_of(args: &RenderArgs) -> Result<PathBuf, Failure> {
+    if let Some(output) = &args.output {
+        let is_png = output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
+        let fault = || format!("the output {} does not end in .png", output.display());
+        return is_png.then(|| output.clone()).ok_or_else(|| Failure::Usage(fault()));
+    }
+    let stem = args.input.file_stem();
+    let stem = stem.ok_or_else(|| Failure::Usage("name the output with -o FILE".to_owned()))?;
+    let mut name = stem.to_owned();
+    name.push(".png");
+    Ok(PathBuf::from(name))
+}
+
+fn threads(args: &RenderArgs) -> usize {
+    let all = || std::thread::available_parallelism().map_or(1, Into::into);
+    args.threads.map_or_else(all, usize::from)
+}
+
+/// What the flags say goes before what the scene says.
+fn override_with(file: &mut SceneFile, args: &RenderArgs) {
+    if let Some(size) = args.size {
+        file.image.size = size;
+    }
+    if let Some(samples) = args.samples {
+        file.image.samples = samples;
+    }
+    if let Some(text) = &args.background {
+        let transparent = text.eq_ignore_ascii_case("transparent");
+        let color = BackgroundFile::Color(text.clone());
+        file.image.background = if transparent { BackgroundFile::Transparent } else { color };
+    }
+    if let Some(style) = args.style {
+        file.style = match style {
+            StyleArg::Shaded => StyleFile::Shaded,
+            StyleArg::Flat => StyleFile::Flat,
+            StyleArg::Wireframe => StyleFile::Wireframe,
+        };
+    }
+    if let Some(camera) = &args.camera {
+        let by_name = || CameraChoice::Name(camera.clone());
+        let choice = camera.parse().map_or_else(|_| by_name(), CameraChoice::Index);
+        file.camera.view = ViewFile::FromModel(choice);
+    }
+    if let Some(view) = args.view {
+        let padding_percent = match &file.camera.view {
+            ViewFile::Frame { padding_percent, .. } => *padding_percent,
+            _ => pipeline::scene::file::USUAL_PADDING,
+        };
+        file.camera.view = ViewFile::Frame { from: side(view), padding_percent };
+    }
+    if let Some(projection) = args.projection {
+        file.camera.projection = Some(match projection {
+            ProjectionArg::Perspective => ProjectionFile::PERSPECTIVE,
+            ProjectionArg::Orthographic => ProjectionFile::ORTHOGRAPHIC,
+        });
+    }
+}
+
+fn side(view: ViewArg) -> FromFile {
+    match view {
+        ViewArg::Front => FromFile::Front,
+        ViewArg::Back => FromFile::Back,
+        ViewArg::Left => FromFile::Left,
+        ViewArg::Right => FromFile::Right,
+        ViewArg::Top => FromFile::Top,
+        ViewArg::Bottom => FromFile::Bottom,
+        ViewArg::ThreeQuarter => FromFile::ThreeQuarter,
+        ViewArg::Isometric => FromFile::Isometric,
+    }
+}
+
+fn warn(scene: &Scene) {
+    let mut told: Vec<&str> = Vec::new();
+    for placed in &scene.models {
+        let model = &placed.model;
+        if told.contains(&model.name.as_str()) {
+            continue;
+        }
+        told.push(&model.name);
+        for warning in model.warnings.iter().take(MOST_WARNINGS) {
+            let message = format!("{}: {}: {}", model.name, warning.pointer, warning.message);
+            complain("warning", &message);
+        }
+        let rest = model.warnings.len().saturating_sub(MOST_WARNINGS);
+        if rest > 0 {
+            complain("warning", &format!("{}: {rest} more warnings", model.name));
+        }
+    }
+}

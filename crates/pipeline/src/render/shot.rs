@@ -1,0 +1,58 @@
+//! A shot: camera and projection together, as the stages want them.
+
+use camera::Camera;
+use glam::{DVec3, DVec4, Vec4Swizzles};
+use homog::{Clip, HPoint, Projective, View, World};
+
+/// Where the picture is taken from, and by which projection.
+#[derive(Clone, Copy, Debug)]
+pub struct Shot {
+    /// The camera.
+    pub camera: Camera,
+    /// The projection in the pipeline's convention: the chapter's canonical volume with w > 0 in front (PE-3).
+    pub view_to_clip: Projective<View, Clip>,
+}
+
+impl Shot {
+    /// From the world to clip space.
+    #[must_use]
+    pub fn world_to_clip(&self) -> Projective<World, Clip> {
+        self.camera.world_to_view().then_project(self.view_to_clip)
+    }
+
+    /// Where the viewer is: the eye, or in a parallel projection the direction towards it, a point at infinity.
+    ///
+    /// It is the one point that has no image: the rows of x, y and w of the matrix all give 0 for it.
+    #[must_use]
+    pub fn viewer(&self) -> HPoint<World> {
+        let viewer = self.blind_point();
+        let towards = self.camera.w().raw();
+        let backwards =
+            if viewer.w == 0.0 { viewer.truncate().dot(towards) < 0.0 } else { viewer.w < 0.0 };
+        let viewer = if backwards { -viewer } else { viewer };
+        HPoint::from_raw(if viewer.w == 0.0 { viewer } else { viewer / viewer.w })
+    }
+
+    /// Whether the picture shows the world as in a mirror: a window with left and right (or bottom and top) exchanged.
+    #[must_use]
+    pub fn mirrors(&self) -> bool {
+        self.blind_point().dot(self.viewer().raw()) < 0.0
+    }
+
+    /// The point without an image, as the product of the rows of x, y and w in four dimensions. Its sign tells mirrored
+    /// pictures from others, for three points a, b, c then have det(x, y, w rows of their images) = det(a, b, c, this).
+    fn blind_point(&self) -> DVec4 {
+        let m = self.world_to_clip().raw();
+        let rows = [m.row(0), m.row(1), m.row(3)];
+        let minor = |kept: fn(DVec4) -> DVec3| {
+            let [x, y, w] = rows.map(kept);
+            x.dot(y.cross(w))
+        };
+        DVec4::new(
+            -minor(|row| row.yzw()),
+            minor(|row| row.xzw()),
+            -minor(|row| row.xyw()),
+            minor(|row| row.xyz()),
+        )
+    }
+}

@@ -1,0 +1,37 @@
+//! The textures of a scene, each with its mip chain, built once before drawing.
+
+use crate::model::{Image, Model, Texture};
+use crate::scene::Scene;
+use crate::shade::MipChain;
+
+/// For each model of the scene, the chains of its textures; `None` for those that no material reads.
+#[derive(Debug)]
+pub(super) struct Textures<'a> {
+    chains: Vec<Vec<Option<MipChain<'a>>>>,
+}
+
+impl<'a> Textures<'a> {
+    pub(super) fn of(scene: &'a Scene) -> Self {
+        Self { chains: scene.models.iter().map(|placed| chains(&placed.model)).collect() }
+    }
+
+    /// The chain of a texture of the scene's n-th model.
+    pub(super) fn chain(&self, model: usize, texture: usize) -> Option<&MipChain<'a>> {
+        self.chains.get(model)?.get(texture)?.as_ref()
+    }
+}
+
+fn chains(model: &Model) -> Vec<Option<MipChain<'_>>> {
+    let mut used = vec![false; model.textures.len()];
+    for material in &model.materials {
+        if let Some(texture) = &material.base_color_texture {
+            used[texture.texture] = true;
+        }
+    }
+    let image =
+        |texture: &Texture| -> Option<&Image> { model.images.get(texture.image?)?.as_ref() };
+    let chain = |(texture, used): (&Texture, bool)| {
+        used.then(|| image(texture)).flatten().map(|image| MipChain::new(image, texture.sampler))
+    };
+    model.textures.iter().zip(used).map(chain).collect()
+}

@@ -1,0 +1,97 @@
+//! Scenes: what is drawn, from where, in what light.
+//!
+//! A scene is written in a file ([`SceneFile`], RON, by people) and resolved ([`Scene`]): models are loaded, angles are
+//! radians, every default is decided, and what does not make sense has become an error that points at its place.
+
+mod bounds;
+mod error;
+pub mod file;
+mod locate;
+mod number;
+mod origin;
+mod parse;
+mod resolve;
+mod viewpoint;
+
+pub use error::SceneError;
+pub use file::SceneFile;
+pub use origin::Origin;
+pub use parse::parse;
+pub use resolve::ResolveOptions;
+
+use crate::import::ImportError;
+use crate::model::Model;
+use crate::render::Shot;
+use crate::shade::Light;
+use homog::{Affine, Model as ModelSpace, World};
+use raster::Samples;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A resolved scene: all that drawing needs.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The models in their places.
+    pub models: Vec<Placed>,
+    /// Camera and projection.
+    pub shot: Shot,
+    /// The lights.
+    pub lights: Vec<Light>,
+    /// How surfaces are drawn.
+    pub style: Style,
+    /// The picture to make.
+    pub image: ImageSpec,
+}
+
+/// A model in its place.
+#[derive(Clone, Debug)]
+pub struct Placed {
+    /// The model; scenes that show it several times share it.
+    pub model: Arc<Model>,
+    /// Where it is.
+    pub model_to_world: Affine<ModelSpace, World>,
+}
+
+/// How surfaces are drawn.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Style {
+    /// Lit, with smooth normals where the file has them.
+    Shaded,
+    /// Lit, one normal for each triangle.
+    Flat,
+    /// The edges of all triangles.
+    Wireframe,
+}
+
+/// The picture to make.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ImageSpec {
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+    /// What is seen where no model is: linear, multiplied by alpha.
+    pub background: [f32; 4],
+    /// Coverage samples per pixel.
+    pub samples: Samples,
+}
+
+/// A scene that cannot be resolved.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ResolveError {
+    /// The scene file says something that makes no sense.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A model cannot be loaded.
+    #[error(transparent)]
+    Model(#[from] ImportError),
+    /// The scene file cannot be read.
+    #[error("cannot read {}: {cause}", path.display())]
+    Unreadable {
+        /// The scene file.
+        path: PathBuf,
+        /// Why it could not be read.
+        cause: std::io::Error,
+    },
+}

@@ -1,0 +1,52 @@
+//! The places that a scene's geometry takes up: what framing and automatic depth ranges are made from.
+
+use super::Placed;
+use camera::Camera;
+use homog::{Point, World};
+
+/// Every vertex that some point, line or triangle of the scene uses, in the world.
+pub(super) fn world_points(models: &[Placed]) -> Vec<Point<World>> {
+    let in_world = |placed: &Placed| {
+        let to_world = placed.model_to_world;
+        placed.model.shown_points().into_iter().map(move |point| to_world.point(point))
+    };
+    models.iter().flat_map(in_world).collect()
+}
+
+/// How far along the gaze the scene begins and ends.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct DepthSpan {
+    pub(super) nearest: f64,
+    pub(super) farthest: f64,
+}
+
+impl DepthSpan {
+    /// The span of `points` as seen by `camera`; from 0 to 1 if there are none.
+    pub(super) fn of(points: &[Point<World>], camera: Camera) -> Self {
+        let world_to_view = camera.world_to_view();
+        let distances = points.iter().map(|&point| -world_to_view.point(point).z());
+        let none = Self { nearest: f64::INFINITY, farthest: f64::NEG_INFINITY };
+        let span = distances.fold(none, |span, distance| Self {
+            nearest: span.nearest.min(distance),
+            farthest: span.farthest.max(distance),
+        });
+        if span.nearest <= span.farthest { span } else { Self { nearest: 0.0, farthest: 1.0 } }
+    }
+
+    /// Near and far planes for an eye in front of which the scene lies or which is inside it: tight, with a hundredth of
+    /// room, the near plane no nearer than what depth can still tell apart.
+    pub(super) fn perspective(self, near: Option<f64>, far: Option<f64>) -> (f64, f64) {
+        let farthest = far.unwrap_or(if self.farthest > 0.0 { self.farthest * 1.01 } else { 1.0 });
+        let near = near.unwrap_or((self.nearest * 0.99).max(farthest * 1e-5));
+        let far = far.unwrap_or(if farthest > near { farthest } else { near * 2.0 });
+        (near, far)
+    }
+
+    /// Near and far planes for a parallel projection; they may lie behind the eye.
+    pub(super) fn parallel(self, near: Option<f64>, far: Option<f64>) -> (f64, f64) {
+        let size = self.nearest.abs().max(self.farthest.abs());
+        let room = (self.farthest - self.nearest).max(size * 1e-6).max(1e-9) * 0.01;
+        let near_plane = near.unwrap_or(self.nearest - room);
+        (near_plane, far.unwrap_or((self.farthest + room).max(near_plane + room)))
+    }
+}

@@ -1,0 +1,165 @@
+//! From what a person wrote to what drawing needs, or to an error that points.
+
+use super::file::{BackgroundFile, LightFile, ModelFile, StyleFile};
+use super::locate::Step::{Field, Index};
+use super::viewpoint::resolve_shot;
+use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile, Style};
+use crate::color::parse_hex;
+use crate::import::{ImportOptions, load};
+use crate::model::Model;
+use crate::render::Shot;
+use crate::shade::Light;
+use homog::{Affine, Model as ModelSpace, Vector, World};
+use raster::Samples;
+use std::collections::BTreeMap;
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+
+/// How a scene is resolved.
+#[derive(Clone, Debug, Default)]
+pub struct ResolveOptions {
+    /// How models are loaded.
+    pub import: ImportOptions,
+    /// Whether paths of a scene file may lead out of its folder.
+    pub allow_outside: bool,
+}
+
+impl Scene {
+    /// Loads the models of a scene and decides everything that the file leaves open.
+    ///
+    /// # Errors
+    /// If a model cannot be loaded or something makes no sense; the error points at its place in the file.
+    pub fn resolve(
+        origin: &Origin,
+        file: &SceneFile,
+        options: &ResolveOptions,
+    ) -> Result<Self, ResolveError> {
+        let image = resolve_image(origin, file)?;
+        let models = load_models(origin, file, options)?;
+        let shot = resolve_shot(origin, &file.camera, &models, image)?;
+        let lights = resolve_lights(origin, file, &shot)?;
+        let style = match file.style {
+            StyleFile::Shaded => Style::Shaded,
+            StyleFile::Flat => Style::Flat,
+            StyleFile::Wireframe => Style::Wireframe,
+        };
+        Ok(Self { models, shot, lights, style, image })
+    }
+}
+
+fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSpec, SceneError> {
+    let (width, height) = file.image.size;
+    let fits = |side: u32| (1..=raster::MAX_SIDE).contains(&side);
+    if !fits(width) || !fits(height) {
+        let message = format!("a picture cannot have {width} x {height} pixels");
+        let help = format!("each side must be between 1 and {}", raster::MAX_SIDE);
+        return Err(origin.fault(&[Field("image"), Field("size")], message, Some(help)));
+    }
+    let samples = Samples::from_count(file.image.samples).ok_or_else(|| {
+        let message = format!("a pixel cannot have {} samples", file.image.samples);
+        let help = Some("possible are 1, 4, 8 and 16".to_owned());
+        origin.fault(&[Field("image"), Field("samples")], message, help)
+    })?;
+    let background = match &file.image.background {
+        BackgroundFile::Transparent => [0.0; 4],
+        BackgroundFile::Color(text) => {
+            let [r, g, b] = parse_hex(text).ok_or_else(|| {
+                let message = format!("`{text}` is no colour");
+                let help = Some("write #rgb or #rrggbb, such as #f4f1ea".to_owned());
+                origin.fault(&[Field("image"), Field("background")], message, help)
+            })?;
+            [r, g, b, 1.0]
+        }
+    };
+    Ok(ImageSpec { width, height, background, samples })
+}
+
+fn load_models(
+    origin: &Origin,
+    file: &SceneFile,
+    options: &ResolveOptions,
+) -> Result<Vec<Placed>, ResolveError> {
+    if file.models.is_empty() {
+        let help = Some("add one: models: [(path: \"…\")]".to_owned());
+        return Err(origin.fault(&[Field("models")], "a scene needs a model", help).into());
+    }
+    let mut loaded: BTreeMap<PathBuf, Arc<Model>> = BTreeMap::new();
+    let mut models = Vec::new();
+    for (number, entry) in file.models.iter().enumerate() {
+        let at = [Field("models"), Index(number), Field("path")];
+        if !options.allow_outside && leaves_folder(Path::new(&entry.path)) {
+            let help = "keep models below the scene's folder, or allow others with --allow-outside";
+            let message = format!("the path \"{}\" leads out of the scene's folder", entry.path);
+            return Err(origin.fault(&at, message, Some(help.to_owned())).into());
+        }
+        let path = origin.folder.join(&entry.path);
+        let model = if let Some(model) = loaded.get(&path) {
+            Arc::clone(model)
+        } else {
+            let model = Arc::new(load(&path, &options.import)?);
+            loaded.insert(path, Arc::clone(&model));
+            model
+        };
+        models.push(Placed { model, model_to_world: placement(entry) });
+    }
+    Ok(models)
+}
+
+fn leaves_folder(path: &Path) -> bool {
+    let stays = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
+    !path.components().all(stays)
+}
+
+/// Scale, then turns about x, y and z, then translation.
+fn placement(entry: &ModelFile) -> Affine<ModelSpace, World> {
+    let [sx, sy, sz] = entry.scale.0;
+    let [rx, ry, rz] = entry.rotate_degrees.0.map(f64::to_radians);
+    Affine::<ModelSpace, ModelSpace>::scale(sx, sy, sz)
+        .then(Affine::<ModelSpace, ModelSpace>::rotation_x(rx))
+        .then(Affine::<ModelSpace, ModelSpace>::rotation_y(ry))
+        .then(Affine::<ModelSpace, ModelSpace>::rotation_z(rz))
+        .then(Affine::translation(Vector::from(entry.translate.0)))
+}
+
+fn resolve_lights(
+    origin: &Origin,
+    file: &SceneFile,
+    shot: &Shot,
+) -> Result<Vec<Light>, SceneError> {
+    let Some(lights) = &file.lights else { return Ok(default_lights(shot)) };
+    let resolve = |(number, light): (usize, &LightFile)| resolve_light(origin, number, light);
+    lights.iter().enumerate().map(resolve).collect()
+}
+
+/// A key light from above the viewer's left shoulder, so that shape reads from every side, and a quarter as much ambient.
+fn default_lights(shot: &Shot) -> Vec<Light> {
+    let camera = shot.camera;
+    let towards = camera.u() * -0.45 + camera.v() * 0.65 + camera.w();
+    let towards = towards.normalized().unwrap_or(camera.w());
+    vec![
+        Light::Sun { towards: towards.raw().as_vec3().to_array(), lux: [2.5; 3] },
+        Light::Ambient { lux: [0.7; 3] },
+    ]
+}
+
+fn resolve_light(origin: &Origin, number: usize, light: &LightFile) -> Result<Light, SceneError> {
+    let times = |strength: f64, color: [f64; 3]| color.map(|channel| (channel * strength) as f32);
+    Ok(match *light {
+        LightFile::Sun { direction, lux, color } => {
+            let towards = -Vector::<World>::from(direction.0);
+            let unit = towards.normalized().ok_or_else(|| {
+                let at = [Field("lights"), Index(number), Field("direction")];
+                let help =
+                    Some("such as (-1, -2, -1): from the right, above and before".to_owned());
+                origin.fault(&at, "the sun's direction is (0, 0, 0), which is none", help)
+            })?;
+            let towards = unit.raw().as_vec3().to_array();
+            Light::Sun { towards, lux: times(lux.value(), color.0) }
+        }
+        LightFile::Point { position, candela, color } => Light::Point {
+            position: position.0.map(|c| c as f32),
+            candela: times(candela.value(), color.0),
+        },
+        LightFile::Ambient { lux, color } => Light::Ambient { lux: times(lux.value(), color.0) },
+    })
+}
