@@ -15,20 +15,27 @@
 //! ```
 #![no_std]
 
+extern crate alloc;
 #[cfg(test)]
 extern crate std;
 
+mod bulk;
 mod fate;
 mod outcode;
 mod point;
+mod polygon;
+mod polyline;
 mod segment;
 mod triangle;
 mod volume;
 mod walk;
 
+pub use bulk::Extent;
 pub use fate::{Fate, Fates};
 pub use outcode::{MAX_PLANES, Outcode, PlaneIndex};
 pub use point::clip_point;
+pub use polygon::{ClippedConvex, clip_convex};
+pub use polyline::{PolylinePoint, clip_polyline};
 pub use segment::{ClippedSegment, clip_segment, segment_fates};
 pub use triangle::{ClipVertex, ClippedPolygon, clip_triangle};
 pub use volume::{Volume, VolumeError};

@@ -128,7 +128,14 @@ impl Outcode {
 
     /// The planes of the set, in order.
     pub fn planes(self) -> impl Iterator<Item = PlaneIndex> + Clone {
-        (0..MAX_PLANES as u8).map(PlaneIndex).filter(move |&plane| self.contains(plane))
+        let mut rest = self.0;
+        core::iter::from_fn(move || {
+            let lowest = rest.trailing_zeros() as u8;
+            (rest != 0).then(|| {
+                rest &= rest - 1;
+                PlaneIndex(lowest)
+            })
+        })
     }
 }
 

@@ -7,7 +7,7 @@
 //!            └─────────┘
 //! ```
 
-use crate::walk::safe_scale;
+use crate::walk::{Blend, blend, safe_scale};
 use crate::{Fates, Outcode, PlaneIndex, Volume};
 use core::cmp::Ordering;
 use glam::DVec4;
@@ -95,13 +95,25 @@ fn order(p: DVec4, q: DVec4) -> Ordering {
     pairs.find_map(|(a, b)| Some(a.total_cmp(&b)).filter(|o| o.is_ne())).unwrap_or(Ordering::Equal)
 }
 
-/// A crossing with a plane at the fraction `t` of the way from p to q. `from_inner` is the fraction as seen from the end on
-/// the plane's inner side: the point is computed from there, where it is most exact.
+/// A crossing with a plane at the fraction `t` of the way from p to q.
 #[derive(Clone, Copy)]
 struct Crossing {
     t: f64,
-    from_inner: f64,
+    blend: Blend,
     plane: PlaneIndex,
+}
+
+impl Crossing {
+    /// The point, given the end on the plane's inner side and the one on its outer side.
+    fn point(self, inner: HPoint<Clip>, outer: HPoint<Clip>, volume: &Volume) -> HPoint<Clip> {
+        let scale = safe_scale(&[inner.raw(), outer.raw()]);
+        let (inner, outer) = (inner.raw() * scale, outer.raw() * scale);
+        let point = match self.blend {
+            Blend::FromInner(t) => inner + (outer - inner) * t,
+            Blend::FromOuter(t) => outer + (inner - outer) * t,
+        };
+        HPoint::from_raw(volume.settle(volume.land(self.plane, point)) / scale)
+    }
 }
 
 /// The last of the enterings and the first of the leavings.
@@ -121,13 +133,12 @@ impl Span {
         let scale = safe_scale(&[p.raw(), q.raw()]);
         let (p, q) = (p.raw() * scale, q.raw() * scale);
         let mut span = Self::default();
-        for (plane, row) in volume.rows() {
-            let (a, b) = (row.dot(p), row.dot(q));
+        for plane in volume.present().planes() {
+            let (a, b) = (volume.distance(plane, p), volume.distance(plane, q));
             if a < 0.0 && b >= 0.0 {
-                span.enter_by(Crossing { t: a / (a - b), from_inner: b / (b - a), plane });
+                span.enter_by(Crossing { t: a / (a - b), blend: blend(b, a), plane });
             } else if b < 0.0 && a >= 0.0 {
-                let t = a / (a - b);
-                span.exit_by(Crossing { t, from_inner: t, plane });
+                span.exit_by(Crossing { t: a / (a - b), blend: blend(a, b), plane });
             }
         }
         if span.t0() > span.t1() { Err(span.planes()) } else { Ok(span) }
@@ -159,13 +170,8 @@ impl Span {
     }
 
     fn points(self, p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Option<ClippedSegment> {
-        let scale = safe_scale(&[p.raw(), q.raw()]);
-        let cut = |inner: HPoint<Clip>, outer: HPoint<Clip>, t: f64| {
-            let (a, b) = (inner.raw() * scale, outer.raw() * scale);
-            HPoint::from_raw(volume.settle(a + (b - a) * t) / scale)
-        };
-        let start = self.enter.map_or(p, |enter| cut(q, p, enter.from_inner));
-        let end = self.exit.map_or(q, |exit| cut(p, q, exit.from_inner));
+        let start = self.enter.map_or(p, |enter| enter.point(q, p, volume));
+        let end = self.exit.map_or(q, |exit| exit.point(p, q, volume));
         // The zero vector is in every closed volume but is no point. A segment that ends there runs straight at the eye:
         // all of it has the image of its other end.
         let (start, end) = match (start.w() > 0.0, end.w() > 0.0) {

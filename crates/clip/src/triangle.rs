@@ -9,8 +9,8 @@
 //! ```
 
 use crate::walk::{Step, safe_scale, walk};
-use crate::{Fates, MAX_PLANES, Outcode, Volume};
-use glam::DVec4;
+use crate::{Fates, MAX_PLANES, Outcode, PlaneIndex, Volume};
+use core::fmt;
 use homog::{Clip, HPoint};
 
 /// A triangle has 3 vertices and each plane adds at most one.
@@ -58,7 +58,7 @@ pub struct ClippedPolygon {
 enum Ring {
     Nothing,
     Whole([ClipVertex; 3]),
-    Cut([ClipVertex; MAX_VERTICES], usize),
+    Cut(Room),
 }
 
 impl ClippedPolygon {
@@ -68,7 +68,7 @@ impl ClippedPolygon {
         match &self.ring {
             Ring::Nothing => &[],
             Ring::Whole(vertices) => vertices,
-            Ring::Cut(vertices, count) => &vertices[..*count],
+            Ring::Cut(room) => room.vertices(),
         }
     }
 
@@ -127,8 +127,8 @@ pub fn clip_triangle(triangle: [HPoint<Clip>; 3], volume: &Volume) -> ClippedPol
     }
     let scaled = triangle.map(|point| HPoint::from_raw(point.raw() * scale));
     let mut polygon = cut(scaled, volume);
-    if let Ring::Cut(vertices, count) = &mut polygon.ring {
-        for vertex in &mut vertices[..*count] {
+    if let Ring::Cut(room) = &mut polygon.ring {
+        for vertex in room.vertices_mut() {
             vertex.point = HPoint::from_raw(vertex.point.raw() / scale);
         }
     }
@@ -153,48 +153,84 @@ fn corners([a, b, c]: [HPoint<Clip>; 3]) -> [ClipVertex; 3] {
 /// Every plane looks at every vertex, also where the outcodes of this triangle would allow to leave it out: so the fate of
 /// an edge depends on the edge alone, and a neighbour decides alike.
 fn cut(triangle: [HPoint<Clip>; 3], volume: &Volume) -> ClippedPolygon {
-    let mut ring = ([ClipVertex::NOTHING; MAX_VERTICES], 3);
-    ring.0[..3].copy_from_slice(&corners(triangle));
+    let mut ring = Room::default();
+    corners(triangle).into_iter().for_each(|corner| ring.push(corner));
     let mut fates = Fates::default();
-    for (index, plane) in volume.rows() {
-        let Some(rest) = cut_by(plane, &ring.0[..ring.1]) else { continue };
-        if rest.1 < 3 {
+    for index in volume.present().planes() {
+        let Some(rest) = cut_by(volume, index, ring.vertices()) else { continue };
+        if rest.count < 3 {
             fates.rejected = fates.rejected.with(index);
             return ClippedPolygon { ring: Ring::Nothing, fates };
         }
         fates.cut = fates.cut.with(index);
         ring = rest;
     }
-    let (mut vertices, count) = ring;
-    for vertex in &mut vertices[..count] {
+    for vertex in ring.vertices_mut() {
         vertex.point = HPoint::from_raw(volume.settle(vertex.point.raw()));
     }
     // The zero vector is in every closed volume but is no point. Only triangles without an area in the image reach it.
-    if vertices[..count].iter().any(|vertex| vertex.point.w() <= 0.0) {
-        return ClippedPolygon { ring: Ring::Nothing, fates };
-    }
-    ClippedPolygon { ring: Ring::Cut(vertices, count), fates }
+    let is_point = |vertex: &ClipVertex| vertex.point.w() > 0.0;
+    let ring = if ring.vertices().iter().all(is_point) { Ring::Cut(ring) } else { Ring::Nothing };
+    ClippedPolygon { ring, fates }
 }
 
 /// The ring behind a plane; `None` if it is the same.
-fn cut_by(plane: DVec4, ring: &[ClipVertex]) -> Option<([ClipVertex; MAX_VERTICES], usize)> {
+fn cut_by(volume: &Volume, index: PlaneIndex, ring: &[ClipVertex]) -> Option<Room> {
     let mut distances = [0.0; MAX_VERTICES];
     let distances = &mut distances[..ring.len()];
     for (distance, vertex) in distances.iter_mut().zip(ring) {
-        *distance = plane.dot(vertex.point.raw());
+        *distance = volume.distance(index, vertex.point.raw());
     }
     if distances.iter().all(|&distance| distance >= 0.0) {
         return None;
     }
-    let (mut rest, mut count) = ([ClipVertex::NOTHING; MAX_VERTICES], 0);
+    let mut rest = Room::default();
     walk(distances, |step| {
-        // Rounding may make a ring a hair concave, and only then could it outgrow its room.
-        let Some(place) = rest.get_mut(count) else { return };
-        *place = match step {
+        rest.push(match step {
             Step::Keep(i) => ring[i],
-            Step::Cross { inner, outer, t } => ring[inner].lerp(&ring[outer], t),
-        };
-        count += 1;
+            Step::Cross { from, to, t } => {
+                let mut crossing = ring[from].lerp(&ring[to], t);
+                crossing.point = HPoint::from_raw(volume.land(index, crossing.point.raw()));
+                crossing
+            }
+        });
     });
-    Some((rest, count))
+    Some(rest)
+}
+
+/// Room for the vertices, on the stack.
+#[derive(Clone, Copy)]
+struct Room {
+    vertices: [ClipVertex; MAX_VERTICES],
+    count: usize,
+}
+
+impl Default for Room {
+    fn default() -> Self {
+        Self { vertices: [ClipVertex::NOTHING; MAX_VERTICES], count: 0 }
+    }
+}
+
+impl fmt::Debug for Room {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.vertices()).finish()
+    }
+}
+
+impl Room {
+    fn vertices(&self) -> &[ClipVertex] {
+        &self.vertices[..self.count]
+    }
+
+    fn vertices_mut(&mut self) -> &mut [ClipVertex] {
+        &mut self.vertices[..self.count]
+    }
+
+    /// Rounding may make a ring a hair concave; only then could it outgrow its room, and loses a vertex on a line.
+    fn push(&mut self, vertex: ClipVertex) {
+        if let Some(place) = self.vertices.get_mut(self.count) {
+            *place = vertex;
+            self.count += 1;
+        }
+    }
 }

@@ -141,11 +141,26 @@ impl Volume {
     /// The planes a point is outside of (CL-1). Whatever is not finite is outside of all of them.
     #[must_use]
     pub fn outcode(&self, point: HPoint<Clip>) -> Outcode {
-        if !point.is_finite() {
-            return self.present;
+        let raw = point.raw();
+        // Beyond this, and for NaN, sums may not have the right sign.
+        const SAFE: f64 = 1e300;
+        let size = raw.abs().element_sum();
+        if size < SAFE {
+            return self.outcode_of(raw);
         }
-        let outside = |&(_, plane): &(PlaneIndex, DVec4)| !is_inside(plane, point.raw());
-        self.rows().filter(outside).fold(Outcode::INSIDE, |code, (index, _)| code.with(index))
+        if point.is_finite() { self.outcode_of(raw * 1e-100) } else { self.present }
+    }
+
+    /// Branch-free for the box, which is what arrays of points need.
+    fn outcode_of(&self, point: DVec4) -> Outcode {
+        let mut bits = 0;
+        for (i, plane) in self.planes[..PlaneIndex::BOX.len()].iter().enumerate() {
+            bits |= u16::from(plane.dot(point) < 0.0) << i;
+        }
+        let boxed = Outcode::from_bits(bits) & self.present;
+        let added = Outcode::from_bits(self.present.bits() & !0b11_1111);
+        let outside = |plane: &PlaneIndex| self.planes[plane.index()].dot(point) < 0.0;
+        added.planes().filter(outside).fold(boxed, Outcode::with)
     }
 
     /// True if the point is inside or on the border, finite, and not the zero vector, which is no point.
@@ -154,28 +169,33 @@ impl Volume {
         point.w() > 0.0 && self.outcode(point).is_inside()
     }
 
-    pub(crate) fn rows(&self) -> impl Iterator<Item = (PlaneIndex, DVec4)> {
-        self.present.planes().map(|index| (index, self.planes[index.index()]))
+    /// How far inside of a plane a point is, in the plane's own measure; negative outside.
+    pub(crate) fn distance(&self, index: PlaneIndex, point: DVec4) -> f64 {
+        self.planes[index.index()].dot(point)
     }
 
-    /// Puts a point that rounding left a hair outside of the box back onto it. It keeps clipping idempotent.
-    pub(crate) fn settle(&self, mut point: DVec4) -> DVec4 {
-        for (axis, pair) in self.planes[..6].chunks_exact(2).enumerate() {
-            for (i, plane) in pair.iter().enumerate() {
-                let present = self.present.bits() >> (2 * axis + i) & 1 == 1;
-                if present && plane.dot(point) < 0.0 {
-                    point[axis] = -plane[axis] * (plane.w * point.w);
-                }
-            }
+    /// Puts a computed crossing with a plane onto it exactly, if the plane is one of the box. Planes added by hand are
+    /// oblique as a rule, and have no coordinate that could be set.
+    pub(crate) fn land(&self, index: PlaneIndex, mut point: DVec4) -> DVec4 {
+        if index <= PlaneIndex::FAR {
+            let (axis, plane) = (index.index() / 2, self.planes[index.index()]);
+            point[axis] = 0.0 - plane[axis] * (plane.w * point.w);
         }
         point
+    }
+
+    /// Puts a point that rounding left a hair outside of the box back onto it, so that clipping is idempotent.
+    pub(crate) fn settle(&self, point: DVec4) -> DVec4 {
+        let outside = self.outcode_of(point).planes();
+        outside.fold(point, |point, index| self.land(index, point))
     }
 }
 
 impl fmt::Display for Volume {
     /// One line per plane: its name and its coefficients.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.rows().try_for_each(|(index, row)| {
+        self.present.planes().try_for_each(|index| {
+            let row = self.planes[index.index()];
             writeln!(f, "{index:>8}  {:6} {:6} {:6} {:6}", row.x, row.y, row.z, row.w)
         })
     }
@@ -184,12 +204,6 @@ impl fmt::Display for Volume {
 const W_PLUS_Z: DVec4 = DVec4::new(0.0, 0.0, 1.0, 1.0);
 const W_MINUS_Z: DVec4 = DVec4::new(0.0, 0.0, -1.0, 1.0);
 const Z: DVec4 = DVec4::new(0.0, 0.0, 1.0, 0.0);
-
-/// Huge points may overflow in the sum; a positive factor takes that away and no sign with it.
-fn is_inside(plane: DVec4, point: DVec4) -> bool {
-    let distance = plane.dot(point);
-    if distance.is_finite() { distance >= 0.0 } else { plane.dot(point * 1e-100) >= 0.0 }
-}
 
 #[cfg(test)]
 mod tests {

@@ -3,13 +3,13 @@
 //! ```text
 //!        inside │ outside         walked a → b → c → a:
 //!     a ────────┼──► b              a        keep
-//!      ▲        │    │              a b      cross, interpolated from a
+//!      ▲        │    │              a b      cross
 //!       ╲       │    ▼              b c      nothing
-//!        ╲──────┼─── c              c a      cross, interpolated from a
+//!        ╲──────┼─── c              c a      cross
 //! ```
 //!
-//! A crossing is always interpolated from its inner to its outer end. Two polygons that share an edge walk it in
-//! opposite directions; this way both get the same bits.
+//! A crossing is always computed from the end nearer to the plane. That is where the blend is most exact, and as two
+//! polygons that share an edge walk it in opposite directions, both get the same bits this way.
 
 use glam::DVec4;
 
@@ -17,8 +17,8 @@ use glam::DVec4;
 pub(crate) enum Step {
     /// The vertex with this number stays.
     Keep(usize),
-    /// The plane crosses the edge between two vertices at fraction `t` of the way from the inner to the outer.
-    Cross { inner: usize, outer: usize, t: f64 },
+    /// The plane crosses an edge at fraction `t` of the way between two vertices, t ≤ ½.
+    Cross { from: usize, to: usize, t: f64 },
 }
 
 /// Walks a ring, given the distances of its vertices from the plane, and emits the ring that is left.
@@ -32,10 +32,33 @@ pub(crate) fn walk(distances: &[f64], mut emit: impl FnMut(Step)) {
         }
         // An inner end on the plane is the crossing itself and stays anyway.
         if a > 0.0 && b < 0.0 {
-            emit(Step::Cross { inner: start, outer: end, t: a / (a - b) });
+            emit(cross((start, a), (end, b)));
         } else if a < 0.0 && b > 0.0 {
-            emit(Step::Cross { inner: end, outer: start, t: b / (b - a) });
+            emit(cross((end, b), (start, a)));
         }
+    }
+}
+
+fn cross(inner: (usize, f64), outer: (usize, f64)) -> Step {
+    match blend(inner.1, outer.1) {
+        Blend::FromInner(t) => Step::Cross { from: inner.0, to: outer.0, t },
+        Blend::FromOuter(t) => Step::Cross { from: outer.0, to: inner.0, t },
+    }
+}
+
+/// Where a plane crosses an edge, as the fraction of the way from the nearer end.
+#[derive(Clone, Copy)]
+pub(crate) enum Blend {
+    FromInner(f64),
+    FromOuter(f64),
+}
+
+/// The crossing of an edge with ends at these distances, `inner` ≥ 0 and `outer` < 0.
+pub(crate) fn blend(inner: f64, outer: f64) -> Blend {
+    if inner <= -outer {
+        Blend::FromInner(inner / (inner - outer))
+    } else {
+        Blend::FromOuter(outer / (outer - inner))
     }
 }
 

@@ -1,0 +1,185 @@
+//! Convex polygons of any size (CL-3).
+
+use crate::walk::{Step, safe_scale, walk};
+use crate::{Fates, Outcode, Volume};
+use alloc::vec::Vec;
+use glam::DVec4;
+use homog::{Clip, HPoint};
+
+/// What is left of a convex polygon: a convex polygon with the same turning direction, or nothing.
+///
+/// # Guarantees
+/// The same as those of [`crate::ClippedPolygon`].
+#[derive(Clone, PartialEq, Debug)]
+pub struct ClippedConvex {
+    points: Vec<HPoint<Clip>>,
+    weights: Vec<f64>,
+    sources: usize,
+    /// What each plane did.
+    pub fates: Fates,
+}
+
+impl ClippedConvex {
+    /// The vertices, not divided, in the order of the source; none if nothing is left.
+    #[must_use]
+    pub fn points(&self) -> &[HPoint<Clip>] {
+        &self.points
+    }
+
+    /// How much of each vertex of the source is in vertex `i`; they sum to 1. `None` if there is no such vertex.
+    #[must_use]
+    pub fn weights(&self, i: usize) -> Option<&[f64]> {
+        self.weights.chunks_exact(self.sources.max(1)).nth(i)
+    }
+
+    /// True if nothing is left.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty()
+    }
+
+    /// The polygon as a fan of triangles around its first vertex, by the numbers of their vertices.
+    pub fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + use<> {
+        (2..self.points.len()).map(|i| [0, i - 1, i])
+    }
+
+    fn nothing(fates: Fates) -> Self {
+        Self { points: Vec::new(), weights: Vec::new(), sources: 0, fates }
+    }
+}
+
+/// The part of a convex polygon inside a volume (CL-3; Sutherland and Hodgman, 1974).
+///
+/// Every vertex of the result comes with its weights in the source, so that any attribute follows. A polygon with fewer than
+/// three vertices, or with one that is not finite, gives nothing. Concave polygons must be cut into convex ones before: here their
+/// separate parts would come out joined by a seam along the border.
+///
+/// ```
+/// use clip::{Volume, clip_convex};
+/// use homog::HPoint;
+/// let tile = [(0.0, 0.0), (2.0, 0.0), (2.0, 0.5), (0.0, 0.5)].map(|(x, y)| HPoint::new(x, y, 0.0, 1.0));
+/// let left = clip_convex(&tile, &Volume::CHAPTER);
+/// assert_eq!(left.points()[1], HPoint::new(1.0, 0.0, 0.0, 1.0));
+/// assert_eq!(left.weights(1), Some(&[0.5, 0.5, 0.0, 0.0][..]));
+/// ```
+#[must_use]
+pub fn clip_convex(polygon: &[HPoint<Clip>], volume: &Volume) -> ClippedConvex {
+    let codes = polygon.iter().map(|&point| volume.outcode(point));
+    let rejected = codes.reduce(|a, b| a & b).unwrap_or_default();
+    let usable = polygon.len() >= 3 && polygon.iter().all(|point| point.is_finite());
+    if !usable || !rejected.is_inside() {
+        return ClippedConvex::nothing(Fates::rejected(rejected));
+    }
+    let raw: Vec<DVec4> = polygon.iter().map(|point| point.raw()).collect();
+    let scale = safe_scale(&raw);
+    let mut ring = corners(&raw, scale);
+    let mut fates = Fates::default();
+    for index in volume.present().planes() {
+        let distance = |vertex: &Vertex| volume.distance(index, vertex.point);
+        let distances: Vec<f64> = ring.iter().map(distance).collect();
+        if distances.iter().all(|&distance| distance >= 0.0) {
+            continue;
+        }
+        ring = cut_by(&ring, &distances, |crossing| volume.land(index, crossing));
+        if ring.len() < 3 {
+            fates.rejected = Outcode::INSIDE.with(index);
+            return ClippedConvex::nothing(fates);
+        }
+        fates.cut = fates.cut.with(index);
+    }
+    finish(ring, volume, scale, fates)
+}
+
+struct Vertex {
+    point: DVec4,
+    weights: Vec<f64>,
+}
+
+impl Vertex {
+    fn lerp(&self, end: &Self, t: f64) -> Self {
+        let weights = self.weights.iter().zip(&end.weights).map(|(a, b)| a + (b - a) * t).collect();
+        Self { point: self.point + (end.point - self.point) * t, weights }
+    }
+}
+
+fn corners(raw: &[DVec4], scale: f64) -> Vec<Vertex> {
+    let count = raw.len();
+    let unit = |i: usize| (0..count).map(|j| if i == j { 1.0 } else { 0.0 }).collect();
+    let corner = |(i, &point): (usize, &DVec4)| Vertex { point: point * scale, weights: unit(i) };
+    raw.iter().enumerate().map(corner).collect()
+}
+
+fn cut_by(ring: &[Vertex], distances: &[f64], land: impl Fn(DVec4) -> DVec4) -> Vec<Vertex> {
+    let mut rest = Vec::with_capacity(ring.len() + 1);
+    walk(distances, |step| {
+        rest.push(match step {
+            Step::Keep(i) => Vertex { point: ring[i].point, weights: ring[i].weights.clone() },
+            Step::Cross { from, to, t } => {
+                let crossing = ring[from].lerp(&ring[to], t);
+                Vertex { point: land(crossing.point), ..crossing }
+            }
+        });
+    });
+    rest
+}
+
+fn finish(ring: Vec<Vertex>, volume: &Volume, scale: f64, fates: Fates) -> ClippedConvex {
+    let sources = ring.first().map_or(0, |vertex| vertex.weights.len());
+    let settled = |vertex: &Vertex| HPoint::from_raw(volume.settle(vertex.point) / scale);
+    let points: Vec<HPoint<Clip>> = ring.iter().map(settled).collect();
+    if points.iter().any(|point| point.w() <= 0.0) {
+        return ClippedConvex::nothing(fates);
+    }
+    let weights = ring.into_iter().flat_map(|vertex| vertex.weights).collect();
+    ClippedConvex { points, weights, sources, fates }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{PlaneIndex, clip_triangle};
+
+    #[test]
+    fn triangles_come_out_like_those_of_clip_triangle() {
+        let corners = [[-2.0, -1.5, 0.3, 1.0], [3.0, 0.0, -4.0, 1.5], [0.5, 2.0, 0.2, -0.5]]
+            .map(HPoint::from);
+        let (general, special) =
+            (clip_convex(&corners, &Volume::CHAPTER), clip_triangle(corners, &Volume::CHAPTER));
+        assert!(!general.is_empty());
+        assert_eq!(general.fates, special.fates);
+        for (i, vertex) in special.vertices().iter().enumerate() {
+            assert_eq!(general.points()[i], vertex.point);
+            assert_eq!(general.weights(i), Some(&vertex.weights[..]));
+        }
+        assert_eq!(general.weights(special.vertices().len()), None);
+        assert_eq!(general.triangles().count(), special.triangles().count());
+    }
+
+    #[test]
+    fn a_polygon_around_everything_becomes_the_square_itself() {
+        let ring: Vec<HPoint<Clip>> = (0..16)
+            .map(|i| libm::sincos(f64::from(i) * core::f64::consts::PI / 8.0))
+            .map(|(s, c)| HPoint::new(5.0 * c, 5.0 * s, 0.25, 1.0))
+            .collect();
+        let square = clip_convex(&ring, &Volume::CHAPTER);
+        assert_eq!(square.points().len(), 4);
+        assert!(
+            square.points().iter().all(|p| p.x().abs() == 1.0 && p.y().abs() == 1.0),
+            "{square:?}"
+        );
+        assert_eq!(square.fates.cut, Outcode::from_bits(0b1111));
+    }
+
+    #[test]
+    fn bad_polygons_give_nothing() {
+        let p = HPoint::new(0.0, 0.0, 0.0, 1.0);
+        let nan = HPoint::new(f64::NAN, 0.0, 0.0, 1.0);
+        for polygon in [&[][..], &[p], &[p, p], &[p, p, nan]] {
+            let nothing = clip_convex(polygon, &Volume::CHAPTER);
+            assert!(nothing.is_empty() && nothing.weights(0).is_none());
+        }
+        let outside = [2.0, 3.0, 4.0].map(|x| HPoint::new(x, x * x, 0.0, 1.0));
+        let nothing = clip_convex(&outside, &Volume::CHAPTER);
+        assert!(nothing.fates.rejected.contains(PlaneIndex::RIGHT));
+    }
+}

@@ -1,0 +1,75 @@
+//! Polylines: what is left is one run of points or several.
+
+use crate::{Volume, clip_segment};
+use alloc::vec::Vec;
+use homog::{Clip, HPoint};
+
+/// A point of what is left of a polyline.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct PolylinePoint {
+    /// Where it is, not divided.
+    pub point: HPoint<Clip>,
+    /// The segment of the source it is on: the one from point `segment` to point `segment + 1`.
+    pub segment: usize,
+    /// The fraction of the way along that segment. Attributes of its ends blended by it are right.
+    pub t: f64,
+}
+
+/// The parts of a polyline inside a volume, in order, each an unbroken run of at least two points.
+///
+/// Where the line goes on inside, the run goes on; dash patterns and joins can follow it. A closed line repeats its first
+/// point as its last; if that point is inside, the first and the last run meet there. Segments with an end that is not finite
+/// are left out.
+///
+/// ```
+/// use clip::{Volume, clip_polyline};
+/// use homog::HPoint;
+/// let zigzag = [(0.0, 0.0), (0.0, 2.0), (0.5, 0.0), (0.9, 0.5)];
+/// let zigzag = zigzag.map(|(x, y)| HPoint::new(x, y, 0.0, 1.0));
+/// let runs = clip_polyline(&zigzag, &Volume::CHAPTER);
+/// assert_eq!(runs.len(), 2); // it leaves at the top, comes back, and stays
+/// assert_eq!(runs[1].len(), 3);
+/// assert_eq!((runs[1][0].segment, runs[1][0].t), (1, 0.5));
+/// ```
+#[must_use]
+pub fn clip_polyline(points: &[HPoint<Clip>], volume: &Volume) -> Vec<Vec<PolylinePoint>> {
+    let mut runs: Vec<Vec<PolylinePoint>> = Vec::new();
+    let mut connected = false;
+    for (segment, ends) in points.windows(2).enumerate() {
+        let Some(left) = clip_segment(ends[0], ends[1], volume) else {
+            connected = false;
+            continue;
+        };
+        let place = |point, t| PolylinePoint { point, segment, t };
+        match runs.last_mut() {
+            Some(run) if connected && left.enter.is_none() => run.push(place(left.end, left.t1)),
+            _ => runs.push([place(left.start, left.t0), place(left.end, left.t1)].into()),
+        }
+        connected = left.exit.is_none();
+    }
+    runs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_that_only_touches_the_border_stays_in_one_run() {
+        let tent = [(-0.5, 0.0), (0.0, 1.0), (0.5, 0.0)].map(|(x, y)| HPoint::new(x, y, 0.0, 1.0));
+        let runs = clip_polyline(&tent, &Volume::CHAPTER);
+        assert_eq!(runs.len(), 1);
+        assert_eq!(runs[0].iter().map(|p| p.point).collect::<Vec<_>>(), tent);
+    }
+
+    #[test]
+    fn what_is_not_finite_breaks_the_line_and_short_lines_have_no_parts() {
+        let mut line = [(-0.5, 0.0), (0.0, 0.5), (0.5, 0.0), (0.0, 0.0), (0.1, 0.0)]
+            .map(|(x, y)| HPoint::new(x, y, 0.0, 1.0));
+        line[2] = HPoint::new(f64::NAN, 0.0, 0.0, 1.0);
+        let runs = clip_polyline(&line, &Volume::CHAPTER);
+        assert_eq!(runs.iter().map(|run| run[0].segment).collect::<Vec<_>>(), [0, 3]);
+        assert!(clip_polyline(&line[..1], &Volume::CHAPTER).is_empty());
+        assert!(clip_polyline(&[], &Volume::CHAPTER).is_empty());
+    }
+}
