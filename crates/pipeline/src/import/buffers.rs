@@ -1,6 +1,6 @@
 //! The bytes of the file's buffers, each read once and when it is first needed.
 
-use super::error::{Fault, FaultKind};
+use super::error::Fault;
 use super::resolver::Resolver;
 use gltf::json::Root;
 use std::sync::OnceLock;
@@ -50,7 +50,10 @@ impl<'a> Buffers<'a> {
         };
         let all = match (&json.uri, self.chunk) {
             (None, Some(chunk)) if buffer == 0 => chunk,
-            (None, _) => return Err(no_data(buffer)),
+            (None, _) => {
+                let problem = "the buffer has no data: no URI, and no binary chunk for it";
+                return Err(Fault::no_data(&format!("/buffers/{buffer}"), problem));
+            }
             (Some(uri), _) => match read.get() {
                 Some(bytes) => bytes,
                 None => {
@@ -77,13 +80,4 @@ pub(super) fn slice(bytes: &[u8], start: u64, length: u64) -> Option<&[u8]> {
     let start = usize::try_from(start).ok()?;
     let length = usize::try_from(length).ok()?;
     bytes.get(start..)?.get(..length)
-}
-
-fn no_data(buffer: usize) -> Fault {
-    Fault::new(
-        FaultKind::Invalid,
-        &format!("/buffers/{buffer}"),
-        "the buffer has no data: it has no URI, and the file no binary chunk for it".to_owned(),
-        "export the file again; compressed files may need their extension",
-    )
 }

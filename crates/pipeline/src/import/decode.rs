@@ -1,8 +1,9 @@
-//! Decoding PNG and JPEG into 8-bit RGBA.
+//! Decoding PNG, JPEG and WebP into 8-bit RGBA.
 //!
 //! What an image is, its first bytes say; the file's name and the glTF `mimeType` are not asked.
 
 use crate::model::Image;
+use image_webp::WebPDecoder;
 use png::{BitDepth, ColorType, Transformations};
 use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -25,6 +26,7 @@ pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), String> {
             let info = decoder.info().ok_or("the JPEG has no header")?;
             Ok((u32::from(info.width), u32::from(info.height)))
         }
+        Kind::WebP => Ok(webp_decoder(bytes)?.dimensions()),
     })
 }
 
@@ -33,6 +35,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
     guarded(|| match Kind::of(bytes)? {
         Kind::Png => decode_png(bytes),
         Kind::Jpeg => decode_jpeg(bytes),
+        Kind::WebP => decode_webp(bytes),
     })
 }
 
@@ -44,6 +47,7 @@ fn guarded<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
 enum Kind {
     Png,
     Jpeg,
+    WebP,
 }
 
 impl Kind {
@@ -51,8 +55,10 @@ impl Kind {
         let other = match bytes {
             [0x89, b'P', b'N', b'G', ..] => return Ok(Self::Png),
             [0xFF, 0xD8, 0xFF, ..] => return Ok(Self::Jpeg),
+            [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => {
+                return Ok(Self::WebP);
+            }
             [] => return Err("the image is empty".to_owned()),
-            [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => "a WebP image",
             [0xAB, b'K', b'T', b'X', ..] => "a KTX image",
             [b'D', b'D', b'S', b' ', ..] => "a DDS image",
             [b'G', b'I', b'F', b'8', ..] => "a GIF image",
@@ -60,7 +66,7 @@ impl Kind {
             [b'<', ..] => "an SVG image or a web page",
             _ => "of an unknown format",
         };
-        Err(format!("this is {other}; only PNG and JPEG are read"))
+        Err(format!("this is {other}; only PNG, JPEG and WebP are read"))
     }
 }
 
@@ -115,6 +121,30 @@ fn decode_jpeg(bytes: &[u8]) -> Result<Image, String> {
     let info = decoder.info().ok_or("the JPEG has no header")?;
     let samples = decoder.decode().map_err(|error| jpeg_problem(&error))?;
     whole(u32::from(info.width), u32::from(info.height), samples.as_chunks().0.to_vec())
+}
+
+fn webp_problem(error: &image_webp::DecodingError) -> String {
+    format!("the WebP is broken: {error}")
+}
+
+fn webp_decoder(bytes: &[u8]) -> Result<WebPDecoder<Cursor<&[u8]>>, String> {
+    let mut decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(|error| webp_problem(&error))?;
+    decoder.set_memory_limit(1 << 30);
+    Ok(decoder)
+}
+
+fn decode_webp(bytes: &[u8]) -> Result<Image, String> {
+    let mut decoder = webp_decoder(bytes)?;
+    let (width, height) = decoder.dimensions();
+    let length = decoder.output_buffer_size().ok_or("the WebP is too large")?;
+    let mut samples = vec![0; length];
+    decoder.read_image(&mut samples).map_err(|error| webp_problem(&error))?;
+    let rgba = if decoder.has_alpha() {
+        samples.as_chunks().0.to_vec()
+    } else {
+        samples.as_chunks().0.iter().map(|&[r, g, b]| [r, g, b, 255]).collect()
+    };
+    whole(width, height, rgba)
 }
 
 fn whole(width: u32, height: u32, rgba: Vec<[u8; 4]>) -> Result<Image, String> {

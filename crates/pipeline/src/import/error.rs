@@ -46,6 +46,8 @@ pub enum FaultKind {
     Extension,
     /// The file breaks a rule of the specification.
     Invalid,
+    /// Data that the file speaks of is not in it, or in a form that is not read.
+    NoData,
     /// The file declares more of something than the [limits](super::Limits) allow.
     Limit,
 }
@@ -77,10 +79,15 @@ impl Fault {
         Self::new(FaultKind::Limit, pointer, problem, &remedy)
     }
 
-    /// Whether the fault is the file's content and not the world around it (a missing file, a limit): only then a
-    /// part of the picture may be left out with a warning.
+    /// Data is not there, or not in a form that is read.
+    pub(super) fn no_data(pointer: &str, problem: &str) -> Self {
+        Self::new(FaultKind::NoData, pointer, problem.to_owned(), "export the file uncompressed")
+    }
+
+    /// Whether the fault lies in the file's content and not in the world around it (a missing file, a limit): only then
+    /// a part of the picture may be left out with a warning.
     pub(super) fn is_soft(&self) -> bool {
-        self.kind == FaultKind::Invalid
+        matches!(self.kind, FaultKind::Invalid | FaultKind::NoData)
     }
 }
 

@@ -27,7 +27,7 @@ const KNOWN: [(&str, Support); 36] = [
     ("EXT_mesh_primitive_edge_visibility", Without("the edges are found from the shape")),
     ("EXT_meshopt_compression", Never("data compressed by meshopt is not read")),
     ("EXT_structural_metadata", Harmless),
-    ("EXT_texture_webp", Never("WebP images are not read")),
+    ("EXT_texture_webp", Full),
     ("KHR_animation_pointer", Without("the animations by pointer are left out")),
     ("KHR_draco_mesh_compression", Never("data compressed by Draco is not read")),
     ("KHR_lights_punctual", Without("the lights of the file are not used")),

@@ -184,7 +184,8 @@ fn mistyped(error: &serde_path_to_error::Error<serde_json::Error>) -> Fault {
             Segment::Unknown => {}
         }
     }
-    Fault::invalid(&pointer, error.inner().to_string())
+    let problem = error.inner().to_string().replace("index into child of root", "an index");
+    Fault::invalid(&pointer, problem)
 }
 
 #[cfg(test)]
@@ -215,12 +216,12 @@ mod tests {
             (
                 r#", "nodes": [{"mesh": "x"}]"#,
                 "/nodes/0/mesh",
-                "invalid type: string \"x\", expected index into child of root",
+                "invalid type: string \"x\", expected an index",
             ),
             (
                 r#", "scene": 4294967296"#,
                 "/scene",
-                "invalid type: floating point `4294967296.0`, expected index into child of root",
+                "invalid type: floating point `4294967296.0`, expected an index",
             ),
             (r#", "meshes": [{}]"#, "/meshes/0", "missing field `primitives`"),
         ] {

@@ -5,7 +5,7 @@
 
 use super::accessor::Source;
 use super::elements::Elements;
-use super::error::Fault;
+use super::error::{Fault, FaultKind};
 use super::warnings::Warnings;
 use super::{normals, topology};
 use crate::model::{Mesh, Primitive};
@@ -24,7 +24,14 @@ pub(super) fn meshes(source: &Source<'_>, warnings: &mut Warnings) -> Result<Vec
         let mut primitives = Vec::with_capacity(json.primitives.len());
         for (part, json) in json.primitives.iter().enumerate() {
             let pointer = format!("/meshes/{at}/primitives/{part}");
-            primitives.push(Reader { source, json, pointer, warnings }.primitive()?);
+            let reader = Reader { source, json, pointer, warnings: &mut *warnings };
+            primitives.push(match reader.primitive() {
+                Err(fault) if fault.kind == FaultKind::NoData => {
+                    warnings.soft(&fault, "the primitive is left out");
+                    Primitive::default()
+                }
+                primitive => primitive?,
+            });
         }
         meshes.push(Mesh { name: json.name.clone(), primitives });
     }
@@ -61,10 +68,7 @@ impl Reader<'_, '_> {
             return Ok(None);
         };
         if self.is_draco() && self.is_empty(accessor) {
-            let message =
-                "the data is compressed by Draco, which is not read; the primitive is left out";
-            self.warnings.add(&self.pointer, message);
-            return Ok(None);
+            return Err(Fault::no_data(&self.pointer, "the data is compressed by Draco"));
         }
         use ComponentType::{F32, I8, I16, U8, U16};
         let format = Format { shapes: &[Type::Vec3], components: &[F32, I8, U8, I16, U16] };

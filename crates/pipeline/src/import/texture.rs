@@ -32,8 +32,12 @@ pub(super) fn textures(root: &Root, warnings: &mut Warnings) -> Vec<Texture> {
     textures
 }
 
+/// The image of a texture; a WebP image comes before the one that stands beside it for those who cannot read WebP.
 fn source(root: &Root, at: usize, warnings: &mut Warnings) -> Option<usize> {
-    let image = root.textures[at].source.value();
+    let json = &root.textures[at];
+    let extensions = json.extensions.as_ref().map(|extensions| &extensions.others);
+    let webp = extensions.and_then(|all| all.get("EXT_texture_webp")?.get("source")?.as_u64());
+    let image = webp.map_or(json.source.value(), |source| source as usize);
     if image < root.images.len() {
         return Some(image);
     }
