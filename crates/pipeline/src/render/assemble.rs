@@ -249,3 +249,20 @@ fn to_world(normals: &[[f32; 3]], model_to_world: Affine<Model, World>) -> Vec<[
     };
     normals.iter().map(turned).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counter_clockwise_is_positive_also_with_corners_behind_the_eye() {
+        let corners =
+            [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)].map(|(x, y)| HPoint::new(x, y, 0.0, 1.0));
+        assert!(orientation(corners) > 0.0);
+        let [p, q, r] = corners;
+        assert!(orientation([p, r, q]) < 0.0);
+        // A corner moved through the eye's plane, along the line from another: the surface still shows the same side.
+        let behind = HPoint::from_raw(q.raw() - (r.raw() * 3.0 - q.raw() * 3.0));
+        assert!(orientation([p, behind, r]) > 0.0);
+    }
+}

@@ -36,11 +36,12 @@ impl Shot {
     /// Whether the picture shows the world as in a mirror: a window with left and right (or bottom and top) exchanged.
     #[must_use]
     pub fn mirrors(&self) -> bool {
-        self.blind_point().dot(self.viewer().raw()) < 0.0
+        self.blind_point().dot(self.viewer().raw()) > 0.0
     }
 
-    /// The point without an image, as the product of the rows of x, y and w in four dimensions. Its sign tells mirrored
-    /// pictures from others, for three points a, b, c then have det(x, y, w rows of their images) = det(a, b, c, this).
+    /// The point without an image, as the product of the rows of x, y and w in four dimensions: the determinant of three
+    /// points and this one is that of (x, y, w) of their images. View space looks along −z while w grows ahead, so the
+    /// product points away from the viewer unless the picture is mirrored.
     fn blind_point(&self) -> DVec4 {
         let m = self.world_to_clip().raw();
         let rows = [m.row(0), m.row(1), m.row(3)];
@@ -54,5 +55,48 @@ impl Shot {
             -minor(|row| row.xyw()),
             minor(|row| row.xyz()),
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use homog::{Point, Vector};
+    use projection::{Convention, Frustum, Orthographic};
+
+    fn camera() -> Camera {
+        Camera::look_at(Point::new(4.0, 3.0, 6.0), Point::new(0.0, 1.0, 0.0), Vector::Y)
+            .expect("a good camera")
+    }
+
+    fn perspective(left: f64, right: f64) -> Shot {
+        let frustum = Frustum::new(left, right, -1.0, 1.0, 1.0, 50.0).expect("a good frustum");
+        Shot { camera: camera(), view_to_clip: frustum.view_to_clip(Convention::CHAPTER) }
+    }
+
+    #[test]
+    fn the_viewer_of_a_perspective_is_the_eye() {
+        let viewer = perspective(-0.5, 3.0).viewer().divide().expect("a place");
+        assert!((viewer - Point::new(4.0, 3.0, 6.0)).length() < 1e-12, "{viewer:?}");
+    }
+
+    #[test]
+    fn the_viewer_of_a_parallel_projection_is_the_direction_against_the_gaze() {
+        let view_to_clip = Orthographic::new(-1.0, 1.0, -1.0, 1.0, 1.0, 50.0)
+            .expect("a good box")
+            .view_to_clip(Convention::CHAPTER);
+        let shot = Shot { camera: camera(), view_to_clip };
+        let viewer = shot.viewer();
+        assert_eq!(viewer.w(), 0.0);
+        let towards = Vector::<World>::from_raw(viewer.raw().truncate());
+        let unit = towards.normalized().expect("a direction");
+        assert!((unit - camera().w()).length() < 1e-12);
+        assert!(!shot.mirrors());
+    }
+
+    #[test]
+    fn only_a_window_with_exchanged_sides_mirrors() {
+        assert!(!perspective(-0.5, 3.0).mirrors());
+        assert!(perspective(3.0, -0.5).mirrors());
     }
 }
