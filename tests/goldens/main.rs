@@ -1,0 +1,124 @@
+//! The golden images: every scene of `scenes/`, drawn by the real program at its own size, must have the very pixels of
+//! `tests/goldens/NAME.png`.
+//!
+//! Pixels are compared, not bytes, so that a new release of the PNG encoder changes nothing. Where they differ, the new picture
+//! and a map of the differences are left beside the golden as `NAME.actual.png` and `NAME.diff.png`. `cargo xtask golden
+//! --bless NAME` makes a picture golden after someone has looked at it. Arguments that are not flags choose scenes by name.
+
+#![allow(clippy::print_stdout, reason = "a test program speaks on its standard output")]
+#![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
+
+mod picture;
+
+use picture::{Difference, Picture};
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+use std::{env, fs};
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(message) => {
+            println!("FAILED goldens: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Whether all chosen scenes have their golden's pixels.
+fn run() -> Result<bool, String> {
+    let chosen: Vec<String> = env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
+    let wanted = |name: &String| chosen.is_empty() || chosen.contains(name);
+    let program = program()?;
+    let (mut passed, mut failed) = (0, 0);
+    for name in scenes()?.iter().filter(|name| wanted(name)) {
+        match compare(&program, name) {
+            Ok(()) => passed += 1,
+            Err(message) => {
+                failed += 1;
+                println!("FAILED {name}: {message}");
+            }
+        }
+    }
+    println!("goldens: {passed} passed, {failed} failed");
+    Ok(failed == 0 && passed > 0)
+}
+
+/// The scenes by name. Goldens that no scene makes are found by `cargo xtask tidy`.
+fn scenes() -> Result<Vec<String>, String> {
+    let entries =
+        fs::read_dir(root().join("scenes")).map_err(|error| format!("scenes: {error}"))?;
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let scenes = paths.filter(|path| path.extension().is_some_and(|extension| extension == "ron"));
+    let mut names: Vec<String> =
+        scenes.filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned())).collect();
+    names.sort();
+    Ok(names)
+}
+
+/// Draws a scene and holds it against its golden.
+fn compare(program: &Path, name: &str) -> Result<(), String> {
+    let beside = |ending: &str| root().join("tests/goldens").join(format!("{name}{ending}"));
+    let actual_path = beside(".actual.png");
+    render(program, &root().join(format!("scenes/{name}.ron")), &actual_path)?;
+    let actual = Picture::read(&actual_path)?;
+    let golden = Picture::read(&beside(".png")).map_err(|error| {
+        format!("{error}\n  Look at {name}.actual.png; `cargo xtask golden --bless {name}` if it is right.")
+    })?;
+    match golden.difference(&actual) {
+        None => {
+            remove(&actual_path);
+            remove(&beside(".diff.png"));
+            Ok(())
+        }
+        Some(Difference::Size(message)) => Err(message),
+        Some(Difference::Pixels { message, map }) => {
+            map.write(&beside(".diff.png"))?;
+            Err(format!("{message}\n  See tests/goldens/{name}.actual.png and {name}.diff.png."))
+        }
+    }
+}
+
+/// What an earlier run left; nothing is there to be removed most of the time.
+fn remove(path: &Path) {
+    let _ = fs::remove_file(path);
+}
+
+fn render(program: &Path, scene: &Path, picture: &Path) -> Result<(), String> {
+    let mut command = Command::new(program);
+    let output = command.arg("render").arg(scene).arg("-o").arg(picture).output();
+    let output = output.map_err(|error| format!("{}: {error}", program.display()))?;
+    if output.status.success() {
+        return Ok(());
+    }
+    Err(format!("{} ({})", String::from_utf8_lossy(&output.stderr).trim(), output.status))
+}
+
+/// The program, built as this test was. It is Cargo that knows where, and whether it is up to date.
+fn program() -> Result<PathBuf, String> {
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.current_dir(root()).args([
+        "build",
+        "--quiet",
+        "--package",
+        "pipeline",
+        "--bin",
+        "alberti",
+    ]);
+    if !cfg!(debug_assertions) {
+        cargo.arg("--release");
+    }
+    let status = cargo.status().map_err(|error| format!("cargo: {error}"))?;
+    if !status.success() {
+        return Err("the program does not build".into());
+    }
+    // This test is target/PROFILE/deps/goldens-HASH.
+    let test = env::current_exe().map_err(|error| error.to_string())?;
+    let folder = test.ancestors().nth(2).ok_or("the test is in no target folder")?;
+    Ok(folder.join(format!("alberti{}", env::consts::EXE_SUFFIX)))
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
+}

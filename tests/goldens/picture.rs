@@ -1,0 +1,111 @@
+//! Pictures as their decoded pixels, and what differs between two of them.
+
+use std::fs::File;
+use std::io::{BufReader, BufWriter};
+use std::path::Path;
+
+/// Eight-bit RGBA, rows from the top.
+pub struct Picture {
+    width: u32,
+    height: u32,
+    pixels: Vec<[u8; 4]>,
+}
+
+/// What differs between a golden and a picture.
+pub enum Difference {
+    /// They are not even of one size.
+    Size(String),
+    /// How many pixels, where and by how much; and the same as a picture.
+    Pixels { message: String, map: Picture },
+}
+
+impl Picture {
+    /// Reads a PNG of eight bits a channel.
+    pub fn read(path: &Path) -> Result<Self, String> {
+        let with_path = |error: String| format!("{}: {error}", path.display());
+        let file = File::open(path).map_err(|error| with_path(error.to_string()))?;
+        decode(BufReader::new(file)).map_err(with_path)
+    }
+
+    /// Writes the picture as a PNG.
+    pub fn write(&self, path: &Path) -> Result<(), String> {
+        let file = File::create(path).map_err(|error| format!("{}: {error}", path.display()))?;
+        let mut encoder = png::Encoder::new(BufWriter::new(file), self.width, self.height);
+        encoder.set_color(png::ColorType::Rgba);
+        encoder.set_depth(png::BitDepth::Eight);
+        let mut writer = encoder.write_header().map_err(|error| error.to_string())?;
+        writer.write_image_data(self.pixels.as_flattened()).map_err(|error| error.to_string())
+    }
+
+    /// What differs in `actual`; `None` if every pixel is the same.
+    pub fn difference(&self, actual: &Self) -> Option<Difference> {
+        if (self.width, self.height) != (actual.width, actual.height) {
+            let [golden, found] = [self, actual].map(|p| format!("{}×{}", p.width, p.height));
+            return Some(Difference::Size(format!(
+                "the golden has {golden} pixels, the picture {found}"
+            )));
+        }
+        let pairs = || self.pixels.iter().zip(&actual.pixels);
+        let differing: Vec<usize> =
+            pairs().enumerate().filter(|(_, (a, b))| a != b).map(|(i, _)| i).collect();
+        if differing.is_empty() {
+            return None;
+        }
+        let pixels =
+            pairs().map(|(a, b)| if a == b { faded(*a) } else { [220, 20, 60, 255] }).collect();
+        let map = Self { width: self.width, height: self.height, pixels };
+        Some(Difference::Pixels { message: self.message(actual, &differing), map })
+    }
+
+    fn message(&self, actual: &Self, differing: &[usize]) -> String {
+        let width = self.width as usize;
+        let column = |i: &usize| i % width;
+        let (left, right) = bounds(differing.iter().map(column));
+        let (top, bottom) = bounds(differing.iter().map(|i| i / width));
+        let first = differing[0];
+        let most = differing.iter().map(|&i| largest_step(self.pixels[i], actual.pixels[i])).max();
+        format!(
+            "{} of {} pixels differ, by at most {} of 255, in columns {left} to {right} and rows {top} to {bottom}; \
+             the first is ({}, {}): {:?} in the golden, {:?} now",
+            differing.len(),
+            self.pixels.len(),
+            most.unwrap_or(0),
+            first % width,
+            first / width,
+            self.pixels[first],
+            actual.pixels[first],
+        )
+    }
+}
+
+fn decode(source: BufReader<File>) -> Result<Picture, String> {
+    let mut decoder = png::Decoder::new(source);
+    decoder.set_transformations(
+        png::Transformations::normalize_to_color8() | png::Transformations::ALPHA,
+    );
+    let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
+    let mut bytes = vec![0; reader.output_buffer_size().ok_or("too large")?];
+    let info = reader.next_frame(&mut bytes).map_err(|error| error.to_string())?;
+    let pixels = match info.color_type {
+        png::ColorType::Rgba => bytes.chunks_exact(4).map(|p| [p[0], p[1], p[2], p[3]]).collect(),
+        png::ColorType::GrayscaleAlpha => {
+            bytes.chunks_exact(2).map(|p| [p[0], p[0], p[0], p[1]]).collect()
+        }
+        other => return Err(format!("unexpected colour type {other:?}")),
+    };
+    Ok(Picture { width: info.width, height: info.height, pixels })
+}
+
+/// A quarter of the contrast, towards white: the ground on which differences stand out.
+fn faded([r, g, b, _]: [u8; 4]) -> [u8; 4] {
+    let [r, g, b] = [r, g, b].map(|channel| 191 + channel / 4);
+    [r, g, b, 255]
+}
+
+fn largest_step(a: [u8; 4], b: [u8; 4]) -> u8 {
+    a.into_iter().zip(b).map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0)
+}
+
+fn bounds(values: impl Iterator<Item = usize>) -> (usize, usize) {
+    values.fold((usize::MAX, 0), |(low, high), value| (low.min(value), high.max(value)))
+}

@@ -1,0 +1,112 @@
+//! `cargo xtask determinism`: the promise that a scene has the same bytes whoever draws it.
+//!
+//! Every scene is drawn by the debug build and by the release build, twice each, and with one, two and more threads where the
+//! program lets one choose. `--wide` adds a build whose compiler may use AVX2 and fused multiply-add, which is where sums
+//! computed in floating point first go apart; it needs a processor that has them.
+
+use crate::Outcome;
+use crate::program::{Build, Program};
+use crate::workspace::{Scene, make_folder, scenes, target};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// One way to draw every scene.
+struct Way {
+    name: String,
+    build: Build,
+    flags: Vec<String>,
+}
+
+pub fn run(arguments: &[String]) -> Outcome {
+    let options = Options::read(arguments)?;
+    let mut builds = vec![Build::Release, Build::Debug];
+    if options.wide {
+        builds.push(Build::Wide);
+    }
+    let folder = target().join("determinism");
+    let mut drawn = Vec::new();
+    for build in builds {
+        let program = Program::built(build)?;
+        for way in ways(build, program.has_flag("--threads"), options.threads) {
+            drawn.push((draw(&program, &way, &folder)?, way.name));
+        }
+    }
+    compare(&drawn)
+}
+
+struct Options {
+    wide: bool,
+    threads: u32,
+}
+
+impl Options {
+    fn read(arguments: &[String]) -> Result<Self, String> {
+        let mut options = Self { wide: false, threads: 3 };
+        let mut rest = arguments.iter();
+        while let Some(argument) = rest.next() {
+            match argument.as_str() {
+                "--wide" => options.wide = true,
+                "--threads" => {
+                    let count = rest.next().and_then(|count| count.parse().ok());
+                    options.threads = count.ok_or("--threads needs a number")?;
+                }
+                other => return Err(format!("unknown argument `{other}`")),
+            }
+        }
+        Ok(options)
+    }
+}
+
+/// Twice plainly; then, of the release build, with each number of threads.
+fn ways(build: Build, has_threads: bool, threads: u32) -> Vec<Way> {
+    let way = |name: &str, flags: Vec<String>| Way {
+        name: format!("{}-{name}", build.name()),
+        build,
+        flags,
+    };
+    let mut ways = vec![way("first", Vec::new()), way("again", Vec::new())];
+    if has_threads && build == Build::Release {
+        ways.extend((1..=threads).map(|count| {
+            way(&format!("threads-{count}"), vec!["--threads".into(), count.to_string()])
+        }));
+    }
+    ways
+}
+
+/// Draws every scene one way and gives the folder of the pictures.
+fn draw(program: &Program, way: &Way, folder: &Path) -> Result<PathBuf, String> {
+    let folder = folder.join(&way.name);
+    make_folder(&folder)?;
+    let flags: Vec<&str> = way.flags.iter().map(String::as_str).collect();
+    for scene in scenes()? {
+        program.render(&scene.path, &picture(&folder, &scene), &flags)?;
+    }
+    println!("{:16} drawn ({:?} build)", way.name, way.build);
+    Ok(folder)
+}
+
+fn picture(folder: &Path, scene: &Scene) -> PathBuf {
+    folder.join(format!("{}.png", scene.name))
+}
+
+/// Compares every way's pictures with those of the first.
+fn compare(drawn: &[(PathBuf, String)]) -> Outcome {
+    let Some(((first, first_name), others)) = drawn.split_first() else { return Ok(()) };
+    let bytes =
+        |path: PathBuf| fs::read(&path).map_err(|error| format!("{}: {error}", path.display()));
+    let mut differences = Vec::new();
+    let scenes = scenes()?;
+    for scene in &scenes {
+        let expected = bytes(picture(first, scene))?;
+        for (folder, name) in others {
+            if bytes(picture(folder, scene))? != expected {
+                differences.push(format!("{}: {name} is not {first_name}", scene.name));
+            }
+        }
+    }
+    if differences.is_empty() {
+        println!("{} scenes, drawn {} ways: the same bytes", scenes.len(), drawn.len());
+        return Ok(());
+    }
+    Err(format!("pictures differ (see target/determinism)\n  {}", differences.join("\n  ")))
+}

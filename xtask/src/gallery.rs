@@ -1,0 +1,62 @@
+//! `cargo xtask gallery`: every scene on one page, with the comment of its file below it.
+
+use crate::Outcome;
+use crate::program::{Build, Program};
+use crate::workspace::{make_folder, scenes, target};
+use std::fs;
+
+const HEAD: &str = "<!doctype html>
+<html lang=\"en\">
+<meta charset=\"utf-8\">
+<title>Alberti: gallery</title>
+<style>
+  body { margin: 3rem auto; max-width: 90rem; padding: 0 2rem; font: 16px/1.5 Georgia, serif; color: #22313f; background: #faf8f3; }
+  main { display: grid; grid-template-columns: repeat(auto-fill, minmax(24rem, 1fr)); gap: 3rem 2.5rem; align-items: end; }
+  figure { margin: 0; }
+  img { display: block; width: 100%; height: auto; }
+  figcaption { padding-top: .7rem; }
+  b { display: block; font-family: monospace; font-weight: normal; color: #9c4438; }
+</style>
+<h1>Alberti: gallery</h1>
+<main>
+";
+
+pub fn run(arguments: &[String]) -> Outcome {
+    if let Some(argument) = arguments.first() {
+        return Err(format!("unknown argument `{argument}`"));
+    }
+    let folder = target().join("gallery");
+    make_folder(&folder)?;
+    let program = Program::built(Build::Release)?;
+    let mut page = String::from(HEAD);
+    for scene in scenes()? {
+        program.render(&scene.path, &folder.join(format!("{}.png", scene.name)), &[])?;
+        page += &figure(&scene.name, &scene.caption()?);
+    }
+    page += "</main>\n";
+    let path = folder.join("index.html");
+    fs::write(&path, page).map_err(|error| format!("{}: {error}", path.display()))?;
+    println!("{}", path.display());
+    Ok(())
+}
+
+fn figure(name: &str, caption: &str) -> String {
+    let (name, caption) = (escaped(name), escaped(caption));
+    format!(
+        "<figure>\n  <img src=\"{name}.png\" alt=\"{caption}\">\n  <figcaption><b>scenes/{name}.ron</b> {caption}</figcaption>\n</figure>\n"
+    )
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn captions_cannot_break_the_page() {
+        assert!(figure("a", "1 < 2 & \"so\"").contains("1 &lt; 2 &amp; &quot;so&quot;"));
+    }
+}

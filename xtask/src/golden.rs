@@ -1,0 +1,93 @@
+//! `cargo xtask golden`: the golden images, one for each scene.
+//!
+//! Comparing is a test of the workspace like any other (`tests/goldens`); this command runs it, and makes new goldens of scenes
+//! that were looked at and found right.
+
+use crate::Outcome;
+use crate::program::{Build, Program, cargo};
+use crate::workspace::{Scene, scenes, shown};
+use std::fs;
+use std::io::Cursor;
+use std::path::Path;
+
+/// Goldens are kept small, for they are kept for ever.
+const MOST_BYTES: usize = 150_000;
+
+pub fn run(arguments: &[String]) -> Outcome {
+    match arguments.iter().position(|argument| argument == "--bless") {
+        Some(flag) => {
+            let names: Vec<&String> =
+                arguments[..flag].iter().chain(&arguments[flag + 1..]).collect();
+            bless(&names)
+        }
+        None => compare(arguments),
+    }
+}
+
+fn compare(names: &[String]) -> Outcome {
+    let mut test =
+        cargo(&["test", "--quiet", "--package", "alberti-tests", "--test", "goldens", "--"]);
+    let status = test.args(names).status().map_err(|error| error.to_string())?;
+    if status.success() { Ok(()) } else { Err("some pictures differ from their goldens".into()) }
+}
+
+/// Makes the present pictures of the named scenes, or with `--all` of every scene, their goldens.
+fn bless(names: &[&String]) -> Outcome {
+    if std::env::var_os("CI").is_some() {
+        return Err("goldens are blessed by a person who has looked at them, never in CI".into());
+    }
+    let chosen = chosen(names)?;
+    let program = Program::built(Build::Release)?;
+    for scene in &chosen {
+        let golden = scene.golden();
+        program.render(&scene.path, &golden, &[])?;
+        let bytes = compress(&golden)?;
+        println!("{} ({bytes} bytes): look at it before you commit it.", shown(&golden));
+        println!("  It should show this: {}", scene.caption()?);
+        if bytes > MOST_BYTES {
+            return Err(format!("{} is larger than {MOST_BYTES} bytes", shown(&golden)));
+        }
+    }
+    Ok(())
+}
+
+/// Writes a PNG again with the same pixels and the best compression, and gives its new size. The program prefers speed.
+fn compress(path: &Path) -> Result<usize, String> {
+    let bytes = fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let bytes = compressed(&bytes).map_err(|error| format!("{}: {error}", path.display()))?;
+    fs::write(path, &bytes).map_err(|error| format!("{}: {error}", path.display()))?;
+    Ok(bytes.len())
+}
+
+fn compressed(bytes: &[u8]) -> Result<Vec<u8>, String> {
+    let mut reader =
+        png::Decoder::new(Cursor::new(bytes)).read_info().map_err(|e| e.to_string())?;
+    let mut pixels = vec![0; reader.output_buffer_size().ok_or("too large")?];
+    let info = reader.next_frame(&mut pixels).map_err(|error| error.to_string())?;
+    let mut smaller = Vec::new();
+    let mut encoder = png::Encoder::new(&mut smaller, info.width, info.height);
+    encoder.set_color(info.color_type);
+    encoder.set_depth(info.bit_depth);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    encoder.set_compression(png::Compression::High);
+    let mut writer = encoder.write_header().map_err(|error| error.to_string())?;
+    writer.write_image_data(&pixels).map_err(|error| error.to_string())?;
+    writer.finish().map_err(|error| error.to_string())?;
+    Ok(smaller)
+}
+
+fn chosen(names: &[&String]) -> Result<Vec<Scene>, String> {
+    let scenes = scenes()?;
+    if names.is_empty() {
+        return Err("say which: --bless NAME… or --bless --all".into());
+    }
+    if names.iter().any(|name| *name == "--all") {
+        return Ok(scenes);
+    }
+    if let Some(unknown) =
+        names.iter().find(|name| !scenes.iter().any(|scene| scene.name == ***name))
+    {
+        return Err(format!("there is no scenes/{unknown}.ron"));
+    }
+    Ok(scenes.into_iter().filter(|scene| names.contains(&&scene.name)).collect())
+}

@@ -1,0 +1,107 @@
+//! `cargo xtask models`: the models of the scenes, made by code.
+//!
+//! The `.glb` files are committed so that a fresh clone has its pictures at once; `--check` says whether they are still what the
+//! code makes. The same code gives the same bytes on every machine: `+ − × ÷ √` and `libm` only.
+
+mod bezier;
+mod boxes;
+mod document;
+mod floor;
+mod house;
+mod lamp;
+mod mesh;
+mod mexican_hat;
+mod palette;
+mod primitives;
+mod room;
+mod spheres;
+mod teapot;
+mod teapot_patches;
+mod tower;
+mod vase;
+mod wood;
+
+use crate::Outcome;
+use crate::workspace::{files, make_folder, root, shown};
+use std::fs;
+use std::path::PathBuf;
+
+/// No model is larger: a clone should stay small.
+const MOST_BYTES: usize = 300_000;
+
+/// Every model's file name and its bytes.
+fn all() -> Result<Vec<(&'static str, Vec<u8>)>, String> {
+    let documents = [
+        ("crate.glb", boxes::wooden_crate()?),
+        ("floor.glb", floor::floor()),
+        ("house.glb", house::solid()),
+        ("house_edges.glb", house::edges()),
+        ("lamp.glb", lamp::lamp()),
+        ("mexican_hat.glb", mexican_hat::surface()),
+        ("mexican_hat_lines.glb", mexican_hat::lines()),
+        ("panes.glb", boxes::panes()?),
+        ("primitives.glb", primitives::primitives()),
+        ("room.glb", room::room()),
+        ("spheres.glb", spheres::spheres()),
+        ("table.glb", teapot::table()),
+        ("teapot.glb", teapot::teapot()),
+        ("tower.glb", tower::tower()),
+        ("vase.glb", vase::vase()),
+    ];
+    Ok(documents.into_iter().map(|(name, document)| (name, document.into_glb())).collect())
+}
+
+fn folder() -> PathBuf {
+    root().join("scenes/models")
+}
+
+pub fn run(arguments: &[String]) -> Outcome {
+    match arguments {
+        [] => write(),
+        [flag] if flag == "--check" => check(),
+        _ => Err("say `models` or `models --check`".into()),
+    }
+}
+
+fn write() -> Outcome {
+    make_folder(&folder())?;
+    for (name, bytes) in all()? {
+        let path = folder().join(name);
+        if fs::read(&path).is_ok_and(|found| found == bytes) {
+            continue;
+        }
+        fs::write(&path, &bytes).map_err(|error| format!("{}: {error}", path.display()))?;
+        println!("{} {} bytes", shown(&path), bytes.len());
+    }
+    Ok(())
+}
+
+fn check() -> Outcome {
+    let mut faults = Vec::new();
+    let models = all()?;
+    for (name, bytes) in &models {
+        if fs::read(folder().join(name)).ok().as_ref() != Some(bytes) {
+            faults.push(format!("scenes/models/{name} is not what the code makes"));
+        }
+        if bytes.len() > MOST_BYTES {
+            faults.push(format!(
+                "scenes/models/{name} has {} bytes, more than {MOST_BYTES}",
+                bytes.len()
+            ));
+        }
+    }
+    for path in files(&folder(), "glb")? {
+        if !models.iter().any(|(name, _)| path.ends_with(name)) {
+            faults.push(format!("{} is made by no code", shown(&path)));
+        }
+    }
+    if faults.is_empty() {
+        println!("{} models are what the code makes", models.len());
+        return Ok(());
+    }
+    faults.push("`cargo xtask models` writes them anew".into());
+    Err(faults.join("\n  "))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,55 @@
+//! A wooden crate with a picture on each side, and panes of glass with a cut-out screen between them.
+
+use super::document::Document;
+use super::mesh::Mesh;
+use super::palette::{CLAY, OCHRE, SLATE, TEAL};
+use super::wood;
+use glam::{DVec3, dvec3};
+use serde_json::json;
+
+/// A cube of one metre standing on the ground, the same picture on all six sides.
+pub fn wooden_crate() -> Result<Document, String> {
+    let mut document = Document::default();
+    let planks = document.texture("planks", &wood::crate_side()?);
+    let wood = document.textured("wood", planks, json!({}));
+    let mesh = document.mesh("crate", &[(&Mesh::block(DVec3::ZERO, DVec3::ONE), wood)]);
+    document.root("crate", Some(mesh), json!({}));
+    Ok(document)
+}
+
+/// Three panes of coloured glass (BLEND) with a perforated screen (MASK) behind them, in a slate rail (OPAQUE).
+///
+/// The panes are listed from front to back, against the order in which they must be blended from a camera in front.
+pub fn panes() -> Result<Document, String> {
+    let mut document = Document::default();
+    let rail = document.material("rail", SLATE);
+    let rail =
+        document.mesh("rail", &[(&Mesh::block(DVec3::ZERO, dvec3(3.4, 0.16, 2.6)).plain(), rail)]);
+    document.root("rail", Some(rail), json!({}));
+
+    for (name, color, x, z) in [
+        ("ochre pane", OCHRE, -0.5, 0.9),
+        ("clay pane", CLAY, 0.0, 0.3),
+        ("teal pane", TEAL, 0.5, -0.3),
+    ] {
+        let glass = document.glass(name, color, 0.55);
+        let pane = document.mesh(name, &[(&upright(dvec3(x, 0.16, z), 1.5, 1.8).plain(), glass)]);
+        document.root(name, Some(pane), json!({}));
+    }
+
+    let lattice = document.texture("lattice", &wood::lattice()?);
+    let cut_out = json!({ "alphaMode": "MASK", "alphaCutoff": 0.5, "doubleSided": true });
+    let screen = document.textured("screen", lattice, cut_out);
+    let screen = document.mesh("screen", &[(&upright(dvec3(0.0, 0.16, -0.9), 3.0, 2.2), screen)]);
+    document.root("screen", Some(screen), json!({}));
+    Ok(document)
+}
+
+/// A rectangle facing +z, standing with the middle of its foot at `at`.
+fn upright(at: DVec3, width: f64, height: f64) -> Mesh {
+    let side = DVec3::X * (width / 2.0);
+    let up = DVec3::Y * height;
+    let mut mesh = Mesh::default();
+    mesh.quad([at - side, at + side, at + side + up, at - side + up]);
+    mesh
+}

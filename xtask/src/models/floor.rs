@@ -1,0 +1,69 @@
+//! A long floor of square tiles in two colours, with rows of posts, that goes on behind a camera at the origin.
+//!
+//! Every tile is a face of its own: those under the camera straddle its plane, which is where a renderer that divides before
+//! it clips tears them.
+
+use super::document::Document;
+use super::mesh::Mesh;
+use super::palette::{BRICK, CREAM, SAND, SLATE};
+use glam::{DVec3, dvec3};
+use serde_json::json;
+
+/// Half the number of tiles across; tiles are one metre.
+const HALF_WIDTH: i32 = 6;
+/// The tiles from behind the camera to the far end.
+const FROM_Z: i32 = -72;
+const TO_Z: i32 = 24;
+
+pub fn floor() -> Document {
+    let mut document = Document::default();
+    let light = document.material("light tiles", CREAM);
+    let dark = document.material("dark tiles", SLATE);
+    let tiles = document.mesh("tiles", &[(&tiles(0), light), (&tiles(1), dark)]);
+    document.root("floor", Some(tiles), json!({}));
+
+    let stone = document.material("stone", SAND);
+    let cap = document.material("cap", BRICK);
+    let post = document.mesh(
+        "post",
+        &[(&post(), stone), (&Mesh::sphere(0.22, 16).moved(dvec3(0.0, 2.36, 0.0)), cap)],
+    );
+    for step in 0..16 {
+        let z = f64::from(TO_Z) - 4.0 - 6.0 * f64::from(step);
+        for (side, x) in [("left", -5.5), ("right", 5.5)] {
+            document.root(
+                &format!("{side} post {step}"),
+                Some(post),
+                json!({ "translation": [x, 0.0, z] }),
+            );
+        }
+    }
+    document
+}
+
+/// The tiles of one colour, on one grid of shared corners.
+fn tiles(odd: i32) -> Mesh {
+    let mut mesh = Mesh::default();
+    let across = 2 * HALF_WIDTH + 1;
+    for z in FROM_Z..=TO_Z {
+        for x in -HALF_WIDTH..=HALF_WIDTH {
+            mesh.vertex(dvec3(f64::from(x), 0.0, f64::from(z)), DVec3::Y);
+        }
+    }
+    for row in 0..TO_Z - FROM_Z {
+        for column in (0..across - 1).filter(|column| (row + column) % 2 == odd) {
+            // Seen from above, z runs down the page: this order is counter-clockwise.
+            let corner = (row * across + column) as u32;
+            let below = corner + across as u32;
+            mesh.indices.extend([corner, below, below + 1, corner, below + 1, corner + 1]);
+        }
+    }
+    mesh
+}
+
+fn post() -> Mesh {
+    let mut post = Mesh::block(DVec3::ZERO, dvec3(0.5, 0.2, 0.5)).plain();
+    post.append(&Mesh::block(dvec3(0.0, 0.2, 0.0), dvec3(0.32, 1.9, 0.32)).plain());
+    post.append(&Mesh::block(dvec3(0.0, 2.1, 0.0), dvec3(0.5, 0.12, 0.5)).plain());
+    post
+}

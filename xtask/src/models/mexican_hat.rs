@@ -1,0 +1,113 @@
+//! The Mexican hat: a height field over a square grid.
+//!
+//! Grid indices go to `[-1, 1]²` by `x = 2i/(rows−1) − 1`, `z = 2j/(columns−1) − 1`. The height is `sin(R)/R` with
+//! `R = 2π√(x² + z²)`: 1 in the middle, the first trough on the circle of radius 0.715, the second crest just
+//! outside the edges' middles. (Angel's *Interactive Computer Graphics* draws the same surface.)
+
+use super::document::{Document, Mode};
+use super::mesh::Mesh;
+use super::palette::{CLAY, CREAM, INK, OCHRE, SKY, TEAL, ramp};
+use glam::{DVec3, dvec3};
+use serde_json::json;
+use std::f64::consts::TAU;
+
+const ROWS: u32 = 49;
+const COLUMNS: u32 = 49;
+/// Heights are drawn at this share, so that the hat is about as high as half its brim is wide.
+const HEIGHT: f64 = 0.9;
+
+/// The surface, coloured by height.
+pub fn surface() -> Document {
+    let mut mesh = Mesh::default();
+    for (x, z) in grid() {
+        let hat = Hat::at(x, z);
+        mesh.vertex(dvec3(x, HEIGHT * hat.height, z), hat.normal());
+        mesh.colors.push(color(hat.height));
+    }
+    mesh.weave(0, COLUMNS, ROWS);
+    let mut document = Document::default();
+    let material =
+        document.double_sided("coloured by height", super::palette::Color(255, 255, 255));
+    let mesh = document.mesh("Mexican hat", &[(&mesh, material)]);
+    document.root("Mexican hat", Some(mesh), json!({}));
+    document
+}
+
+/// Every second row and column of the grid as polylines, each a LINE_STRIP without indices.
+pub fn lines() -> Document {
+    let mut document = Document::default();
+    let ink = document.material("ink", INK);
+    let vertices: Vec<DVec3> =
+        grid().map(|(x, z)| dvec3(x, HEIGHT * Hat::at(x, z).height, z)).collect();
+    let strip = |places: Vec<u32>| {
+        let positions = places.iter().map(|place| vertices[*place as usize]).collect();
+        Mesh { positions, ..Mesh::default() }
+    };
+    let row = |i: u32| (0..COLUMNS).map(|j| i * COLUMNS + j).collect();
+    let column = |j: u32| (0..ROWS).map(|i| i * COLUMNS + j).collect();
+    let rows = (0..ROWS).step_by(2).map(row);
+    let strips: Vec<Mesh> = rows.chain((0..COLUMNS).step_by(2).map(column)).map(strip).collect();
+    let parts: Vec<_> = strips.iter().map(|strip| (strip, ink, Mode::LineStrip)).collect();
+    let mesh = document.mesh_of("Mexican hat in lines", &parts);
+    document.root("Mexican hat in lines", Some(mesh), json!({}));
+    document
+}
+
+/// The places of the grid, row by row.
+fn grid() -> impl Iterator<Item = (f64, f64)> {
+    let place = |index, count| 2.0 * f64::from(index) / f64::from(count - 1) - 1.0;
+    (0..ROWS).flat_map(move |i| (0..COLUMNS).map(move |j| (place(i, ROWS), place(j, COLUMNS))))
+}
+
+/// The hat at one place: its height and its slopes.
+struct Hat {
+    height: f64,
+    slope_x: f64,
+    slope_z: f64,
+}
+
+impl Hat {
+    /// With `s = sin(R)/R`, `ds/dx = (cos R − s)/R · dR/dx` and `dR/dx = (2π)² x / R`.
+    fn at(x: f64, z: f64) -> Self {
+        let big_r = TAU * libm::sqrt(x * x + z * z);
+        if big_r < 1e-9 {
+            return Self { height: 1.0, slope_x: 0.0, slope_z: 0.0 };
+        }
+        let (sine, cosine) = libm::sincos(big_r);
+        let height = sine / big_r;
+        let slope = (cosine - height) / big_r * (TAU * TAU / big_r);
+        Self { height, slope_x: slope * x, slope_z: slope * z }
+    }
+
+    fn normal(&self) -> DVec3 {
+        dvec3(-HEIGHT * self.slope_x, 1.0, -HEIGHT * self.slope_z).normalize()
+    }
+}
+
+/// From the trough, the least height −0.2172, to the peak.
+fn color(height: f64) -> [f64; 3] {
+    let stops = [TEAL, SKY, CREAM, OCHRE, CLAY, CLAY].map(super::palette::Color::linear);
+    ramp(&stops, libm::sqrt(((height + 0.2172) / 1.2172).max(0.0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_grid_reaches_all_four_corners() {
+        let places: Vec<_> = grid().collect();
+        assert_eq!(places.len() as u32, ROWS * COLUMNS);
+        assert_eq!((places[0], *places.last().unwrap()), ((-1.0, -1.0), (1.0, 1.0)));
+        assert_eq!(places[COLUMNS as usize - 1], (-1.0, 1.0));
+    }
+
+    #[test]
+    fn slopes_are_the_derivatives_of_the_height() {
+        let step = 1e-6;
+        for (x, z) in [(0.1, 0.2), (-0.7, 0.4), (0.9, -0.9)] {
+            let across = (Hat::at(x + step, z).height - Hat::at(x - step, z).height) / (2.0 * step);
+            assert!((across - Hat::at(x, z).slope_x).abs() < 1e-8);
+        }
+    }
+}

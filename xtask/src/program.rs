@@ -1,0 +1,93 @@
+//! Building the program `alberti` and making it draw.
+
+use crate::workspace::{root, target};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// A way to build the program. All of them must draw the same pixels.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Build {
+    Debug,
+    Release,
+    /// Release, and the compiler may use AVX2 and fused multiply-add.
+    Wide,
+}
+
+impl Build {
+    /// Its name in messages and in folders.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Debug => "debug",
+            Self::Release => "release",
+            Self::Wide => "wide",
+        }
+    }
+}
+
+/// The program as one build made it.
+pub struct Program {
+    path: PathBuf,
+}
+
+impl Program {
+    /// Builds the program and says where it is.
+    pub fn built(build: Build) -> Result<Self, String> {
+        let mut cargo = cargo(&["build", "--quiet", "--package", "pipeline", "--bin", "alberti"]);
+        let mut folder = target();
+        if build != Build::Debug {
+            cargo.arg("--release");
+        }
+        if build == Build::Wide {
+            folder = folder.join("wide");
+            cargo.env("RUSTFLAGS", "-Ctarget-feature=+avx2,+fma").env("CARGO_TARGET_DIR", &folder);
+        }
+        succeed(&mut cargo)?;
+        let profile = if build == Build::Debug { "debug" } else { "release" };
+        let name = format!("alberti{}", std::env::consts::EXE_SUFFIX);
+        Ok(Self { path: folder.join(profile).join(name) })
+    }
+
+    /// Draws a scene, or says what the program said.
+    pub fn render(&self, scene: &Path, picture: &Path, flags: &[&str]) -> Result<(), String> {
+        succeed(
+            Command::new(&self.path).arg("render").arg(scene).arg("-o").arg(picture).args(flags),
+        )
+    }
+
+    /// Whether `alberti render` has a flag, by its help.
+    pub fn has_flag(&self, flag: &str) -> bool {
+        let help = Command::new(&self.path).args(["render", "--help"]).output();
+        help.is_ok_and(|help| String::from_utf8_lossy(&help.stdout).contains(flag))
+    }
+}
+
+/// Cargo, run at the root: the one that started this program.
+pub fn cargo(arguments: &[&str]) -> Command {
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.current_dir(root()).args(arguments);
+    cargo
+}
+
+/// Runs a command to its end. What it prints is shown only if it fails.
+pub fn succeed(command: &mut Command) -> Result<(), String> {
+    output(command).map(drop)
+}
+
+/// Runs a command to its end and gives what it wrote to its standard output.
+pub fn output(command: &mut Command) -> Result<String, String> {
+    let shown = shown(command);
+    let output = command.output().map_err(|error| format!("{shown}: {error}"))?;
+    let [stdout, stderr] =
+        [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+    if output.status.success() {
+        return Ok(stdout);
+    }
+    Err(format!("`{shown}` failed ({})\n{stdout}{stderr}", output.status))
+}
+
+/// A command as one would type it.
+pub fn shown(command: &Command) -> String {
+    let program = Path::new(command.get_program()).file_stem().unwrap_or_default();
+    let words = std::iter::once(program).chain(command.get_args());
+    words.map(|word| word.to_string_lossy()).collect::<Vec<_>>().join(" ")
+}

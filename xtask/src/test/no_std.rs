@@ -1,0 +1,48 @@
+//! Whether the crates of mathematics do without the standard library.
+//!
+//! That they say `#![no_std]` is a rule of tidy. Here each is built by itself, without what tests need, and Cargo is asked which
+//! crates and which features that build has: none may be one that brings the standard library back.
+
+use crate::Outcome;
+use crate::program::{cargo, output, succeed};
+use crate::tidy::NO_STD;
+
+/// What such a crate may depend on; macros that only run in the compiler do not count.
+const ALLOWED: &[&str] = &["homog", "glam", "libm", "thiserror"];
+
+pub fn run() -> Outcome {
+    for name in NO_STD {
+        succeed(&mut cargo(&["build", "--quiet", "--package", name]))?;
+        let mut tree = cargo(&["tree", "--edges", "normal,no-proc-macro", "--prefix", "none"]);
+        let tree = output(tree.args(["--format", "{p}|{f}", "--package", name]))?;
+        if let Some(fault) = tree.lines().find_map(|line| fault(name, line)) {
+            return Err(format!("{name} is not free of the standard library: {fault}"));
+        }
+        println!("{name} is built without std");
+    }
+    Ok(())
+}
+
+/// What is wrong with a line of the tree: `crate version …|feature,feature`.
+fn fault(name: &str, line: &str) -> Option<String> {
+    let (package, features) = line.split_once('|')?;
+    let package = package.split_whitespace().next()?;
+    if package != name && !ALLOWED.contains(&package) {
+        return Some(format!("it depends on {package}"));
+    }
+    let std = features.trim_end_matches(" (*)").split(',').any(|feature| feature == "std");
+    std.then(|| format!("{package} has its feature `std`"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strange_crates_and_std_features_are_faults() {
+        assert_eq!(fault("clip", "clip v0.1.0 (somewhere)|"), None);
+        assert_eq!(fault("clip", "glam v0.34.0|f64,libm (*)"), None);
+        assert!(fault("clip", "camera v0.1.0|").is_some());
+        assert!(fault("clip", "thiserror v2.0.0|default,std (*)").is_some());
+    }
+}

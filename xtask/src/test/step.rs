@@ -1,0 +1,85 @@
+//! A step of the tests: what it runs, and what came of it.
+
+use crate::Outcome;
+use crate::program::{cargo, shown};
+use std::io::{BufRead, BufReader, Write};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// One step.
+pub struct Step {
+    pub name: String,
+    pub about: String,
+    pub action: Action,
+}
+
+/// What a step runs.
+pub enum Action {
+    /// Cargo with these arguments, one call after the other.
+    Cargo(Vec<Vec<String>>),
+    /// Cargo's documentation with warnings as errors.
+    Documentation,
+    /// A command of this program.
+    Own(fn() -> Outcome),
+}
+
+/// What came of a step.
+pub struct Report {
+    pub name: String,
+    pub time: Duration,
+    pub failure: Option<String>,
+    /// The lines by which it says that it could not do something.
+    pub skipped: Vec<String>,
+}
+
+impl Step {
+    /// A step of one or more calls of Cargo, each written as on the command line.
+    pub fn cargo(name: &str, about: &str, calls: &[&str]) -> Self {
+        let words = |call: &&str| call.split_whitespace().map(str::to_owned).collect();
+        let action = Action::Cargo(calls.iter().map(words).collect());
+        Self { name: name.into(), about: about.into(), action }
+    }
+
+    /// A step that is a command of this program.
+    pub fn own(name: &str, about: &str, run: fn() -> Outcome) -> Self {
+        Self { name: name.into(), about: about.into(), action: Action::Own(run) }
+    }
+
+    /// Runs the step, with a heading before it.
+    pub fn run(&self) -> Report {
+        println!("\n── {}: {}", self.name, self.about);
+        let start = Instant::now();
+        let mut skipped = Vec::new();
+        let outcome = match &self.action {
+            Action::Own(run) => run(),
+            Action::Cargo(calls) => calls.iter().try_for_each(|call| {
+                let words: Vec<&str> = call.iter().map(String::as_str).collect();
+                follow(&mut cargo(&words), &mut skipped)
+            }),
+            Action::Documentation => {
+                let mut cargo = cargo(&["doc", "--quiet", "--workspace", "--no-deps"]);
+                follow(cargo.env("RUSTDOCFLAGS", "-D warnings"), &mut skipped)
+            }
+        };
+        Report { name: self.name.clone(), time: start.elapsed(), failure: outcome.err(), skipped }
+    }
+}
+
+/// Runs a command, shows what it prints as it comes, and keeps the lines that begin with `SKIPPED`.
+fn follow(command: &mut Command, skipped: &mut Vec<String>) -> Outcome {
+    let name = shown(command);
+    let said = |error: std::io::Error| format!("{name}: {error}");
+    let mut child = command.stdout(Stdio::piped()).spawn().map_err(said)?;
+    if let Some(output) = child.stdout.take() {
+        for line in BufReader::new(output).split(b'\n') {
+            let line = String::from_utf8_lossy(&line.map_err(said)?).into_owned();
+            // A closed terminal is no reason to stop testing.
+            let _ = writeln!(std::io::stdout(), "{line}");
+            if line.starts_with("SKIPPED") {
+                skipped.push(line);
+            }
+        }
+    }
+    let status = child.wait().map_err(said)?;
+    if status.success() { Ok(()) } else { Err(format!("`{name}` failed ({status})")) }
+}

@@ -1,0 +1,119 @@
+//! Rust source with everything blanked out that is not code, so that rules may look for words and braces plainly.
+
+/// The source with comments and the insides of strings and characters replaced by spaces. Lines stay where they are.
+#[must_use]
+pub fn blanked(source: &str) -> String {
+    let mut rest = source;
+    let mut code = String::with_capacity(source.len());
+    while let Some(first) = rest.chars().next() {
+        let after_word = code.chars().next_back().is_some_and(is_word);
+        let length = match first {
+            '/' if rest.starts_with("//") => rest.find('\n').unwrap_or(rest.len()),
+            '/' if rest.starts_with("/*") => block_comment(rest),
+            '"' => string(rest),
+            'r' | 'b' if !after_word => raw_string(rest).unwrap_or(0),
+            '\'' => character(rest),
+            _ => 0,
+        };
+        if length == 0 {
+            code.push(first);
+            rest = &rest[first.len_utf8()..];
+        } else {
+            code.extend(rest[..length].chars().map(|c| if c == '\n' { '\n' } else { ' ' }));
+            rest = &rest[length..];
+        }
+    }
+    code
+}
+
+pub fn is_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+/// The length of a block comment, which may hold others.
+fn block_comment(text: &str) -> usize {
+    let mut depth = 0;
+    let mut at = 0;
+    while at < text.len() {
+        let rest = &text.as_bytes()[at..];
+        let step = match rest {
+            [b'/', b'*', ..] => {
+                depth += 1;
+                2
+            }
+            [b'*', b'/', ..] => {
+                depth -= 1;
+                2
+            }
+            _ => 1,
+        };
+        at += step;
+        if depth == 0 {
+            break;
+        }
+    }
+    at
+}
+
+/// The length of a string in double quotes, from the first quote to the last.
+fn string(text: &str) -> usize {
+    let mut escaped = false;
+    for (at, c) in text.char_indices().skip(1) {
+        match c {
+            _ if escaped => escaped = false,
+            '\\' => escaped = true,
+            '"' => return at + 1,
+            _ => {}
+        }
+    }
+    text.len()
+}
+
+/// The length of a raw string such as `r#"…"#`, if one begins here.
+fn raw_string(text: &str) -> Option<usize> {
+    let marked = text.strip_prefix('b').unwrap_or(text).strip_prefix('r')?;
+    let hashes = marked.len() - marked.trim_start_matches('#').len();
+    let inside = marked[hashes..].strip_prefix('"')?;
+    let end = format!("\"{}", "#".repeat(hashes));
+    let before = text.len() - inside.len();
+    Some(inside.find(&end).map_or(text.len(), |at| before + at + end.len()))
+}
+
+/// The length of a character literal; 0 where the quote begins a lifetime.
+fn character(text: &str) -> usize {
+    let mut characters = text.char_indices().skip(1);
+    match (characters.next(), characters.next()) {
+        (Some((_, '\\')), Some((at, _))) => {
+            text[at + 1..].find('\'').map_or(0, |end| at + 1 + end + 1)
+        }
+        (Some(_), Some((at, '\''))) => at + 1,
+        _ => 0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_code_is_left() {
+        let table = [
+            ("a // b", "a     "),
+            ("a /* b /* c */ d */ e", "a                   e"),
+            (r#"f("x{\"")"#, "f(      )"),
+            (r##"r#"{"# {"##, "       {"),
+            ("'{' 'a '\\'' {", "    'a      {"),
+            ("for x in \"ü\"", "for x in    "),
+        ];
+        for (source, code) in table {
+            assert_eq!(blanked(source), code, "{source}");
+        }
+    }
+
+    #[test]
+    fn lines_stay_where_they_are() {
+        let source = "/* a\nb */ c\n\"d\ne\" f";
+        assert_eq!(blanked(source).lines().count(), 4);
+        assert!(blanked(source).lines().nth(3).unwrap().ends_with('f'));
+    }
+}

@@ -1,0 +1,97 @@
+//! What the documents point at must exist, and their code blocks must say what language they are in.
+
+use super::Fault;
+use super::source::text_files;
+use crate::workspace::root;
+use std::path::Path;
+
+/// Folders of the workspace; a word of a document that begins with one is a path.
+const FOLDERS: [&str; 5] = ["crates/", "scenes/", "tests/", "xtask/", ".ci/"];
+
+pub fn links() -> Result<Vec<Fault>, String> {
+    let files = text_files()?;
+    let documents = files.iter().filter(|(path, _)| path.ends_with(".md"));
+    Ok(documents
+        .flat_map(|(path, text)| document(path, text, |at| root().join(at).exists()))
+        .collect())
+}
+
+fn document(path: &str, text: &str, exists: impl Fn(&Path) -> bool) -> Vec<Fault> {
+    let folder = Path::new(path).parent().unwrap_or(Path::new(""));
+    let mut faults = Vec::new();
+    let mut fenced = false;
+    for (i, line) in text.lines().enumerate() {
+        let place = || format!("{path}:{}", i + 1);
+        if let Some(language) = line.trim_start().strip_prefix("```") {
+            if !fenced && language.trim().is_empty() {
+                faults.push(Fault::new(place(), "say the language of this code block"));
+            }
+            fenced = !fenced;
+            continue;
+        }
+        let missing = |target: &&str| !exists(&folder.join(target));
+        for target in linked(line).filter(|_| !fenced).filter(missing) {
+            faults.push(Fault::new(place(), format!("`{target}` does not exist")));
+        }
+        for target in paths(line).filter(|target| !exists(Path::new(target))) {
+            faults.push(Fault::new(place(), format!("`{target}` does not exist")));
+        }
+    }
+    if fenced {
+        faults.push(Fault::new(path, "a code block is not closed"));
+    }
+    faults
+}
+
+/// The files that Markdown links of a line lead to.
+fn linked(line: &str) -> impl Iterator<Item = &str> {
+    let targets =
+        line.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(target, _)| target);
+    let files = targets.map(|target| target.split('#').next().unwrap_or(target));
+    files.filter(|target| !target.is_empty() && !target.contains("://"))
+}
+
+/// The words of a line that are paths from the root; placeholders such as `NAME` are not.
+fn paths(line: &str) -> impl Iterator<Item = &str> {
+    let words = line.split(|c: char| c.is_whitespace() || "`()[]\"',;|".contains(c));
+    let words = words.map(|word| word.trim_end_matches(['.', ':']));
+    let placeholder =
+        |word: &str| word.contains(['*', '<', '{', '…', '$']) || word.contains("NAME");
+    words.filter(move |word| {
+        FOLDERS.iter().any(|folder| word.starts_with(folder)) && !placeholder(word)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn faults(text: &str) -> usize {
+        let exists = |path: &Path| {
+            ["scenes/a.ron", "docs/b.md"].iter().any(|known| path == Path::new(known))
+        };
+        document("docs/x.md", text, exists).len()
+    }
+
+    #[test]
+    fn links_are_followed_from_the_document_and_paths_from_the_root() {
+        let table = [
+            ("[b](b.md) and [web](https://example.org)", 0),
+            ("[c](c.md) and [b](b.md#part)", 1),
+            ("run `alberti render scenes/a.ron`.", 0),
+            ("run `alberti render scenes/c.ron`", 1),
+            ("`tests/goldens/NAME.png` and `crates/*`", 0),
+        ];
+        for (line, expected) in table {
+            assert_eq!(faults(line), expected, "{line}");
+        }
+    }
+
+    #[test]
+    fn code_blocks_have_a_language_and_an_end() {
+        assert_eq!(
+            (faults("```rust\n[a](c)\n```"), faults("```\nx\n```"), faults("```sh\nx")),
+            (0, 1, 1)
+        );
+    }
+}

@@ -1,0 +1,81 @@
+//! The files that the rules look at.
+
+use super::code::blanked;
+use crate::workspace::{read, root, shown};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A file of Rust.
+pub struct Source {
+    /// From the root, with forward slashes.
+    pub path: String,
+    pub text: String,
+    /// The lines with comments and the insides of strings blanked out: what is left is code.
+    pub code: Vec<String>,
+}
+
+impl Source {
+    pub fn new(path: impl Into<String>, text: impl Into<String>) -> Self {
+        let text = text.into();
+        let code = blanked(&text).lines().map(str::to_owned).collect();
+        Self { path: path.into(), text, code }
+    }
+
+    /// Whether the file belongs to a library crate, not to a program, a test or an example.
+    pub fn is_library(&self) -> bool {
+        let program = [
+            "crates/pipeline/src/main.rs",
+            "crates/pipeline/src/cli.rs",
+            "crates/pipeline/src/cli/",
+        ];
+        self.path.starts_with("crates/")
+            && self.path.contains("/src/")
+            && !program.iter().any(|part| self.path.starts_with(part))
+    }
+
+    /// The lines of code before the file's tests, each with its number.
+    pub fn code_without_tests(&self) -> impl Iterator<Item = (usize, &str)> {
+        let lines = self.code.iter().take_while(|line| line.trim() != "#[cfg(test)]");
+        lines.enumerate().map(|(i, line)| (i + 1, line.as_str()))
+    }
+
+    pub fn line(&self, number: usize) -> String {
+        format!("{}:{number}", self.path)
+    }
+}
+
+/// Every file of Rust in the workspace.
+pub fn rust_files() -> Result<Vec<Source>, String> {
+    let paths = walk(root())?;
+    let rust = paths.iter().filter(|path| path.extension().is_some_and(|found| found == "rs"));
+    rust.map(|path| Ok(Source::new(shown(path), read(path)?))).collect()
+}
+
+/// Every file that a person reads, by path and text.
+pub fn text_files() -> Result<Vec<(String, String)>, String> {
+    let text = ["rs", "toml", "ron", "md", "lock", "svg", "sh"];
+    let mut paths = walk(root())?;
+    paths.retain(|path| {
+        path.extension().is_some_and(|found| text.iter().any(|known| found == *known))
+    });
+    paths.iter().map(|path| Ok((shown(path), read(path)?))).collect()
+}
+
+/// All files below a folder, sorted, without build output and hidden folders.
+fn walk(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    let mut found = Vec::new();
+    let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    paths.sort();
+    for path in paths {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if path.is_dir() {
+            if name != "target" && !name.starts_with('.') {
+                found.extend(walk(&path)?);
+            }
+        } else {
+            found.push(path);
+        }
+    }
+    Ok(found)
+}

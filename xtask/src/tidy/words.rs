@@ -1,0 +1,111 @@
+//! Words: how files open, and what may not stay in them.
+
+use super::Fault;
+use super::source::Source;
+
+/// This folder must name the words it forbids.
+const EXEMPT: &str = "xtask/src/tidy";
+
+/// Marks of work that was put off; what is known to be missing belongs into an issue or the README.
+const UNFINISHED: [&str; 3] = ["TODO", "FIXME", "XXX"];
+
+/// Macros that print or stop, which a library leaves to the program.
+const PRINTING: [&str; 7] =
+    ["todo!", "dbg!", "println!", "eprintln!", "print!", "eprint!", "unimplemented!"];
+
+/// Beginnings of paths that exist on one machine only.
+const MACHINE_PATHS: [&str; 5] = ["/home/", "/root/", "/tmp/", "/Users/", "C:\\"];
+
+pub fn opening(source: &Source) -> Vec<Fault> {
+    let first = source.text.lines().find(|line| !line.trim().is_empty());
+    if first.is_some_and(|line| line.starts_with("//!")) {
+        return Vec::new();
+    }
+    vec![Fault::new(&source.path, "open the file with `//!`: what it is and why")]
+}
+
+pub fn unfinished(source: &Source) -> Vec<Fault> {
+    if source.path.starts_with(EXEMPT) {
+        return Vec::new();
+    }
+    let lines = source.text.lines().enumerate();
+    let found = lines.filter_map(|(i, line)| {
+        let word = UNFINISHED.iter().find(|word| has_word(line, word))?;
+        Some(Fault::new(source.line(i + 1), format!("`{word}`: do it, or file an issue")))
+    });
+    found.collect()
+}
+
+pub fn printing(source: &Source) -> Vec<Fault> {
+    if !source.is_library() {
+        return Vec::new();
+    }
+    let found = source.code_without_tests().filter_map(|(number, line)| {
+        let word = PRINTING.iter().find(|word| has_word(line, word))?;
+        Some(Fault::new(source.line(number), format!("a library may not use `{word}`")))
+    });
+    found.collect()
+}
+
+/// In any file that a person reads.
+pub fn machine_paths(files: &[(String, String)]) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    for (path, text) in files.iter().filter(|(path, _)| !path.starts_with(EXEMPT)) {
+        for (i, line) in text.lines().enumerate() {
+            if let Some(start) = MACHINE_PATHS.iter().find(|start| has_word(line, start)) {
+                faults.push(Fault::new(
+                    format!("{path}:{}", i + 1),
+                    format!("`{start}…` exists on one machine only"),
+                ));
+            }
+        }
+    }
+    faults
+}
+
+/// Whether `word` stands in the line and not as the end of a longer word or path.
+fn has_word(line: &str, word: &str) -> bool {
+    line.match_indices(word).any(|(at, _)| {
+        let before = line[..at].chars().next_back();
+        !before.is_some_and(|c| c.is_alphanumeric() || matches!(c, '_' | '.' | '/'))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_says_what_it_is_before_anything_else() {
+        let faults = |text: &str| opening(&Source::new("a.rs", text)).len();
+        assert_eq!(
+            (faults("\n//! A."), faults("// A."), faults("use a;\n//! A."), faults("")),
+            (0, 1, 1, 1)
+        );
+    }
+
+    #[test]
+    fn libraries_do_not_print_but_programs_tests_and_docs_may() {
+        let text = "//! A.\n/// println!(\"x\");\nfn f() {\n    eprintln!(\"x\");\n}\n#[cfg(test)]\nmod tests {\n    fn g() { println!(); }\n}\n";
+        let places = |path: &str| printing(&Source::new(path, text)).len();
+        assert_eq!(
+            (places("crates/clip/src/a.rs"), places("crates/pipeline/src/cli/a.rs")),
+            (1, 0)
+        );
+    }
+
+    #[test]
+    fn machine_paths_are_found_and_relative_ones_are_not() {
+        let faults = |line: &str| machine_paths(&[("README.md".into(), line.into())]).len();
+        assert_eq!(
+            (faults("see /home/anna/x"), faults("target/tmp/x"), faults("see crates/home/x")),
+            (1, 0, 0)
+        );
+    }
+
+    #[test]
+    fn unfinished_work_is_named() {
+        let faults = |line: &str| unfinished(&Source::new("a.rs", line)).len();
+        assert_eq!((faults("// TODO: more"), faults("// nothing to do")), (1, 0));
+    }
+}
