@@ -11,6 +11,7 @@
 //! Both agree on the near plane only, or when the window is centred (LW-1, M12). For stereo pairs, tiles and lens shift
 //! use [`Frustum`].
 
+use crate::error::finite;
 use crate::{Convention, Frustum, ProjectionError, Window};
 use homog::{Affine, Clip, Point, Projective, View};
 
@@ -52,7 +53,7 @@ impl ApexMovedFrustum {
     /// The frustum from the apex ((left + right)/2, (bottom + top)/2, 0) through the window on the near plane.
     ///
     /// # Errors
-    /// As for [`Frustum::new`].
+    /// As for [`Frustum::new`]; the lesson's far plane is finite.
     pub fn new(
         left: f64,
         right: f64,
@@ -62,6 +63,7 @@ impl ApexMovedFrustum {
         far: f64,
     ) -> Result<Self, ProjectionError> {
         let window = Window::new(left, right, bottom, top)?;
+        finite("far", far)?;
         let centred = Window::centred(window.width(), window.height())?;
         Frustum::from_window(window, near, far)?;
         Ok(Self { window, about_apex: Frustum::from_window(centred, near, far)? })
@@ -79,7 +81,7 @@ impl ApexMovedFrustum {
         self.about_apex.near()
     }
 
-    /// The distance of the far plane, possibly infinite.
+    /// The distance of the far plane.
     #[must_use]
     pub const fn far(self) -> f64 {
         self.about_apex.far()
