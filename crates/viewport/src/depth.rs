@@ -39,7 +39,7 @@ impl DepthRange {
         let ([a, b], [c, d]) = (interval("ndc depth", ndc)?, interval("screen depth", screen)?);
         let scale = finite("depth scale", (d - c) / (b - a))?;
         let offset = finite("depth offset", (c * b - d * a) / (b - a))?;
-        if scale == 0.0 {
+        if !(1.0 / scale).is_finite() || !(offset / scale).is_finite() {
             return Err(ViewportError::OutOfRange { name: "depth scale" });
         }
         Ok(Self { scale, offset })

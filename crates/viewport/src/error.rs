@@ -40,10 +40,10 @@ pub enum ViewportError {
         /// The least that makes sense.
         least: usize,
     },
-    /// The result does not fit into a finite number.
-    #[error("{name} is out of the range of numbers: the parameters are too far apart in size")]
+    /// A parameter is too large or too small, or parameters are too far apart in size, for maps to be finite both ways.
+    #[error("{name} is too large or too small to reckon with")]
     OutOfRange {
-        /// The result.
+        /// The parameter or the result.
         name: &'static str,
     },
 }

@@ -6,7 +6,8 @@ use crate::error::{finite, positive};
 /// A rectangle with sides along the axes, by its corner of least coordinates and its size.
 ///
 /// # Guarantees
-/// All four numbers are finite; width and height are greater than 0.
+/// Width and height are greater than 0. All four numbers are of a size with which maps stay finite both ways: at most 10¹⁰⁰, and the
+/// sizes at least 10⁻¹⁰⁰.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Rectangle {
     x: f64,
@@ -15,16 +16,25 @@ pub struct Rectangle {
     height: f64,
 }
 
+const LARGEST: f64 = 1e100;
+const SMALLEST: f64 = 1e-100;
+
 impl Rectangle {
     /// The rectangle [x, x + width] × [y, y + height].
     ///
     /// # Errors
-    /// If a number is not finite or a size is not greater than 0.
+    /// If a number is not finite or too large, or a size is not greater than 0 or too small.
     pub fn new(x: f64, y: f64, width: f64, height: f64) -> Result<Self, ViewportError> {
-        let (x, y) = (finite("x", x)?, finite("y", y)?);
-        let (width, height) = (positive("width", width)?, positive("height", height)?);
-        finite("x + width", x + width)?;
-        finite("y + height", y + height)?;
+        for (name, value) in [("x", x), ("y", y)] {
+            if finite(name, value)?.abs() > LARGEST {
+                return Err(ViewportError::OutOfRange { name });
+            }
+        }
+        for (name, value) in [("width", width), ("height", height)] {
+            if !(SMALLEST..=LARGEST).contains(&positive(name, value)?) {
+                return Err(ViewportError::OutOfRange { name });
+            }
+        }
         Ok(Self { x, y, width, height })
     }
 
@@ -34,6 +44,11 @@ impl Rectangle {
     /// If a size is not finite or not greater than 0.
     pub fn of_size(width: f64, height: f64) -> Result<Self, ViewportError> {
         Self::new(0.0, 0.0, width, height)
+    }
+
+    /// The rectangle of numbers that are known to be right.
+    pub(crate) const fn trusted(x: f64, y: f64, width: f64, height: f64) -> Self {
+        Self { x, y, width, height }
     }
 
     /// The least x.

@@ -1,0 +1,146 @@
+//! Fit policies: what happens when the picture and its place differ in shape.
+//!
+//! ```text
+//!   wide picture, tall place:
+//!
+//!    Stretch      Contain       Cover
+//!   ┌───────┐    ┌───────┐   ┌─┬───────┬─┐
+//!   │╭─────╮│    │       │   │ │       │ │
+//!   ││     ││    ├───────┤   │╭┼───────┼╮│
+//!   ││     ││    │  (o)  │   │││  (o)  │││
+//!   ││     ││    ├───────┤   │╰┼───────┼╯│
+//!   │╰─────╯│    │       │   │ │       │ │
+//!   └───────┘    └───────┘   └─┴───────┴─┘
+//!    distorts     leaves       cuts off
+//!                 margins      the sides
+//! ```
+
+use crate::error::{finite, positive};
+use crate::{Rectangle, ViewportError};
+
+/// How a picture is fitted into a place of another shape.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Fit {
+    /// Fill the place and let circles become ellipses.
+    Stretch,
+    /// As large as possible with nothing cut off; margins remain (letterbox). Default.
+    #[default]
+    Contain,
+    /// As small as possible with no margin; what sticks out is cut off (crop).
+    Cover,
+    /// As wide as the place, whatever the height becomes.
+    FixedWidth,
+    /// As high as the place, whatever the width becomes.
+    FixedHeight,
+}
+
+impl Fit {
+    /// The rectangle to draw a picture of this size (only its shape counts) on, so that it fits `place`.
+    ///
+    /// `align` says where the spare room goes, as fractions of it on x and y: `[0.5, 0.5]` centres, `[0.0, 0.0]` puts the picture at
+    /// the corner of least coordinates. What [`Fit::Cover`] cuts off is shared out in the same way.
+    ///
+    /// ```
+    /// use viewport::{Fit, Rectangle};
+    /// let place = Rectangle::of_size(1920.0, 1080.0)?;
+    /// let film = Fit::Contain.place([4.0, 3.0], place, [0.5, 0.5])?;
+    /// assert_eq!(film, Rectangle::new(240.0, 0.0, 1440.0, 1080.0)?);
+    /// # Ok::<(), viewport::ViewportError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If a number is not finite, or a size not greater than 0.
+    pub fn place(
+        self,
+        picture: [f64; 2],
+        place: Rectangle,
+        align: [f64; 2],
+    ) -> Result<Rectangle, ViewportError> {
+        finite("horizontal alignment", align[0])?;
+        finite("vertical alignment", align[1])?;
+        let (sx, sy) = factors(picture, place)?;
+        let [sx, sy] = match self {
+            Self::Stretch => [sx, sy],
+            Self::Contain => [sx.min(sy); 2],
+            Self::Cover => [sx.max(sy); 2],
+            Self::FixedWidth => [sx; 2],
+            Self::FixedHeight => [sy; 2],
+        };
+        let (width, height) = (picture[0] * sx, picture[1] * sy);
+        let x = place.x() + (place.width() - width) * align[0];
+        let y = place.y() + (place.height() - height) * align[1];
+        Rectangle::new(x, y, width, height)
+    }
+
+    /// The other way to fit: not the place changes but the window, so that its picture fills `place` without distortion. It is
+    /// the size the camera's window should get instead of `window`.
+    ///
+    /// [`Fit::Contain`] shows more than asked for instead of margins, [`Fit::Cover`] less instead of cutting off.
+    ///
+    /// ```
+    /// use viewport::{Fit, Rectangle};
+    /// let place = Rectangle::of_size(200.0, 100.0)?;
+    /// assert_eq!(Fit::Contain.window([1.0, 1.0], place)?, [2.0, 1.0]);
+    /// assert_eq!(Fit::Cover.window([1.0, 1.0], place)?, [1.0, 0.5]);
+    /// # Ok::<(), viewport::ViewportError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If a size is not finite or not greater than 0.
+    pub fn window(self, window: [f64; 2], place: Rectangle) -> Result<[f64; 2], ViewportError> {
+        let (sx, sy) = factors(window, place)?;
+        let factor = match self {
+            Self::Stretch => return Ok(window),
+            Self::Contain => sx.min(sy),
+            Self::Cover => sx.max(sy),
+            Self::FixedWidth => sx,
+            Self::FixedHeight => sy,
+        };
+        let size = [place.width() / factor, place.height() / factor];
+        Ok([positive("window width", size[0])?, positive("window height", size[1])?])
+    }
+}
+
+/// What takes the picture's width and height to those of the place.
+fn factors(picture: [f64; 2], place: Rectangle) -> Result<(f64, f64), ViewportError> {
+    let sx = place.width() / positive("picture width", picture[0])?;
+    let sy = place.height() / positive("picture height", picture[1])?;
+    Ok((positive("horizontal factor", sx)?, positive("vertical factor", sy)?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_policy_keeps_what_it_promises() {
+        let tall = Rectangle::new(10.0, 20.0, 100.0, 200.0).expect("a place");
+        // (policy, the picture 4:2 on the place, the window 4 by 2 made to fill it)
+        let table = [
+            (Fit::Stretch, [10.0, 20.0, 100.0, 200.0], [4.0, 2.0]),
+            (Fit::Contain, [10.0, 95.0, 100.0, 50.0], [4.0, 8.0]),
+            (Fit::Cover, [-140.0, 20.0, 400.0, 200.0], [1.0, 2.0]),
+            (Fit::FixedWidth, [10.0, 95.0, 100.0, 50.0], [4.0, 8.0]),
+            (Fit::FixedHeight, [-140.0, 20.0, 400.0, 200.0], [1.0, 2.0]),
+        ];
+        for (fit, [x, y, width, height], window) in table {
+            let expected = Rectangle::new(x, y, width, height);
+            assert_eq!(fit.place([4.0, 2.0], tall, [0.5, 0.5]), expected, "{fit:?}");
+            assert_eq!(fit.window([4.0, 2.0], tall), Ok(window), "{fit:?}");
+        }
+    }
+
+    #[test]
+    fn spare_room_goes_where_it_is_told() {
+        let wide = Rectangle::of_size(300.0, 100.0).expect("a place");
+        for (align, x) in [(0.0, 0.0), (0.5, 100.0), (1.0, 200.0)] {
+            let square = Fit::Contain.place([1.0, 1.0], wide, [align, 0.5]).expect("fits");
+            assert_eq!((square.x(), square.width(), square.height()), (x, 100.0, 100.0));
+        }
+        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(Fit::Contain.place([bad, 1.0], wide, [0.5, 0.5]).is_err());
+            assert!(Fit::Cover.window([1.0, bad], wide).is_err());
+        }
+        assert!(Fit::Contain.place([1.0, 1.0], wide, [f64::NAN, 0.5]).is_err());
+    }
+}

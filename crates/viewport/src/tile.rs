@@ -1,0 +1,79 @@
+//! Tiles: an image in parts that fit together without a seam.
+
+use crate::{PixelConvention, Rectangle, Viewport, ViewportError};
+
+/// A rectangle of whole pixels of an image.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Tile {
+    /// The first column.
+    pub x: u32,
+    /// The first row, in the direction in which the image counts its rows.
+    pub y: u32,
+    /// How many columns, at least 1.
+    pub width: u32,
+    /// How many rows, at least 1.
+    pub height: u32,
+}
+
+impl Tile {
+    /// The tile's borders in whole pixels from the image's corner.
+    #[must_use]
+    pub fn area(self) -> Rectangle {
+        let [x, y, width, height] =
+            [self.x, self.y, self.width.max(1), self.height.max(1)].map(f64::from);
+        Rectangle::trusted(x, y, width, height)
+    }
+}
+
+/// The tiles of an image, row by row: each of its pixels is in exactly one.
+///
+/// ```
+/// use viewport::tiles;
+/// let parts: Vec<_> = tiles([100, 50], [64, 64])?.collect();
+/// assert_eq!(parts.len(), 2);
+/// assert_eq!((parts[1].x, parts[1].width, parts[1].height), (64, 36, 50));
+/// # Ok::<(), viewport::ViewportError>(())
+/// ```
+///
+/// # Errors
+/// If the image or the largest tile has no width or no height.
+pub fn tiles(
+    image: [u32; 2],
+    largest: [u32; 2],
+) -> Result<impl Iterator<Item = Tile> + Clone, ViewportError> {
+    let names = ["image width", "image height", "tile width", "tile height"];
+    for (name, size) in names.into_iter().zip(image.into_iter().chain(largest)) {
+        if size == 0 {
+            return Err(ViewportError::TooFew { name, count: 0, least: 1 });
+        }
+    }
+    let [columns, rows] = [0, 1].map(|i| image[i].div_ceil(largest[i]));
+    Ok((0..rows).flat_map(move |row| {
+        (0..columns).map(move |column| {
+            let (x, y) = (column * largest[0], row * largest[1]);
+            let (width, height) = (largest[0].min(image[0] - x), largest[1].min(image[1] - y));
+            Tile { x, y, width, height }
+        })
+    }))
+}
+
+impl Viewport {
+    /// This viewport as an image that is only the tile sees it: moved by whole pixels and otherwise the same, so that the parts show
+    /// together what the whole would have shown.
+    #[must_use]
+    pub fn for_tile(&self, tile: Tile) -> Self {
+        let (area, part) = (self.area(), tile.area());
+        let (x, y) = (area.x() - part.x(), area.y() - part.y());
+        let moved = Rectangle::trusted(x, y, area.width(), area.height());
+        Self::new(moved, self.convention(), self.depth())
+    }
+
+    /// The tile's borders in the coordinates of this viewport's convention, for [`Self::pick_matrix`].
+    #[must_use]
+    pub fn tile_area(&self, tile: Tile) -> Rectangle {
+        let PixelConvention { centres, .. } = self.convention();
+        let area = tile.area();
+        let (x, y) = (area.x() + centres.border(), area.y() + centres.border());
+        Rectangle::trusted(x, y, area.width(), area.height())
+    }
+}

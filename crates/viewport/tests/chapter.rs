@@ -1,0 +1,165 @@
+//! Exercises of the chapter and misprints of the sources that belong to viewports: the printed form fails, the right one passes.
+
+use glam::{DMat3, DMat4, DVec2, DVec4};
+use homog::{Affine, Ndc, Point, Projective, Vector, View};
+use viewport::{DepthRange, Grid, Limits, PixelConvention, Rectangle, Viewport, WindowToViewport};
+
+fn rows(rows: [[f64; 4]; 4]) -> DMat4 {
+    DMat4::from_cols_array_2d(&rows).transpose()
+}
+
+/// M_orth of the chapter (OR-1).
+fn orthographic([l, r]: [f64; 2], [b, t]: [f64; 2], [n, f]: [f64; 2]) -> Affine<View, Ndc> {
+    let axis = |low: f64, high: f64| (2.0 / (high - low), -(high + low) / (high - low));
+    let ((sx, dx), (sy, dy), (sz, dz)) = (axis(l, r), axis(b, t), axis(f, n));
+    let (x, y, z) = (Vector::X * sx, Vector::Y * sy, Vector::Z * sz);
+    Affine::from_frame(x, y, z, Point::new(dx, dy, dz))
+}
+
+/// C38, VP-2: the matrix for pixels that are counted from the top.
+#[test]
+fn exercise_1_y_counts_from_the_top() {
+    let image = Viewport::chapter(640, 480).expect("has pixels");
+    let down = image.with_convention(PixelConvention::CHAPTER_Y_DOWN).ndc_to_screen();
+    let expected = rows([
+        [320.0, 0.0, 0.0, 319.5],
+        [0.0, -240.0, 0.0, 239.5],
+        [0.0, 0.0, 1.0, 0.0],
+        [0.0, 0.0, 0.0, 1.0],
+    ]);
+    assert_eq!(down.raw(), expected);
+    assert_eq!(down.point(Point::new(0.0, 1.0, 0.0)).y(), -0.5);
+    assert_eq!(down.point(Point::new(0.0, -1.0, 0.0)).y(), 479.5);
+}
+
+/// C39: viewport after orthographic projection is one windowing from the view volume to the image.
+#[test]
+fn exercise_2_viewport_and_box_make_one_windowing() {
+    let (nx, ny) = (640.0, 480.0);
+    let ([l, r], [b, t], [n, f]) = ([-2.0, 4.0], [-1.0, 2.0], [-1.0, -5.0]);
+    let image = Viewport::chapter(640, 480).expect("has pixels");
+    let product = orthographic([l, r], [b, t], [n, f]).then(image.ndc_to_screen());
+    let expected = rows([
+        [nx / (r - l), 0.0, 0.0, -0.5 - l * nx / (r - l)],
+        [0.0, ny / (t - b), 0.0, -0.5 - b * ny / (t - b)],
+        [0.0, 0.0, 2.0 / (n - f), -(n + f) / (n - f)],
+        [0.0, 0.0, 0.0, 1.0],
+    ]);
+    assert!(product.raw().abs_diff_eq(expected, 1e-12), "{}", product.raw());
+}
+
+/// M18, WV-2: with +yw min in the first translation the lower border of the window does not go to that of the viewport.
+#[test]
+fn misprint_m18_the_chain_moves_the_window_to_the_origin_by_minus_and_minus() {
+    let window = Limits { x: [-1.0, 3.0], y: [2.0, 4.0] };
+    let map =
+        WindowToViewport::new(window, Limits { x: [0.0, 8.0], y: [0.0, 4.0] }).expect("not empty");
+    let corner = DVec2::new(-1.0, 2.0);
+    assert_eq!(map.matrix().transform_point2(corner), DVec2::ZERO);
+    let [_, scale, to_place] = map.chain();
+    let printed = to_place * scale * DMat3::from_translation(DVec2::new(1.0, 2.0));
+    assert_ne!(printed.transform_point2(corner), DVec2::ZERO);
+}
+
+/// M21: gluOrtho2D takes the four borders of a window; the box of six is glOrtho's. With near −1 and far 1 they are the same map
+/// up to depth, and with any other near and far they differ in depth only.
+#[test]
+fn misprint_m21_four_borders_make_a_window_and_six_a_box() {
+    let flat = orthographic([-2.0, 4.0], [-1.0, 2.0], [1.0, -1.0]);
+    let deep = orthographic([-2.0, 4.0], [-1.0, 2.0], [-1.0, -5.0]);
+    let p = Point::new(0.5, 0.75, -2.0);
+    assert_eq!((flat.point(p).x(), flat.point(p).y()), (deep.point(p).x(), deep.point(p).y()));
+    assert_eq!(flat.point(p).z(), p.z());
+    assert_ne!(deep.point(p).z(), p.z());
+}
+
+/// M22, DP-1: (1 − Z)/2 takes the chapter's near plane (+1) to 0; on OpenGL's (−1) it gives 1, and (1 + Z)/2 is due.
+#[test]
+fn misprint_m22_which_depth_formula_fits_depends_on_where_near_is() {
+    let (chapter_near, opengl_near) = (1.0, -1.0);
+    assert_eq!(DepthRange::ZERO_ONE_FLIPPED.of(chapter_near), 0.0);
+    assert_eq!(DepthRange::ZERO_ONE_FLIPPED.of(opengl_near), 1.0, "near would be far");
+    assert_eq!(DepthRange::ZERO_ONE.of(opengl_near), 0.0);
+    let negate = DepthRange::NEGATED.of(chapter_near);
+    assert_eq!(DepthRange::ZERO_ONE.of(negate), DepthRange::ZERO_ONE_FLIPPED.of(chapter_near));
+}
+
+/// M23, WV-4: rows divide by rows − 1 and columns by columns − 1, and the last index is one less than the count.
+#[test]
+fn misprint_m23_counts_are_not_paired_crosswise() {
+    let (rows, columns) = (3, 5);
+    let grid = Grid::new(rows, columns).expect("two at least");
+    assert_eq!(grid.xz(rows - 1, columns - 1), Some([1.0, 1.0]));
+    assert_eq!(grid.xz(rows, columns), None);
+    let crosswise = 2.0 * (rows - 1) as f64 / (columns - 1) as f64 - 1.0;
+    assert_ne!(crosswise, 1.0);
+    assert_eq!(grid.points().count(), rows * columns);
+    assert_eq!(grid.points().nth(columns), grid.xz(1, 0));
+}
+
+/// C99: an orthographic box on a viewport with its own origin and size, two of them on one image.
+#[test]
+fn several_viewports_on_one_image() {
+    let page = Rectangle::of_size(800.0, 300.0).expect("a page");
+    let cells: Vec<Rectangle> = page.grid(2, 1, 0.0).expect("room").collect();
+    let right_edge = |area| {
+        let view = Viewport::new(area, PixelConvention::OPENGL, DepthRange::ZERO_ONE);
+        view.ndc_to_screen().point(Point::new(1.0, -1.0, -1.0))
+    };
+    assert_eq!(
+        cells.into_iter().map(right_edge).collect::<Vec<_>>(),
+        [Point::new(400.0, 0.0, 0.0), Point::new(800.0, 0.0, 0.0)]
+    );
+}
+
+/// A parallel projection has its centre at infinity: rays start on the near plane and all run the same way.
+#[test]
+fn rays_of_a_parallel_projection_are_parallel() {
+    let to_ndc = orthographic([-2.0, 4.0], [-1.0, 2.0], [-1.0, -5.0]).raw();
+    let clip_to_view = Projective::from_raw(to_ndc).inverse().expect("regular");
+    let back = Viewport::image(640, 480).expect("has pixels").unprojector::<View>(clip_to_view);
+    assert_eq!(back.centre().w(), 0.0);
+    for pixel in [[0.0, 0.0], [320.0, 240.0], [640.0, 480.0]] {
+        let ray = back.ray(pixel, [1.0, -1.0]).expect("there is one");
+        assert_eq!(ray.direction, -Vector::Z);
+        assert_eq!(ray.origin, ray.near);
+        assert_eq!(ray.near.z(), -1.0);
+    }
+}
+
+/// With the far plane at infinity the far point is a direction, and the ray is there all the same.
+#[test]
+fn rays_reach_to_infinity() {
+    // Reversed infinite perspective (IF-3): depth 1 at the near plane, 0 at infinity.
+    let raw = DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::NEG_W, DVec4::new(0.0, 0.0, 0.5, 0.0));
+    let back = Viewport::new(
+        Rectangle::of_size(100.0, 100.0).expect("positive"),
+        PixelConvention::IMAGE,
+        DepthRange::KEEP,
+    )
+    .unprojector::<View>(Projective::from_raw(raw).inverse().expect("regular"));
+    let ray = back.ray([50.0, 50.0], [1.0, 0.0]).expect("there is one");
+    assert_eq!(ray.far.w(), 0.0);
+    assert_eq!((ray.direction, ray.origin, ray.near.z()), (-Vector::Z, Point::ORIGIN, -0.5));
+    assert_eq!(back.ray([f64::NAN, 0.0], [1.0, 0.0]), None);
+}
+
+#[test]
+fn what_has_no_size_is_refused_by_name() {
+    let message = |error: viewport::ViewportError| error.to_string();
+    assert_eq!(
+        Viewport::chapter(0, 5).map_err(message).unwrap_err(),
+        "nx = 0 is not allowed: it must be greater than 0"
+    );
+    assert!(Rectangle::new(0.0, 0.0, f64::NAN, 1.0).is_err());
+    assert!(Rectangle::new(0.0, f64::INFINITY, 1.0, 1.0).is_err());
+    assert!(DepthRange::new([0.5, 0.5], [0.0, 1.0]).is_err());
+    assert!(DepthRange::new([0.0, 1.0], [0.0, f64::NAN]).is_err());
+    assert!(PixelConvention::IMAGE.to(PixelConvention::CHAPTER, 0.0).is_err());
+    let unit = Limits { x: [0.0, 1.0], y: [0.0, 1.0] };
+    let flat = Limits { x: [0.0, 1.0], y: [2.0, 2.0] };
+    let error = WindowToViewport::new(flat, unit).map_err(message).unwrap_err();
+    assert_eq!(error, "window's y is empty: both its ends are 2");
+    let tiny = Rectangle::of_size(1e-100, 1.0).expect("allowed");
+    assert!(Viewport::image(4, 4).expect("has pixels").pick_matrix(tiny).is_err());
+}
