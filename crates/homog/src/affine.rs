@@ -59,6 +59,15 @@ impl<A: Space, B: Space> Affine<A, B> {
         Self::tagged(DMat4::from_scale(DVec3::new(x, y, z)))
     }
 
+    /// Turns about `axis` by `angle` radians, by the right-hand rule: seen with the axis pointing at the viewer, anticlockwise.
+    /// `None` if the axis is zero or not finite.
+    #[must_use]
+    pub fn rotation(axis: Vector<B>, angle: f64) -> Option<Self> {
+        let [x, y, z] = axis.normalized()?.raw().to_array();
+        let (s, c) = libm::sincos(angle / 2.0);
+        Self::from_quaternion([x * s, y * s, z * s, c])
+    }
+
     /// Turns about the x axis by `angle` radians: y towards z.
     #[must_use]
     pub fn rotation_x(angle: f64) -> Self {
@@ -165,10 +174,19 @@ impl<A: Space, B: Space> Affine<A, B> {
     /// The map that undoes this one; `None` if it flattens space or is not finite.
     #[must_use]
     pub fn inverse(self) -> Option<Affine<B, A>> {
-        let [x, y, z] = self.linear();
-        let determinant = self.determinant();
-        let rows = [y.cross(z), z.cross(x), x.cross(y)].map(|row| row / determinant);
-        let linear = DMat3::from_cols(rows[0], rows[1], rows[2]).transpose();
+        // Columns near length 1 keep the determinant from over- or underflowing; powers of two cost no digit.
+        let columns = self.linear();
+        let exponents = columns.map(|column| match column.abs().max_element() {
+            0.0 => 0,
+            largest => -libm::ilogb(largest),
+        });
+        let scaled =
+            |column: DVec3, by: i32| DVec3::from(column.to_array().map(|c| libm::scalbn(c, by)));
+        let [x, y, z] = core::array::from_fn(|i| scaled(columns[i], exponents[i]));
+        let determinant = x.dot(y.cross(z));
+        let crosses = [y.cross(z), z.cross(x), x.cross(y)];
+        let [x, y, z] = core::array::from_fn(|i| scaled(crosses[i] / determinant, exponents[i]));
+        let linear = DMat3::from_cols(x, y, z).transpose();
         let origin = -(linear * self.raw.w_axis.truncate());
         let finite = determinant != 0.0 && linear.is_finite() && origin.is_finite();
         finite.then(|| Affine::tagged(DMat4::from_mat3_translation(linear, origin)))
@@ -196,6 +214,8 @@ mod tests {
         let back = map.inverse().expect("a rigid map has an inverse").point(map.point(p));
         assert!((back - p).length() < 1e-14);
         assert_eq!(Map::scale(1.0, 0.0, 1.0).inverse(), None);
+        let tiny = Map::scale(1e-150, 1e-300, 1.0).inverse().expect("small is not flat");
+        assert!((tiny.vector(Vector::Y).y() / 1e300 - 1.0).abs() < 1e-15);
     }
 
     #[test]
@@ -205,6 +225,53 @@ mod tests {
         assert_eq!(n.dot(squash.vector(Vector::new(1.0, -1.0, 0.0))), 0.0);
         let mirror = Map::scale(-1.0, 1.0, 1.0);
         assert_eq!(mirror.normal(Normal::new(0.0, 1.0, 0.0)), Normal::new(0.0, 1.0, 0.0));
+    }
+
+    #[test]
+    fn turning_about_any_axis_agrees_with_the_three() {
+        let turns = [
+            (Vector::X * 5.0, Map::rotation_x(0.7)),
+            (Vector::Y * 1e-200, Map::rotation_y(0.7)),
+            (Vector::Z, Map::rotation_z(0.7)),
+        ];
+        let p = Point::new(1.0, 2.0, 3.0);
+        for (axis, turn) in turns {
+            let same = Map::rotation(axis, 0.7).expect("an axis");
+            assert!((same.point(p) - turn.point(p)).length() < 1e-15, "about {axis}");
+        }
+        assert_eq!(Map::rotation(Vector::ZERO, 0.7), None);
+    }
+
+    #[test]
+    fn misprint_m6_each_coordinate_moves_by_its_own_amount() {
+        // Printed with t_y in the third row; the right-hand side of the same line has h t_z.
+        let by = Vector::new(1.0, 2.0, 3.0);
+        let rows = Map::translation(by).rows();
+        assert_eq!([rows[0][3], rows[1][3], rows[2][3]], [1.0, 2.0, 3.0]);
+        // C37: it works on points that are not divided yet, and leaves directions alone (HO-4).
+        let map = Projective::from(Map::translation(by));
+        let (x, y, z, h) = (2.0, -6.0, 4.0, 4.0);
+        let moved = map.hpoint(crate::HPoint::new(x, y, z, h));
+        assert_eq!(moved.divide(), Some(Point::new(x / h + 1.0, y / h + 2.0, z / h + 3.0)));
+        let direction = crate::HPoint::new(x, y, z, 0.0);
+        assert_eq!(map.hpoint(direction).raw(), direction.raw());
+    }
+
+    #[test]
+    fn exercise_5_under_an_affine_map_multiples_stay_multiples() {
+        let rows = [
+            [1.0, 2.0, 3.0, 4.0],
+            [0.0, -1.0, 2.0, 0.5],
+            [5.0, 0.0, 0.0, -1.0],
+            [0.0, 0.0, 0.0, 1.0],
+        ];
+        let map = Map::from_rows(rows).expect("affine");
+        let (p, h) = (Point::new(1.0, -2.0, 3.0), 4.0);
+        let lifted = crate::HPoint::from_raw(crate::HPoint::from(p).raw() * h);
+        let image = Projective::from(map).hpoint(lifted);
+        assert_eq!(image.w(), h);
+        assert_eq!(image.raw(), crate::HPoint::from(map.point(p)).raw() * h, "M(hp) = h Mp");
+        assert_eq!(image.divide(), Some(Point::new(10.0, 8.5, 4.0)));
     }
 
     #[test]

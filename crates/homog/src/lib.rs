@@ -1,24 +1,47 @@
 //! Homogeneous coordinates with typed spaces.
 //!
-//! A [`Point`] is a place, a [`Vector`] a difference of places, a [`Normal`] a direction perpendicular to a surface, an
-//! [`HPoint`] four numbers that stand for a place or a direction up to a factor. Each belongs to one of six
-//! [spaces](Space), and the maps between them, [`Affine`] and [`Projective`], know both ends:
+//! A picture of a three-dimensional thing is a chain of maps. Each link knows the space it starts from and the space it ends
+//! in, and the compiler refuses a chain that does not fit:
 //!
 //! ```text
 //!  Model ──Affine──► World ──Affine──► View ──Projective──► Clip ──divide──► Ndc ──Affine──► Screen
 //! ```
 //!
+//! | type | is | under a translation |
+//! | --- | --- | --- |
+//! | [`Point`] | a place (x, y, z) | moves |
+//! | [`Vector`] | a difference of places | stays |
+//! | [`Normal`] | a direction perpendicular to a surface | stays, and goes by the transposed inverse otherwise |
+//! | [`HPoint`] | (x, y, z, w): the place (x/w, y/w, z/w), or a direction if w = 0 | moves by w times as much |
+//! | [`Plane`], [`Bounds`], [`Frame`] | a x + b y + c z + d = 0; a box; an origin with three axes | move |
+//! | [`Affine`] | a map that keeps parallels: points to points | |
+//! | [`Projective`] | a map that keeps lines: points to homogeneous points | |
+//!
 //! ```
 //! use homog::{Affine, Clip, Model, Point, Projective, Vector, View, World};
-//! # let view_to_clip = Projective::<View, Clip>::from_raw(glam::DMat4::IDENTITY);
-//! let model_to_world = Affine::<Model, World>::rotation_y(0.5);
-//! let world_to_view = Affine::<World, View>::translation(Vector::new(0.0, 0.0, -5.0));
+//!
+//! let model_to_world = Affine::<Model, World>::rotation_y(90_f64.to_radians());
+//! let world_to_view = Affine::<World, View>::translation(Vector::new(0.0, 0.0, -4.0));
+//! // A lens: w becomes the distance ahead, and far things will come out small.
+//! let view_to_clip = Projective::<View, Clip>::from_rows([
+//!     [2.0, 0.0, 0.0, 0.0],
+//!     [0.0, 2.0, 0.0, 0.0],
+//!     [0.0, 0.0, 1.0, 2.0],
+//!     [0.0, 0.0, -1.0, 0.0],
+//! ]);
 //! let model_to_clip = model_to_world.then(world_to_view).then_project(view_to_clip);
-//! let corner = model_to_clip.point(Point::new(1.0, 1.0, 1.0)); // an HPoint<Clip>, not divided yet
-//! # let _ = corner.divide();
+//!
+//! let corner = model_to_clip.point(Point::new(2.0, 1.0, 0.0)); // not divided yet: this is what one clips
+//! assert_eq!(corner.w(), 6.0);
+//! let seen = corner.divide().expect("six ahead of the eye");
+//! assert!((seen.y() - 1.0 / 3.0).abs() < 1e-15);
 //! ```
 //!
-//! Column vectors throughout, angles in radians, f64. Mixing spaces does not compile:
+//! There is one divide, [`HPoint::divide`], and it returns an `Option`: no place hides a division by zero. Four numbers that
+//! cannot be divided still mean something, and [`HPoint::meaning`] says what; so the point in which railway tracks meet is
+//! the image of a direction, [`Projective::vanishing_point`].
+//!
+//! Mixing spaces does not compile:
 //!
 //! ```compile_fail
 //! use homog::{Affine, Model, Point, View, World};
@@ -26,25 +49,63 @@
 //! let p = Point::<Model>::new(1.0, 2.0, 3.0);
 //! let wrong = world_to_view.point(p); // a model point where a world point is due
 //! ```
+//!
+//! # Conventions
+//!
+//! - Points are columns and matrices stand on their left, `v' = M v`; chains are written with `then`, in the order in which
+//!   a point passes through them. [Arrays](Projective::from_rows) are named by rows and columns.
+//! - Right-handed spaces, angles in radians, f64 throughout. Sines and cosines come from `libm`, so that results have the same
+//!   bits on every machine.
+//! - Nothing there is an `Option`; bad input is an error that names the number. Nothing panics, and finite input gives no NaN.
+//! - Tags cost nothing: a `Point<World>` is a `glam::DVec3`, by [`Point::from_raw`] and [`Point::raw`].
+//!
+//! Beside the three-dimensional types stand those of the line and the plane, [`Hom1`], [`Hom2`], [`Line2`] and [`Homography`], on
+//! which the textbook explains homogeneous coordinates. `cargo run -p homog --example railway` shows the crate at work.
+//!
+//! Source: the chapter *Viewing* of P. Shirley and others, *Fundamentals of Computer Graphics*, 2002 and later editions, sections
+//! on homogeneous coordinates and projective transformations. Formula ids such as HO-2 or IN-1 in the documentation
+//! name the project's list of formulas.
 #![no_std]
 
 mod affine;
+mod arrays;
 mod bounds;
+mod classification;
 mod display;
+mod elimination;
+mod foreshortening;
+mod frame;
+mod hom1;
+mod hom2;
+mod homography;
 mod hpoint;
+mod inversion;
+mod matrix_display;
+mod meaning;
 mod normal;
 mod plane;
 mod point;
 mod projective;
+mod remap;
 mod space;
 mod vector;
 
 pub use affine::Affine;
 pub use bounds::Bounds;
+pub use classification::{Classification, KindReason, MapKind};
+pub use foreshortening::{Foreshortening, SegmentTorn, perspective_weights};
+pub use frame::{Frame, FrameError};
+pub use hom1::Hom1;
+pub use hom2::{Hom2, Line2};
+pub use homography::Homography;
 pub use hpoint::HPoint;
+pub use inversion::{Inversion, InversionError};
+pub use matrix_display::MatrixDisplay;
+pub use meaning::Meaning;
 pub use normal::Normal;
 pub use plane::Plane;
 pub use point::Point;
 pub use projective::Projective;
+pub use remap::{RemapError, remap};
 pub use space::{Clip, Model, Ndc, Screen, Space, View, World};
 pub use vector::Vector;

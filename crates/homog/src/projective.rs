@@ -1,5 +1,6 @@
 //! Projective maps: points to homogeneous points.
 
+use crate::elimination::eliminate;
 use crate::{Affine, HPoint, Plane, Point, Space, Vector};
 use core::marker::PhantomData;
 use glam::DMat4;
@@ -58,12 +59,13 @@ impl<A: Space, B: Space> Projective<A, B> {
         Projective::from_raw(next.into().raw * self.raw)
     }
 
-    /// The map that undoes this one; `None` if it is singular or not finite.
+    /// The map that undoes this one; `None` if it is singular up to rounding, or not finite.
+    ///
+    /// Singular is a matter of shape and not of units: a near plane of 10⁻⁹ does not make it so.
+    /// [`inverse_with_report`](Self::inverse_with_report) says more.
     #[must_use]
     pub fn inverse(self) -> Option<Projective<B, A>> {
-        let inverse = self.raw.inverse();
-        let usable = self.raw.determinant() != 0.0 && inverse.is_finite();
-        usable.then(|| Projective::from_raw(inverse))
+        eliminate(self.rows()).inverse.map(Projective::from_rows)
     }
 
     /// True if no entry is infinite or NaN.

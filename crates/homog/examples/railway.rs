@@ -1,0 +1,41 @@
+//! A railway in perspective: parallel rails meet, sleepers crowd towards the horizon.
+//!
+//! Run it with `cargo run -p homog --example railway`.
+#![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
+
+use homog::{Clip, Foreshortening, HPoint, Point, Projective, Vector, View};
+
+fn main() {
+    // The eye is the origin, one and a half above the rails, looking along −z; w = −z is the distance ahead.
+    // Depth runs from +1 at distance 2 to −1 at distance 32.
+    let view_to_clip = Projective::<View, Clip>::from_rows([
+        [1.0, 0.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0, 0.0],
+        [0.0, 0.0, 17.0 / 15.0, 64.0 / 15.0],
+        [0.0, 0.0, -1.0, 0.0],
+    ]);
+    println!("The map, {}:\n{}\n", view_to_clip.classify(), view_to_clip.display());
+
+    let rail = |x: f64, distance: f64| Point::<View>::new(x, -1.5, -distance);
+    println!("Sleepers, evenly spaced on the ground:");
+    for distance in [2.0, 4.0, 8.0, 16.0, 32.0] {
+        let ends = [rail(-0.75, distance), rail(0.75, distance)];
+        let [left, right] = ends.map(|end| view_to_clip.point(end).divide());
+        if let (Some(left), Some(right)) = (left, right) {
+            println!("  {distance:>2} ahead: from {left:.3} to {right:.3}");
+        }
+    }
+
+    let meeting = view_to_clip.vanishing_point(-Vector::Z, 0.0);
+    println!("\nThe rails meet in {meeting:.3}; the sleepers, across the gaze, never:");
+    println!("  their images run to {}", view_to_clip.vanishing_point(Vector::X, 0.0));
+
+    let [near, far]: [HPoint<Clip>; 2] = [2.0, 32.0].map(|d| view_to_clip.point(rail(0.75, d)));
+    match Foreshortening::between(near, far) {
+        Ok(f) => println!(
+            "\nThe middle of the rail is seen at {:.3} of its image.",
+            f.image(0.5).unwrap_or(0.5)
+        ),
+        Err(torn) => println!("\n{torn}"),
+    }
+}

@@ -1,0 +1,168 @@
+//! Matrices as plain arrays, by rows and by columns, always named.
+//!
+//! Our points are columns and stand on the right: `v' = M v`. Row-major arrays read as a book prints the matrix, column-major
+//! ones are what OpenGL, Vulkan and glTF store. A library with row vectors, `v' = v M`, wants the transposed matrix: its
+//! row-major array is our column-major one, number by number.
+
+use crate::{Affine, Homography, Projective, Space};
+use glam::{DMat3, DMat4};
+
+fn rows_of<const N: usize>(columns: [[f64; N]; N]) -> [[f64; N]; N] {
+    core::array::from_fn(|i| core::array::from_fn(|j| columns[j][i]))
+}
+
+fn flat4(lines: [[f64; 4]; 4]) -> [f64; 16] {
+    core::array::from_fn(|i| lines[i / 4][i % 4])
+}
+
+fn flat3(lines: [[f64; 3]; 3]) -> [f64; 9] {
+    core::array::from_fn(|i| lines[i / 3][i % 3])
+}
+
+impl<A: Space, B: Space> Projective<A, B> {
+    /// The map with the given rows, as a book prints them. The caller vouches for the spaces.
+    #[must_use]
+    pub fn from_rows(rows: [[f64; 4]; 4]) -> Self {
+        Self::from_raw(DMat4::from_cols_array_2d(&rows_of(rows)))
+    }
+
+    /// The rows of the matrix.
+    #[must_use]
+    pub fn rows(self) -> [[f64; 4]; 4] {
+        rows_of(self.raw().to_cols_array_2d())
+    }
+
+    /// The map of sixteen numbers, row after row.
+    #[must_use]
+    pub fn from_row_major(entries: [f64; 16]) -> Self {
+        Self::from_raw(DMat4::from_cols_array(&entries).transpose())
+    }
+
+    /// The sixteen numbers, row after row.
+    #[must_use]
+    pub fn to_row_major(self) -> [f64; 16] {
+        flat4(self.rows())
+    }
+
+    /// The map of sixteen numbers, column after column.
+    #[must_use]
+    pub fn from_column_major(entries: [f64; 16]) -> Self {
+        Self::from_raw(DMat4::from_cols_array(&entries))
+    }
+
+    /// The sixteen numbers, column after column; also the row-major array of the row-vector form.
+    #[must_use]
+    pub fn to_column_major(self) -> [f64; 16] {
+        self.raw().to_cols_array()
+    }
+}
+
+impl<A: Space, B: Space> Affine<A, B> {
+    /// The map with the given rows; `None` unless the last is exactly (0, 0, 0, 1).
+    #[must_use]
+    pub fn from_rows(rows: [[f64; 4]; 4]) -> Option<Self> {
+        Self::from_raw(DMat4::from_cols_array_2d(&rows_of(rows)))
+    }
+
+    /// The rows of the matrix; the last is (0, 0, 0, 1).
+    #[must_use]
+    pub fn rows(self) -> [[f64; 4]; 4] {
+        rows_of(self.raw().to_cols_array_2d())
+    }
+
+    /// The map of sixteen numbers, row after row; `None` unless the last four are 0, 0, 0, 1.
+    #[must_use]
+    pub fn from_row_major(entries: [f64; 16]) -> Option<Self> {
+        Self::from_raw(DMat4::from_cols_array(&entries).transpose())
+    }
+
+    /// The sixteen numbers, row after row.
+    #[must_use]
+    pub fn to_row_major(self) -> [f64; 16] {
+        flat4(self.rows())
+    }
+
+    /// The map of sixteen numbers, column after column as in glTF; `None` unless every fourth is 0, 0, 0, 1.
+    #[must_use]
+    pub fn from_column_major(entries: [f64; 16]) -> Option<Self> {
+        Self::from_raw(DMat4::from_cols_array(&entries))
+    }
+
+    /// The sixteen numbers, column after column; also the row-major array of the row-vector form.
+    #[must_use]
+    pub fn to_column_major(self) -> [f64; 16] {
+        self.raw().to_cols_array()
+    }
+}
+
+impl Homography {
+    /// The map with the given rows, as a book prints them.
+    #[must_use]
+    pub fn from_rows(rows: [[f64; 3]; 3]) -> Self {
+        Self::from_raw(DMat3::from_cols_array_2d(&rows_of(rows)))
+    }
+
+    /// The rows of the matrix.
+    #[must_use]
+    pub fn rows(self) -> [[f64; 3]; 3] {
+        rows_of(self.raw().to_cols_array_2d())
+    }
+
+    /// The map of nine numbers, row after row.
+    #[must_use]
+    pub fn from_row_major(entries: [f64; 9]) -> Self {
+        Self::from_raw(DMat3::from_cols_array(&entries).transpose())
+    }
+
+    /// The nine numbers, row after row.
+    #[must_use]
+    pub fn to_row_major(self) -> [f64; 9] {
+        flat3(self.rows())
+    }
+
+    /// The map of nine numbers, column after column.
+    #[must_use]
+    pub fn from_column_major(entries: [f64; 9]) -> Self {
+        Self::from_raw(DMat3::from_cols_array(&entries))
+    }
+
+    /// The nine numbers, column after column.
+    #[must_use]
+    pub fn to_column_major(self) -> [f64; 9] {
+        self.raw().to_cols_array()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Affine, Homography, Model, Projective, World};
+
+    #[test]
+    fn rows_and_columns_are_not_mixed_up() {
+        let counted: [f64; 16] = core::array::from_fn(|i| i as f64);
+        let map = Projective::<World, World>::from_row_major(counted);
+        assert_eq!(map.rows()[1], [4.0, 5.0, 6.0, 7.0]);
+        assert_eq!(map.to_column_major()[..4], [0.0, 4.0, 8.0, 12.0]);
+        assert_eq!(map.to_row_major(), counted);
+        assert_eq!(Projective::from_column_major(map.to_column_major()), map);
+        assert_eq!(Projective::from_rows(map.rows()), map);
+
+        let nine: [f64; 9] = core::array::from_fn(|i| i as f64);
+        let map = Homography::from_row_major(nine);
+        assert_eq!(map.rows()[2], [6.0, 7.0, 8.0]);
+        assert_eq!((map.to_row_major(), map.to_column_major()[1]), (nine, 3.0));
+        assert_eq!(Homography::from_column_major(map.to_column_major()), map);
+    }
+
+    #[test]
+    fn an_affine_map_needs_its_last_row() {
+        let rows = [[1.0, 0.0, 0.0, 5.0], [0.0, 1.0, 0.0, 6.0], [0.0, 0.0, 1.0, 7.0]];
+        let with =
+            |last: [f64; 4]| Affine::<Model, World>::from_rows([rows[0], rows[1], rows[2], last]);
+        let map = with([0.0, 0.0, 0.0, 1.0]).expect("affine");
+        assert_eq!(Affine::from_row_major(map.to_row_major()), Some(map));
+        assert_eq!(Affine::from_column_major(map.to_column_major()), Some(map));
+        assert_eq!(with([0.0, 0.0, -1.0, 0.0]), None);
+        assert_eq!(Affine::<Model, World>::from_row_major(map.to_column_major()), None);
+    }
+}

@@ -1,0 +1,278 @@
+//! What kind of map a matrix is, and why: linear, affine or projective (HO-3).
+//!
+//! ```text
+//!   [ a a a t ]     linear      t = 0, bottom row (0, 0, 0, 1): the origin stays
+//!   [ a a a t ]     affine      bottom row (0, 0, 0, 1): parallel lines stay parallel, w stays 1
+//!   [ a a a t ]     projective  anything else: w varies, and where p x + q y + r z + h = 0 points go to infinity
+//!   [ p q r h ]
+//! ```
+//!
+//! Each kind contains the one above it. All is up to a factor: the bottom row (0, 0, 0, 5) is as good as (0, 0, 0, 1). A perspective
+//! is called "non-linear" in one source (misprint M27): on homogeneous points it is linear, on places it is
+//! projective and not affine.
+
+use crate::{Affine, Homography, Projective, Space};
+use core::fmt;
+
+/// The three kinds of maps that a matrix on homogeneous points can be.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum MapKind {
+    /// Keeps the origin, parallels and proportions.
+    Linear,
+    /// Keeps parallels and proportions.
+    Affine,
+    /// Keeps lines.
+    Projective,
+}
+
+/// Why a map is of its kind.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum KindReason {
+    /// Linear: no translation, and w stays as it is.
+    OriginStays,
+    /// Affine: w stays as it is, but the origin goes elsewhere.
+    OriginMoves {
+        /// Where the origin goes.
+        to: [f64; 3],
+    },
+    /// Projective: w depends on the point.
+    WVaries {
+        /// The bottom row (p, q, r, h): w = p x + q y + r z + h.
+        bottom_row: [f64; 4],
+    },
+    /// Projective in name only: w is 0 everywhere, so that no point has a place as its image.
+    WVanishes,
+}
+
+/// The kind of a map, with the reason and the rank.
+///
+/// ```
+/// use homog::{Clip, MapKind, Projective, View};
+/// let rows = [[2.0, 0.0, 0.0, 0.0], [0.0, 2.0, 0.0, 0.0], [0.0, 0.0, 1.0, 1.0], [0.0, 0.0, -1.0, 0.0]];
+/// let found = Projective::<View, Clip>::from_rows(rows).classify();
+/// assert_eq!((found.kind, found.rank), (MapKind::Projective, 4));
+/// assert_eq!(found.finite_vanishing_points(), 1);
+/// assert_eq!(found.to_string(), "projective: w = -z depends on the point; invertible");
+/// # extern crate std;
+/// # use std::string::ToString;
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Classification {
+    /// Linear, affine or projective.
+    pub kind: MapKind,
+    /// Why.
+    pub reason: KindReason,
+    /// The rank of the matrix up to rounding: 4 if the map can be undone.
+    pub rank: usize,
+}
+
+impl Classification {
+    fn new(rows: [[f64; 4]; 4], rank: usize, relative: f64) -> Self {
+        let largest = |numbers: &[f64]| numbers.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let [p, q, r, h] = rows[3];
+        let origin = [rows[0][3], rows[1][3], rows[2][3]];
+        let linear_part = rows[..3].iter().fold(0.0, |m: f64, row| m.max(largest(&row[..3])));
+        let (kind, reason) = if rows[3] == [0.0; 4] {
+            (MapKind::Projective, KindReason::WVanishes)
+        } else if h == 0.0 || largest(&[p, q, r]) > relative * h.abs() {
+            (MapKind::Projective, KindReason::WVaries { bottom_row: rows[3] })
+        } else if largest(&origin) > relative * linear_part {
+            (MapKind::Affine, KindReason::OriginMoves { to: origin.map(|c| c / h) })
+        } else {
+            (MapKind::Linear, KindReason::OriginStays)
+        };
+        Self { kind, reason, rank }
+    }
+
+    /// True if the map can be undone.
+    #[must_use]
+    pub const fn is_invertible(&self) -> bool {
+        self.rank == 4
+    }
+
+    /// How many of the x, y and z axes have a vanishing point that is a place: the number of non-zeros among p, q
+    /// and r. One, two or three make a one-, two- or three-point perspective; 0 a parallel projection.
+    #[must_use]
+    pub fn finite_vanishing_points(&self) -> usize {
+        match self.reason {
+            KindReason::WVaries { bottom_row: [pqr @ .., _] } => {
+                pqr.iter().filter(|&&x| x != 0.0).count()
+            }
+            _ => 0,
+        }
+    }
+}
+
+impl fmt::Display for MapKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Linear => "linear",
+            Self::Affine => "affine",
+            Self::Projective => "projective",
+        })
+    }
+}
+
+impl fmt::Display for KindReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::OriginStays => f.write_str("w stays and so does the origin"),
+            Self::OriginMoves { to: [x, y, z] } => {
+                write!(f, "w stays, but the origin moves to ({x}, {y}, {z})")
+            }
+            Self::WVaries { bottom_row } => {
+                f.write_str("w = ")?;
+                form(f, *bottom_row)?;
+                f.write_str(" depends on the point")
+            }
+            Self::WVanishes => f.write_str("w is 0 everywhere, so that no point has an image"),
+        }
+    }
+}
+
+/// The linear form p x + q y + r z + h as people write it.
+fn form(f: &mut fmt::Formatter<'_>, coefficients: [f64; 4]) -> fmt::Result {
+    let mut first = true;
+    for (c, name) in coefficients.into_iter().zip(["x", "y", "z", ""]) {
+        if c == 0.0 {
+            continue;
+        }
+        f.write_str(match (first, c < 0.0) {
+            (true, false) => "",
+            (true, true) => "-",
+            (false, false) => " + ",
+            (false, true) => " - ",
+        })?;
+        first = false;
+        match (c.abs(), name) {
+            (1.0, "x" | "y" | "z") => f.write_str(name)?,
+            (size, "") => write!(f, "{size}")?,
+            (size, name) => write!(f, "{size} {name}")?,
+        }
+    }
+    Ok(())
+}
+
+impl fmt::Display for Classification {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}; ", self.kind, self.reason)?;
+        match self.rank {
+            4 => f.write_str("invertible"),
+            rank => write!(f, "singular, of rank {rank}"),
+        }
+    }
+}
+
+impl<A: Space, B: Space> Projective<A, B> {
+    /// What kind of map this is, by the exact entries.
+    #[must_use]
+    pub fn classify(self) -> Classification {
+        self.classify_within(0.0)
+    }
+
+    /// What kind of map this is, where entries of the bottom row of up to `relative` times h count as 0, and likewise those of the
+    /// translation against the linear part: for matrices that were computed.
+    #[must_use]
+    pub fn classify_within(self, relative: f64) -> Classification {
+        Classification::new(self.rows(), self.rank(), relative)
+    }
+
+    /// The affine map this is up to a factor; `None` if w depends on the point.
+    ///
+    /// ```
+    /// use homog::{Affine, Model, Projective, Vector, World};
+    /// let shift = Affine::<Model, World>::translation(Vector::new(1.0, 2.0, 3.0));
+    /// let thrice = Projective::<Model, World>::from_raw(shift.raw() * 3.0);
+    /// assert_eq!(thrice.to_affine(), Some(shift));
+    /// ```
+    #[must_use]
+    pub fn to_affine(self) -> Option<Affine<A, B>> {
+        let h = self.raw().w_axis.w;
+        let rows = self.rows().map(|row| row.map(|entry| entry / h));
+        Affine::from_rows(rows).filter(|map| map.is_finite())
+    }
+}
+
+impl<A: Space, B: Space> Affine<A, B> {
+    /// What kind of map this is: affine, or linear if the origin stays.
+    #[must_use]
+    pub fn classify(self) -> Classification {
+        Projective::from(self).classify()
+    }
+}
+
+impl Homography {
+    /// What kind of map of the plane this is, by the exact entries.
+    #[must_use]
+    pub fn kind(self) -> MapKind {
+        let [[_, _, x], [_, _, y], [p, q, h]] = self.rows();
+        match () {
+            () if p != 0.0 || q != 0.0 || h == 0.0 => MapKind::Projective,
+            () if x != 0.0 || y != 0.0 => MapKind::Affine,
+            () => MapKind::Linear,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate alloc;
+    use super::*;
+    use crate::{Clip, Model, Vector, View, World};
+    use alloc::string::ToString;
+
+    #[test]
+    fn c15_every_kind_gives_its_reason() {
+        let turn = Affine::<Model, World>::rotation_z(0.3);
+        assert_eq!(
+            turn.classify().to_string(),
+            "linear: w stays and so does the origin; invertible"
+        );
+        let moved = turn.then(Affine::<World, World>::translation(Vector::new(0.0, 2.5, 0.0)));
+        assert_eq!(moved.classify().reason, KindReason::OriginMoves { to: [0.0, 2.5, 0.0] });
+        let scaled = Projective::<Model, World>::from_raw(moved.raw() * -4.0);
+        assert_eq!(scaled.classify().kind, MapKind::Affine, "up to a factor");
+        let flat = Affine::<Model, World>::scale(1.0, 1.0, 0.0);
+        assert_eq!((flat.classify().kind, flat.classify().rank), (MapKind::Linear, 3));
+        let nothing = Projective::<View, Clip>::from_rows([[0.0; 4]; 4]).classify();
+        assert_eq!((nothing.reason, nothing.rank), (KindReason::WVanishes, 0));
+    }
+
+    #[test]
+    fn misprint_m27_a_perspective_is_linear_on_four_numbers_and_not_affine_on_places() {
+        let rows = [
+            [1.0, 0.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0],
+            [0.0, 0.0, 3.0, -2.0],
+            [0.0, 0.5, -1.0, 0.25],
+        ];
+        let map = Projective::<View, Clip>::from_rows(rows);
+        let found = map.classify();
+        assert_eq!(found.kind, MapKind::Projective);
+        assert_eq!(found.finite_vanishing_points(), 2);
+        assert!(found.to_string().contains("w = 0.5 y - z + 0.25"), "{found}");
+        assert_eq!(map.to_affine(), None);
+        let (a, b) = ([1.0, 2.0, 3.0, 4.0], [-5.0, 6.0, 7.0, 8.0]);
+        let sum: [f64; 4] = core::array::from_fn(|i| a[i] + b[i]);
+        let image = |v: [f64; 4]| map.hpoint(v.into()).raw();
+        assert_eq!(image(sum), image(a) + image(b));
+    }
+
+    #[test]
+    fn rounding_can_be_forgiven() {
+        let mut almost = glam::DMat4::IDENTITY;
+        almost.x_axis.w = 1e-17;
+        let almost = Projective::<View, Clip>::from_raw(almost);
+        assert_eq!(almost.classify().kind, MapKind::Projective);
+        assert_eq!(almost.classify_within(1e-12).kind, MapKind::Linear);
+    }
+
+    #[test]
+    fn maps_of_the_plane_have_kinds_too() {
+        let kind = |rows| Homography::from_rows(rows).kind();
+        let (x, y, z) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 2.0]);
+        assert_eq!(kind([x, y, z]), MapKind::Linear);
+        assert_eq!(kind([[1.0, 0.0, 5.0], y, z]), MapKind::Affine);
+        assert_eq!(kind([x, y, [0.0, 1.0, 1.0]]), MapKind::Projective);
+    }
+}

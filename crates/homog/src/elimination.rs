@@ -1,0 +1,137 @@
+//! Gauss–Jordan elimination of a small square matrix: its inverse and its rank.
+//!
+//! Rows and columns are first scaled by powers of two, which is exact, so that each has a greatest entry near 1. A matrix
+//! whose units differ wildly (a near plane of 10⁻¹² beside a far plane of 10⁶) is then judged by its shape
+//! and not by its units: a pivot that is only rounding noise means singular, a small unit does not.
+
+/// A pivot of a balanced matrix up to this size is rounding noise.
+const NOISE: f64 = 4.0 * f64::EPSILON;
+
+/// What elimination finds.
+pub(crate) struct Eliminated<const N: usize> {
+    /// The number of pivots above the noise.
+    pub(crate) rank: usize,
+    /// The inverse, by rows; `None` if the rank is not full or an entry is not finite.
+    pub(crate) inverse: Option<[[f64; N]; N]>,
+}
+
+/// Eliminates a matrix given by rows, with complete pivoting.
+pub(crate) fn eliminate<const N: usize>(rows: [[f64; N]; N]) -> Eliminated<N> {
+    if !rows.iter().flatten().all(|entry| entry.is_finite()) {
+        return Eliminated { rank: 0, inverse: None };
+    }
+    let (mut left, row_exponents, column_exponents) = balance(rows);
+    let mut right = identity::<N>();
+    let mut column_of = [0; N];
+    for step in 0..N {
+        let (row, column) = pivot(&left, step, &column_of);
+        if left[row][column].abs() <= NOISE {
+            return Eliminated { rank: step, inverse: None };
+        }
+        left.swap(step, row);
+        right.swap(step, row);
+        column_of[step] = column;
+        clear_column(&mut left, &mut right, step, column);
+    }
+    Eliminated { rank: N, inverse: unbalance(right, column_of, row_exponents, column_exponents) }
+}
+
+fn identity<const N: usize>() -> [[f64; N]; N] {
+    core::array::from_fn(|i| core::array::from_fn(|j| f64::from(u8::from(i == j))))
+}
+
+/// The matrix with rows and columns scaled, and the exponents of two they were multiplied by.
+fn balance<const N: usize>(rows: [[f64; N]; N]) -> ([[f64; N]; N], [i32; N], [i32; N]) {
+    let mut a = rows;
+    let row_exponents = core::array::from_fn(|i| {
+        let exponent = -exponent_of(a[i].iter().copied());
+        a[i] = a[i].map(|entry| libm::scalbn(entry, exponent));
+        exponent
+    });
+    let column_exponents = core::array::from_fn(|j| {
+        let exponent = -exponent_of(a.iter().map(|row| row[j]));
+        a.iter_mut().for_each(|row| row[j] = libm::scalbn(row[j], exponent));
+        exponent
+    });
+    (a, row_exponents, column_exponents)
+}
+
+/// The exponent of two of the largest entry; 0 if all are 0.
+fn exponent_of(entries: impl Iterator<Item = f64>) -> i32 {
+    let largest = entries.fold(0.0, |largest: f64, entry| largest.max(entry.abs()));
+    if largest == 0.0 { 0 } else { libm::ilogb(largest) }
+}
+
+/// Row and column of the largest entry that is in no pivot's row or column yet.
+fn pivot<const N: usize>(a: &[[f64; N]; N], step: usize, column_of: &[usize; N]) -> (usize, usize) {
+    let mut best = (step, 0);
+    let mut largest = -1.0;
+    for (i, row) in a.iter().enumerate().skip(step) {
+        for (j, entry) in row.iter().enumerate() {
+            if entry.abs() > largest && !column_of[..step].contains(&j) {
+                (best, largest) = ((i, j), entry.abs());
+            }
+        }
+    }
+    best
+}
+
+/// Divides the pivot's row by the pivot and takes it from all other rows, on both sides.
+fn clear_column<const N: usize>(
+    left: &mut [[f64; N]; N],
+    right: &mut [[f64; N]; N],
+    step: usize,
+    column: usize,
+) {
+    let by = left[step][column];
+    left[step] = left[step].map(|entry| entry / by);
+    right[step] = right[step].map(|entry| entry / by);
+    let (pivot_left, pivot_right) = (left[step], right[step]);
+    for i in (0..N).filter(|&i| i != step) {
+        let factor = left[i][column];
+        for j in 0..N {
+            left[i][j] -= factor * pivot_left[j];
+            right[i][j] -= factor * pivot_right[j];
+        }
+    }
+}
+
+/// Puts the rows of the balanced inverse where they belong and takes the scaling back: the inverse of R A C is
+/// C⁻¹ A⁻¹ R⁻¹, hence A⁻¹ = C (R A C)⁻¹ R.
+fn unbalance<const N: usize>(
+    right: [[f64; N]; N],
+    column_of: [usize; N],
+    row_exponents: [i32; N],
+    column_exponents: [i32; N],
+) -> Option<[[f64; N]; N]> {
+    let mut inverse = [[0.0; N]; N];
+    for (row, &column) in right.iter().zip(&column_of) {
+        inverse[column] = core::array::from_fn(|j| {
+            libm::scalbn(row[j], column_exponents[column] + row_exponents[j])
+        });
+    }
+    inverse.iter().flatten().all(|entry| entry.is_finite()).then_some(inverse)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn noise_is_singular_but_small_units_are_not() {
+        let thirds = [[0.1, 0.2], [0.3, 0.6]];
+        let flat = eliminate(thirds);
+        assert_eq!((flat.rank, flat.inverse), (1, None), "0.1 · 0.6 − 0.2 · 0.3 is 1e-17, not 0");
+        let small = eliminate([[1e-200, 0.0], [0.0, 1e200]]);
+        assert_eq!((small.rank, small.inverse), (2, Some([[1e200, 0.0], [0.0, 1e-200]])));
+        assert_eq!(eliminate([[0.0; 3]; 3]).rank, 0);
+        assert!(eliminate([[1e-320, 0.0], [0.0, 1.0]]).inverse.is_none(), "1e320 is no number");
+    }
+
+    #[test]
+    fn pivots_come_from_any_row_and_column() {
+        let a = [[0.0, 2.0, 0.0], [0.0, 0.0, 4.0], [8.0, 0.0, 0.0]];
+        let want = [[0.0, 0.0, 0.125], [0.5, 0.0, 0.0], [0.0, 0.25, 0.0]];
+        assert_eq!(eliminate(a).inverse, Some(want));
+    }
+}

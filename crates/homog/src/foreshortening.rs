@@ -1,0 +1,152 @@
+//! How a perspective moves the points of a segment along their line: f(t), its inverse and derivative (IN-1, IN-2).
+//!
+//! ```text
+//!  in space  r ──────────────● t = ½ ─────────────── R         w_r = 1, w_R = 3
+//!  image     r/w_r ───────────────────── ● f = ¾ ── R/w_R      the far half is squeezed
+//! ```
+//!
+//! The point r + t(R − r) has its image at fraction f(t) = w_R t / (w_r + t(w_R − w_r)) between the images of the ends.
+//! With both w on the same side of 0 the denominator is a blend of the two and never 0; f rises from 0 to 1, so that
+//! segments go to segments and the order on them is kept.
+//!
+//! Source: chapter §8.4 and its exercise 11; IN-1, IN-2.
+
+use crate::{HPoint, Space};
+
+/// The w of an end does not allow f(t).
+#[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
+#[error(
+    "a segment with w from {start} to {end} has no image in one piece: both must be finite, not 0 and of one sign"
+)]
+pub struct SegmentTorn {
+    /// w at the start.
+    pub start: f64,
+    /// w at the end.
+    pub end: f64,
+}
+
+/// The relation between a segment and its perspective image, fixed by w at its ends.
+///
+/// ```
+/// use homog::Foreshortening;
+/// let f = Foreshortening::new(1.0, 3.0)?;
+/// assert_eq!(f.image(0.5), Some(0.75));
+/// assert_eq!(f.source(0.75), Some(0.5));
+/// assert_eq!(f.derivative(0.0), Some(3.0));
+/// # Ok::<(), homog::SegmentTorn>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Foreshortening {
+    /// Both positive, the greater of them in [1, 2): only their ratio counts.
+    start: f64,
+    end: f64,
+}
+
+impl Foreshortening {
+    /// The relation for w = `start` at t = 0 and w = `end` at t = 1.
+    ///
+    /// # Errors
+    /// Unless both are finite, not 0 and of one sign: clip the segment first.
+    pub fn new(start: f64, end: f64) -> Result<Self, SegmentTorn> {
+        let one_side = (start > 0.0 && end > 0.0) || (start < 0.0 && end < 0.0);
+        if !(one_side && start.is_finite() && end.is_finite()) {
+            return Err(SegmentTorn { start, end });
+        }
+        let exponent = libm::ilogb(start.abs().max(end.abs()));
+        let scaled = |w: f64| libm::scalbn(w.abs(), -exponent).max(f64::MIN_POSITIVE);
+        Ok(Self { start: scaled(start), end: scaled(end) })
+    }
+
+    /// The relation for the segment between two homogeneous points.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn between<S: Space>(start: HPoint<S>, end: HPoint<S>) -> Result<Self, SegmentTorn> {
+        Self::new(start.w(), end.w())
+    }
+
+    /// f(t): where the point at fraction `t` of the segment has its image, as a fraction of the image.
+    ///
+    /// Some for every t in [0, 1]; beyond the ends `None` from where the line leaves for infinity.
+    #[must_use]
+    pub fn image(self, t: f64) -> Option<f64> {
+        quotient(self.end * t, self.start + t * (self.end - self.start))
+    }
+
+    /// The inverse of f: which fraction of the segment is seen at fraction `s` of its image.
+    ///
+    /// Some for every s in [0, 1]; beyond the ends `None` from the vanishing point on.
+    #[must_use]
+    pub fn source(self, s: f64) -> Option<f64> {
+        quotient(self.start * s, self.end + s * (self.start - self.end))
+    }
+
+    /// f'(t) = w_r w_R / (w_r + t(w_R − w_r))²: how much a short piece at `t` is stretched against the average.
+    #[must_use]
+    pub fn derivative(self, t: f64) -> Option<f64> {
+        let w = self.start + t * (self.end - self.start);
+        quotient(self.start, w)?;
+        quotient(self.start / w * self.end, w)
+    }
+
+    /// The value that goes from `a` to `b` along the segment, where the image has run to fraction `s` (IN-2):
+    /// [(1−s) a/w_r + s b/w_R] / [(1−s)/w_r + s/w_R]. Perspective-correct interpolation.
+    #[must_use]
+    pub fn attribute(self, s: f64, a: f64, b: f64) -> Option<f64> {
+        let t = self.source(s)?;
+        Some(a * (1.0 - t) + b * t).filter(|value| value.is_finite())
+    }
+}
+
+/// None unless the denominator is positive and the quotient finite.
+fn quotient(numerator: f64, denominator: f64) -> Option<f64> {
+    let quotient = numerator / denominator;
+    (denominator > 0.0 && quotient.is_finite()).then_some(quotient)
+}
+
+/// The weights of a triangle's corners in space, from those of its image and w at the corners (IN-2): λᵢ/wᵢ over
+/// their sum. They interpolate any attribute perspective-correctly.
+///
+/// `None` if the sum is 0 or not finite, as with a w of 0.
+#[must_use]
+pub fn perspective_weights(image_weights: [f64; 3], w: [f64; 3]) -> Option<[f64; 3]> {
+    let parts: [f64; 3] = core::array::from_fn(|i| image_weights[i] / w[i]);
+    let sum: f64 = parts[0] + parts[1] + parts[2];
+    let weights = parts.map(|part| part / sum);
+    weights.iter().all(|weight| weight.is_finite()).then_some(weights)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exercise_11_order_is_kept() {
+        let f = Foreshortening::new(1.0, 3.0).expect("both positive");
+        assert_eq!([0.0, 0.5, 1.0].map(|t| f.image(t)), [0.0, 0.75, 1.0].map(Some));
+        assert_eq!(f.derivative(0.0), Some(3.0));
+        assert_eq!(f.derivative(1.0), Some(1.0 / 3.0));
+    }
+
+    #[test]
+    fn segments_through_the_plane_of_the_eye_are_torn() {
+        for [start, end] in
+            [[1.0, -1.0], [0.0, 1.0], [1.0, 0.0], [f64::NAN, 1.0], [1.0, f64::INFINITY]]
+        {
+            assert!(Foreshortening::new(start, end).is_err(), "w from {start} to {end}");
+        }
+        let f = Foreshortening::new(1.0, 3.0).expect("both positive");
+        assert_eq!(f.image(-0.5), None, "there w is 0");
+        assert_eq!(f.source(1.5), None, "the vanishing point of the line");
+        assert_eq!(f.image(f64::NAN), None);
+    }
+
+    #[test]
+    fn weights_of_a_triangle_agree_with_the_segment_on_its_sides() {
+        let f = Foreshortening::new(2.0, 5.0).expect("both positive");
+        let weights = perspective_weights([0.75, 0.25, 0.0], [2.0, 5.0, 9.0]).expect("w > 0");
+        assert!((weights[1] - f.source(0.25).expect("inside")).abs() < 1e-15);
+        assert_eq!(weights[2], 0.0);
+        assert_eq!(perspective_weights([1.0, 0.0, 0.0], [0.0, 1.0, 1.0]), None);
+    }
+}

@@ -1,0 +1,164 @@
+//! Projective maps of the plane: 3×3 matrices on 2-D homogeneous points.
+//!
+//! ```text
+//!   (0,1)────(1,1)          (−1,3)──(1,3)       M = [ 2   0   −1 ]
+//!     │        │                ╱    ╲              [ 0   3    0 ]
+//!     │        │     ──M──►    ╱      ╲             [ 0  2/3  1/3 ]
+//!   (0,0)────(1,0)        (−3,0)──────(3,0)
+//! ```
+//!
+//! Lines go to lines, but parallel ones may come to meet, and one line, the one whose points get w = 0, goes to
+//! infinity: here 2y + 1 = 0. Any multiple of M is the same map. Source: chapter §8.2, HO-3.
+
+use crate::elimination::eliminate;
+use crate::meaning::proportional;
+use crate::{Hom2, Line2};
+use glam::{DMat3, DVec3};
+
+/// A projective map of the plane (HO-3).
+///
+/// ```
+/// use homog::{Hom2, Homography};
+/// let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+/// let photo = [[-3.0, 0.0], [3.0, 0.0], [1.0, 3.0], [-1.0, 3.0]];
+/// let map = Homography::from_unit_square(photo).expect("four corners of a quadrilateral");
+/// let middle = map.apply(Hom2::place(0.5, 0.5)).divide().expect("finite");
+/// assert!((middle[1] - 2.25).abs() < 1e-14); // the middle of the square is seen above half the height
+/// let rectify = map.inverse().expect("a quadrilateral with four corners");
+/// # for (p, q) in photo.into_iter().zip(square) {
+/// #     let back = rectify.apply(p.into()).divide().expect("finite");
+/// #     assert!((back[0] - q[0]).abs() + (back[1] - q[1]).abs() < 1e-14);
+/// # }
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Homography {
+    raw: DMat3,
+}
+
+impl Homography {
+    /// The map that leaves everything where it is.
+    pub const IDENTITY: Self = Self { raw: DMat3::IDENTITY };
+
+    /// The map with the given matrix, column vectors.
+    #[must_use]
+    pub const fn from_raw(raw: DMat3) -> Self {
+        Self { raw }
+    }
+
+    /// The matrix.
+    #[must_use]
+    pub const fn raw(self) -> DMat3 {
+        self.raw
+    }
+
+    /// The map that takes the corners (0,0), (1,0), (1,1), (0,1) of the unit square to the given four, in this order.
+    ///
+    /// `None` if three of them lie on one line, or a coordinate is not finite.
+    #[must_use]
+    pub fn from_unit_square(corners: [[f64; 2]; 4]) -> Option<Self> {
+        // Three corners are the images of three base points, each up to a factor; the fourth fixes the factors.
+        let [p00, p10, p11, p01] = corners.map(|[x, y]| DVec3::new(x, y, 1.0));
+        let base = Self::from_raw(DMat3::from_cols(p00, p10, p01));
+        let factors = base.inverse()?.raw * p11;
+        let [a, b, c] = (DVec3::new(-1.0, 1.0, 1.0) * factors).to_array();
+        let (origin, x, y) = (p00 * a, p10 * b, p01 * c);
+        let map = Self::from_raw(DMat3::from_cols(x - origin, y - origin, origin));
+        map.inverse().map(|_| map)
+    }
+
+    /// The image of a homogeneous point, not divided.
+    #[must_use]
+    pub fn apply(self, point: Hom2) -> Hom2 {
+        Hom2::from_raw(self.raw * point.raw())
+    }
+
+    /// The image of a line; `None` if the map is singular.
+    #[must_use]
+    pub fn line(self, line: Line2) -> Option<Line2> {
+        Some(Line2::from_raw(self.inverse()?.raw.transpose() * line.raw()))
+    }
+
+    /// The line that goes to infinity: its points get w = 0. For an affine map it is the line at infinity itself.
+    #[must_use]
+    pub fn horizon(self) -> Line2 {
+        Line2::from_raw(self.raw.row(2))
+    }
+
+    /// This map, then `next`.
+    #[must_use]
+    pub fn then(self, next: Self) -> Self {
+        Self::from_raw(next.raw * self.raw)
+    }
+
+    /// The determinant: 0 if the plane is flattened to a line or a point.
+    #[must_use]
+    pub fn determinant(self) -> f64 {
+        self.raw.determinant()
+    }
+
+    /// The map that undoes this one; `None` if it is singular up to rounding, or not finite.
+    #[must_use]
+    pub fn inverse(self) -> Option<Self> {
+        eliminate(self.rows()).inverse.map(Self::from_rows)
+    }
+
+    /// True if both are the same map, that is if one matrix is a multiple of the other (HO-2).
+    ///
+    /// `None` if one of them is zero or not finite.
+    #[must_use]
+    pub fn equivalent(self, other: Self, relative: f64) -> Option<bool> {
+        proportional(&self.raw.to_cols_array(), &other.raw.to_cols_array(), relative)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CHAPTER: [[f64; 3]; 3] = [[2.0, 0.0, -1.0], [0.0, 3.0, 0.0], [0.0, 2.0 / 3.0, 1.0 / 3.0]];
+    const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    const IMAGE: [[f64; 2]; 4] = [[-3.0, 0.0], [3.0, 0.0], [1.0, 3.0], [-1.0, 3.0]];
+
+    #[test]
+    fn c16_the_unit_square_of_the_chapter() {
+        let map = Homography::from_rows(CHAPTER);
+        for (p, q) in SQUARE.into_iter().zip(IMAGE) {
+            assert_eq!(map.apply(p.into()).divide(), Some(q), "{p:?}");
+        }
+        let found = Homography::from_unit_square(IMAGE).expect("four corners");
+        assert_eq!(found.equivalent(map, 1e-14), Some(true));
+    }
+
+    #[test]
+    fn c17_three_times_the_matrix_is_the_same_map() {
+        let map = Homography::from_rows(CHAPTER);
+        let thrice = Homography::from_raw(map.raw() * 3.0);
+        assert_eq!(map.equivalent(thrice, 1e-15), Some(true));
+        for p in SQUARE {
+            assert_eq!(map.apply(p.into()).divide(), thrice.apply(p.into()).divide());
+        }
+        assert_eq!(map.equivalent(Homography::IDENTITY, 1e-15), Some(false));
+        assert_eq!(map.equivalent(Homography::from_rows([[0.0; 3]; 3]), 1e-15), None);
+    }
+
+    #[test]
+    fn one_line_goes_to_infinity() {
+        let map = Homography::from_rows(CHAPTER);
+        let wanted = Line2::new(0.0, 2.0, 1.0); // 2y + 1 = 0
+        assert_eq!(map.horizon().equivalent(wanted, 1e-15), Some(true));
+        assert_eq!(
+            Homography::from_raw(map.raw() * 3.0).apply(Hom2::place(7.0, -0.5)).divide(),
+            None
+        );
+        let infinite = map.line(wanted).expect("regular");
+        assert_eq!(infinite.equivalent(Line2::INFINITY, 1e-15), Some(true));
+    }
+
+    #[test]
+    fn three_corners_on_a_line_make_no_map() {
+        let flat = [[0.0, 0.0], [1.0, 1.0], [2.0, 2.0], [0.0, 1.0]];
+        assert_eq!(Homography::from_unit_square(flat), None);
+        let nan = [[0.0, 0.0], [1.0, f64::NAN], [2.0, 2.0], [0.0, 1.0]];
+        assert_eq!(Homography::from_unit_square(nan), None);
+    }
+}

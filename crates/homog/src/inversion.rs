@@ -1,0 +1,128 @@
+//! Inverses with a report: how many digits inverting costs, and why there is no inverse if there is none.
+
+use crate::elimination::eliminate;
+use crate::{Projective, Space};
+
+/// An inverse, and what it is worth.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Inversion<A: Space, B: Space> {
+    /// The inverse map.
+    pub map: Projective<A, B>,
+    /// The condition number ‖M‖ ‖M⁻¹‖ in the norm of the greatest row sum: by how much relative errors may grow,
+    /// at least 1. A perspective with near and far far apart has a large one.
+    pub condition: f64,
+    /// The greatest entry of |M M⁻¹ − I|: how well the inverse undoes the map as computed.
+    pub residual: f64,
+}
+
+impl<A: Space, B: Space> Inversion<A, B> {
+    /// The decimal digits that inverting may cost, of the 16 an f64 has: log₁₀ of the condition number.
+    #[must_use]
+    pub fn digits_lost(&self) -> f64 {
+        libm::log10(self.condition)
+    }
+}
+
+/// Why a map has no inverse.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum InversionError {
+    /// The map flattens space: it has no inverse, as every classical projection onto a plane.
+    #[error("the matrix is singular: its rank is {rank}, and only rank 4 can be undone")]
+    Singular {
+        /// The dimension of the image in homogeneous coordinates: 3 for a projection onto a plane.
+        rank: usize,
+    },
+    /// An entry of the matrix is infinite or NaN.
+    #[error("the matrix has an entry that is not finite")]
+    NotFinite,
+    /// The inverse has entries beyond the range of f64.
+    #[error("the inverse has entries beyond the range of f64")]
+    OutOfRange,
+}
+
+impl<A: Space, B: Space> Projective<A, B> {
+    /// The map that undoes this one, with its condition.
+    ///
+    /// # Errors
+    /// A matrix that is singular (up to rounding, whatever the units of its rows and columns) or not finite, or an
+    /// inverse that is not finite.
+    ///
+    /// ```
+    /// use homog::{Affine, Model, Projective, World};
+    /// let map = Projective::from(Affine::<Model, World>::scale(1.0, 1.0, 1e-3));
+    /// let inversion = map.inverse_with_report()?;
+    /// assert_eq!(inversion.condition, 1000.0);
+    /// assert_eq!(inversion.digits_lost(), 3.0);
+    /// # Ok::<(), homog::InversionError>(())
+    /// ```
+    pub fn inverse_with_report(self) -> Result<Inversion<B, A>, InversionError> {
+        if !self.is_finite() {
+            return Err(InversionError::NotFinite);
+        }
+        let found = eliminate(self.rows());
+        let Some(rows) = found.inverse else {
+            let rank = found.rank;
+            let singular = InversionError::Singular { rank };
+            return Err(if rank < 4 { singular } else { InversionError::OutOfRange });
+        };
+        let map = Projective::from_rows(rows);
+        let condition = row_sum_norm(self.rows()) * row_sum_norm(rows);
+        let residual = self.residual(map);
+        Ok(Inversion { map, condition, residual })
+    }
+
+    /// The rank of the matrix up to rounding: 4 for maps that can be undone, 3 for projections onto a plane, 0 for zero
+    /// and for matrices that are not finite.
+    #[must_use]
+    pub fn rank(self) -> usize {
+        eliminate(self.rows()).rank
+    }
+
+    fn residual(self, inverse: Projective<B, A>) -> f64 {
+        let product = self.raw() * inverse.raw() - glam::DMat4::IDENTITY;
+        product.to_cols_array().iter().fold(0.0, |largest: f64, entry| largest.max(entry.abs()))
+    }
+}
+
+fn row_sum_norm(rows: [[f64; 4]; 4]) -> f64 {
+    let sum = |row: &[f64; 4]| row.iter().map(|entry| entry.abs()).sum();
+    rows.iter().map(sum).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Clip, View};
+
+    type Map = Projective<View, Clip>;
+
+    #[test]
+    fn a_projection_onto_a_plane_has_rank_3_and_says_so() {
+        let onto_a_plane = Map::from_rows([
+            [1.0, 0.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0],
+            [0.0, 0.0, 0.0, 0.0],
+            [0.0, 0.0, -0.5, 1.0],
+        ]);
+        let error = onto_a_plane.inverse_with_report().expect_err("singular");
+        assert_eq!(error, InversionError::Singular { rank: 3 });
+        assert_eq!(onto_a_plane.inverse(), None);
+    }
+
+    #[test]
+    fn the_report_tells_how_much_is_lost() {
+        // P of PE-1 with n = -1, f = -1e6.
+        let (n, f) = (-1.0, -1e6);
+        let map = Map::from_rows([
+            [n, 0.0, 0.0, 0.0],
+            [0.0, n, 0.0, 0.0],
+            [0.0, 0.0, n + f, -f * n],
+            [0.0, 0.0, 1.0, 0.0],
+        ]);
+        let report = map.inverse_with_report().expect("regular");
+        assert!(report.residual < 1e-9, "{}", report.residual);
+        assert!(report.digits_lost() > 6.0 && report.digits_lost() < 13.0);
+        assert_eq!(Map::from_rows([[f64::NAN; 4]; 4]).rank(), 0);
+    }
+}

@@ -1,0 +1,165 @@
+//! Linear remapping of intervals and boxes: LI-1, WI-2, WI-3.
+//!
+//! ```text
+//!   a ────────── x ──── b            (x − a)/(b − a) = (y − c)/(d − c)
+//!   │            │      │
+//!   c ────────── y ──── d            y = c + (x − a)(d − c)/(b − a)
+//! ```
+//!
+//! Nothing stops at the ends: x before a or beyond b goes to y outside [c, d]. If c > d the interval is turned round, so
+//! that x > b gives y < d. (One source has it as x < a or x > b gives y < c or y > d, the comparison signs lost in print: that
+//! is so only for c < d, misprint M27.)
+//!
+//! Sources: LI-1; WI-2 and WI-3, which the chapter names as windowing transformations.
+
+use crate::{Affine, Homography, Point, Space, Vector};
+
+/// Why an interval or a box cannot be remapped.
+#[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RemapError {
+    /// A number is infinite or NaN.
+    #[error("{name} is {value}, which is not finite")]
+    NotFinite {
+        /// Which number.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The interval to map from has no length.
+    #[error("the {axis} interval to map from is empty: it begins and ends at {at}")]
+    Empty {
+        /// "x", "y" or "z"; "only" if there is but one.
+        axis: &'static str,
+        /// Where it begins and ends.
+        at: f64,
+    },
+    /// The result is too large a number.
+    #[error("mapping [{}, {}] to [{}, {}] leaves the range of f64", from[0], from[1], to[0], to[1])]
+    OutOfRange {
+        /// The interval to map from.
+        from: [f64; 2],
+        /// The interval to map to.
+        to: [f64; 2],
+    },
+}
+
+/// The number that lies in `to` as `x` lies in `from` (LI-1). Extrapolates; either interval may run backwards.
+///
+/// # Errors
+/// A number that is not finite; `from` of no length; a result out of range.
+///
+/// ```
+/// use homog::remap;
+/// assert_eq!(remap(0.25, [0.0, 1.0], [5.0, 9.0]), Ok(6.0));
+/// assert_eq!(remap(-3.0, [-1.0, 1.0], [0.0, 10.0]), Ok(-10.0));
+/// assert!(remap(1.0, [2.0, 2.0], [0.0, 1.0]).is_err());
+/// ```
+pub fn remap(x: f64, from: [f64; 2], to: [f64; 2]) -> Result<f64, RemapError> {
+    finite("the number to map", x)?;
+    check("only", from, to)?;
+    let y = to[0] + (x - from[0]) * ((to[1] - to[0]) / (from[1] - from[0]));
+    if y.is_finite() { Ok(y) } else { Err(RemapError::OutOfRange { from, to }) }
+}
+
+/// Factor and offset: y = factor · x + offset.
+fn scale_and_offset(
+    axis: &'static str,
+    from: [f64; 2],
+    to: [f64; 2],
+) -> Result<(f64, f64), RemapError> {
+    check(axis, from, to)?;
+    let length = from[1] - from[0];
+    let scale = (to[1] - to[0]) / length;
+    let offset = (to[0] * from[1] - to[1] * from[0]) / length;
+    if scale.is_finite() && offset.is_finite() {
+        Ok((scale, offset))
+    } else {
+        Err(RemapError::OutOfRange { from, to })
+    }
+}
+
+fn check(axis: &'static str, from: [f64; 2], to: [f64; 2]) -> Result<(), RemapError> {
+    finite("the beginning of the interval to map from", from[0])?;
+    finite("the end of the interval to map from", from[1])?;
+    finite("the beginning of the interval to map to", to[0])?;
+    finite("the end of the interval to map to", to[1])?;
+    if from[0] == from[1] {
+        return Err(RemapError::Empty { axis, at: from[0] });
+    }
+    Ok(())
+}
+
+fn finite(name: &'static str, value: f64) -> Result<(), RemapError> {
+    if value.is_finite() { Ok(()) } else { Err(RemapError::NotFinite { name, value }) }
+}
+
+impl Homography {
+    /// The map that takes the rectangle with opposite corners `from` to that with opposite corners `to` (WI-2).
+    ///
+    /// # Errors
+    /// As [`remap`], for either axis.
+    pub fn windowing(from: [[f64; 2]; 2], to: [[f64; 2]; 2]) -> Result<Self, RemapError> {
+        let axis =
+            |name, i: usize| scale_and_offset(name, [from[0][i], from[1][i]], [to[0][i], to[1][i]]);
+        let ((sx, dx), (sy, dy)) = (axis("x", 0)?, axis("y", 1)?);
+        Ok(Self::from_rows([[sx, 0.0, dx], [0.0, sy, dy], [0.0, 0.0, 1.0]]))
+    }
+}
+
+impl<A: Space, B: Space> Affine<A, B> {
+    /// The map that takes the box with opposite corners `from` to that with opposite corners `to` (WI-3). A box to
+    /// map to may be flat or mirrored.
+    ///
+    /// # Errors
+    /// As [`remap`], for any of the three axes.
+    pub fn windowing(from: [Point<A>; 2], to: [Point<B>; 2]) -> Result<Self, RemapError> {
+        let (from, to) = (from.map(<[f64; 3]>::from), to.map(<[f64; 3]>::from));
+        let axis =
+            |name, i: usize| scale_and_offset(name, [from[0][i], from[1][i]], [to[0][i], to[1][i]]);
+        let ((sx, dx), (sy, dy), (sz, dz)) = (axis("x", 0)?, axis("y", 1)?, axis("z", 2)?);
+        let (x, y, z) = (Vector::X * sx, Vector::Y * sy, Vector::Z * sz);
+        Ok(Self::from_frame(x, y, z, Point::new(dx, dy, dz)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Ndc, View};
+
+    #[test]
+    fn misprint_m27_a_reversed_range_swaps_the_sides() {
+        let rising = [0.0, 10.0];
+        assert_eq!(remap(-3.0, [-1.0, 1.0], rising), Ok(-10.0));
+        assert_eq!(remap(-3.0, [-1.0, 1.0], [10.0, 0.0]), Ok(20.0), "x < a, but y above both ends");
+        assert_eq!(remap(3.0, [-1.0, 1.0], [10.0, 0.0]), Ok(-10.0), "x > b, but y below both ends");
+    }
+
+    #[test]
+    fn opposite_corners_go_to_opposite_corners() {
+        let from = [Point::<View>::new(-2.0, 4.0, -1.0), Point::new(4.0, -1.0, -5.0)];
+        let to = [Point::<Ndc>::new(-1.0, 1.0, 1.0), Point::new(1.0, -1.0, -1.0)];
+        let map = Affine::windowing(from, to).expect("a box");
+        for (p, q) in from.into_iter().zip(to) {
+            assert!((map.point(p) - q).length() < 1e-15, "{p} goes to {}, not {q}", map.point(p));
+        }
+        let flat = Affine::windowing(to, from).expect("a box").then(
+            Affine::windowing(from, [Point::<Ndc>::ORIGIN; 2]).expect("flat, but from a box"),
+        );
+        assert_eq!(flat.determinant(), 0.0);
+    }
+
+    #[test]
+    fn empty_and_endless_intervals_are_refused_by_name() {
+        let empty = Homography::windowing([[0.0, 1.0], [2.0, 1.0]], [[0.0; 2], [1.0; 2]]);
+        assert_eq!(empty, Err(RemapError::Empty { axis: "y", at: 1.0 }));
+        let unit = [0.0, 1.0];
+        assert!(matches!(remap(f64::NAN, unit, unit), Err(RemapError::NotFinite { .. })));
+        assert!(matches!(
+            remap(0.0, [0.0, f64::INFINITY], unit),
+            Err(RemapError::NotFinite { .. })
+        ));
+        assert!(matches!(remap(1e308, [0.0, 1e-9], unit), Err(RemapError::OutOfRange { .. })));
+    }
+}
