@@ -13,6 +13,7 @@
 mod clipping;
 mod numbers;
 mod projection;
+mod raster;
 
 use serde_json::Value;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -22,14 +23,10 @@ use std::process::ExitCode;
 type Runner = fn(&Value, &Value) -> Result<(), String>;
 
 /// The runners, by the name of their file.
-const RUNNERS: &[&[(&str, Runner)]] = &[clipping::RUNNERS, projection::RUNNERS];
+const RUNNERS: &[&[(&str, Runner)]] = &[clipping::RUNNERS, projection::RUNNERS, raster::RUNNERS];
 
 /// Files whose subject is not built yet, and why.
-const PENDING: &[(&str, &str)] = &[
-    ("hidden_lines", "line drawing's issue"),
-    ("raster_attributes", "rasteriser's issue"),
-    ("raster_coverage", "rasteriser's issue"),
-];
+const PENDING: &[(&str, &str)] = &[("hidden_lines", "line drawing's issue")];
 
 /// How many failing cases of a file are printed in full.
 const SHOWN: usize = 5;

@@ -7,6 +7,8 @@ mod bounds;
 mod error;
 pub mod file;
 mod locate;
+#[cfg(test)]
+mod mistakes;
 mod number;
 mod origin;
 mod parse;

@@ -19,7 +19,7 @@ use core::ops::Range;
 pub struct SceneError {
     /// The scene file's path, or what stands for it.
     pub file: String,
-    /// The whole text.
+    /// The whole text; empty if there is none, for a bare model.
     pub source: String,
     /// The bytes of the text that the fault is in.
     pub span: Range<usize>,
@@ -41,6 +41,10 @@ impl SceneError {
 
 impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.source.is_empty() {
+            write!(f, "{}: {}", self.file, self.message)?;
+            return self.help.iter().try_for_each(|help| write!(f, "\n  = help: {help}"));
+        }
         let snippet = Snippet::source(self.source.as_str())
             .path(self.file.as_str())
             .annotation(AnnotationKind::Primary.span(self.first_line_of_span()));

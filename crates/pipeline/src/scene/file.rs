@@ -54,7 +54,7 @@ pub struct CameraFile {
 
 /// Where the eye is and where it looks.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(rename = "View", deny_unknown_fields)]
 pub enum ViewFile {
     /// From a place towards another.
     LookAt {
@@ -104,6 +104,7 @@ fn usual_padding() -> NonNegative {
 
 /// The direction a picture is framed from.
 #[derive(Clone, PartialEq, Debug, Default, Deserialize)]
+#[serde(rename = "From")]
 pub enum FromFile {
     /// The side that faces +z, which is the front in glTF.
     Front,
@@ -137,7 +138,7 @@ pub enum CameraChoice {
 
 /// A projection.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(rename = "Projection", deny_unknown_fields)]
 pub enum ProjectionFile {
     /// Perspective, the eye in front of the picture's centre.
     Perspective {
@@ -185,7 +186,7 @@ impl ProjectionFile {
 
 /// A light.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(rename = "Light", deny_unknown_fields)]
 pub enum LightFile {
     /// Light from very far away: parallel rays.
     Sun {
@@ -219,6 +220,7 @@ pub enum LightFile {
 
 /// How surfaces are drawn.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Deserialize)]
+#[serde(rename = "Style")]
 pub enum StyleFile {
     /// Lit, with the smooth normals of the file.
     #[default]
@@ -249,6 +251,7 @@ impl Default for ImageFile {
 
 /// What is seen where no model is.
 #[derive(Clone, PartialEq, Eq, Debug, Default, Deserialize)]
+#[serde(rename = "Background")]
 pub enum BackgroundFile {
     /// Nothing: alpha is 0.
     #[default]

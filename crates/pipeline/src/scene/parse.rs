@@ -55,7 +55,7 @@ fn points_at_a_value(code: &Code) -> bool {
 
 /// What is wrong and, where it can be told, what to do, in words.
 fn explain(code: &Code, path: Option<&Path>) -> (String, Option<String>) {
-    let place = path.map(ToString::to_string).filter(|path| path != ".");
+    let place = path.map(ToString::to_string).filter(|path| path != "." && path != "?");
     let at_place =
         |what: &str| place.as_ref().map_or(what.to_owned(), |p| format!("`{p}`: {what}"));
     match code {
@@ -89,6 +89,13 @@ fn explain(code: &Code, path: Option<&Path>) -> (String, Option<String>) {
         ),
         Code::InvalidValueForType { expected, found } => {
             (at_place(&format!("expected {expected}, found {found}")), None)
+        }
+        Code::Eof | Code::ExpectedNamedStructLike(_) => (
+            "the file ends too early, or is no scene".into(),
+            Some("a scene looks like this: Scene(models: [(path: \"model.glb\")])".into()),
+        ),
+        Code::TrailingCharacters => {
+            ("there is something behind the scene's last bracket".into(), None)
         }
         Code::Message(message) => (at_place(message), None),
         other => (at_place(&lower_first(&other.to_string())), None),

@@ -96,7 +96,12 @@ fn load_models(
         let model = if let Some(model) = loaded.get(&path) {
             Arc::clone(model)
         } else {
-            let model = Arc::new(load(&path, &options.import)?);
+            let model =
+                load(&path, &options.import).map_err(|error| match origin.text.as_str() {
+                    "" => ResolveError::from(error),
+                    _ => origin.fault(&at, error.to_string(), None).into(),
+                })?;
+            let model = Arc::new(model);
             loaded.insert(path, Arc::clone(&model));
             model
         };

@@ -117,13 +117,14 @@ impl Resolver<'_> {
         let basis = self.basis(from)?;
         let points = self.points.iter().copied();
         let fault = |error: camera::FramingError| {
-            let no_points = matches!(error, camera::FramingError::NoPoints);
-            let message = if no_points {
-                "there is nothing to draw: the models have no points, lines or triangles".to_owned()
-            } else {
-                error.to_string()
-            };
-            self.origin.fault(&[CAMERA, VIEW], message, None)
+            if !matches!(error, camera::FramingError::NoPoints) {
+                return self.origin.fault(&[CAMERA, VIEW], error.to_string(), None);
+            }
+            // What the importer left out is the likely reason.
+            let warnings = self.models.iter().flat_map(|placed| &placed.model.warnings).next();
+            let help = warnings.map(|warning| format!("{}: {}", warning.pointer, warning.message));
+            let message = "there is nothing to draw: the models have no points, lines or triangles";
+            self.origin.fault(&[CAMERA, VIEW], message, help)
         };
         let slopes = match *projection {
             ProjectionFile::Orthographic { .. } => {
