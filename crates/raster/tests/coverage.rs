@@ -1,0 +1,190 @@
+//! Coverage and visibility against the definitions, by brute force.
+
+use homog::Point;
+use proptest::prelude::*;
+use raster::{Cover, Frame, Samples, ScreenVertex};
+
+const SIDE: u32 = 24;
+
+/// A vertex on the grid of 1/256 pixel.
+fn vertex(x: i32, y: i32) -> ScreenVertex {
+    ScreenVertex { x, y, depth: 0.5, inv_w: 1.0 }
+}
+
+/// Whether the triangle covers a sample, straight from RA-1: inside, or on the border and still inside after a step to the
+/// right and an infinitely smaller one down (y down). The step is made finite by scaling the grid.
+fn covers(triangle: [ScreenVertex; 3], x: i64, y: i64) -> bool {
+    const FINE: i128 = 1 << 40;
+    let point = |v: ScreenVertex| (i128::from(v.x) * FINE, i128::from(v.y) * FINE);
+    let sample = (i128::from(x) * FINE + (1 << 20), i128::from(y) * FINE + 1);
+    let side = |a: (i128, i128), b: (i128, i128)| {
+        ((b.0 - a.0) * (sample.1 - a.1) - (b.1 - a.1) * (sample.0 - a.0)).signum()
+    };
+    let [p, q, r] = triangle.map(point);
+    let sides = [side(p, q), side(q, r), side(r, p)];
+    sides == [1; 3] || sides == [-1; 3]
+}
+
+fn covered(triangle: [ScreenVertex; 3]) -> Vec<bool> {
+    let mut frame = Frame::new(SIDE, SIDE, Samples::One).expect("a small frame");
+    frame.triangle(triangle, 0, Cover::Solid);
+    frame.visibility().ids.iter().map(Option::is_some).collect()
+}
+
+/// Coordinates that meet pixel centres, half pixels and arbitrary grid steps alike, inside and outside the picture.
+fn coordinate() -> impl Strategy<Value = i32> {
+    let far = SIDE as i32 * 256;
+    prop_oneof![
+        (-4..28_i32).prop_map(|n| n * 256 + 128),
+        (-8..56_i32).prop_map(|n| n * 128),
+        -far..2 * far,
+        -8_000_000..8_000_000_i32,
+    ]
+}
+
+fn corner() -> impl Strategy<Value = ScreenVertex> {
+    (coordinate(), coordinate()).prop_map(|(x, y)| vertex(x, y))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(4000))]
+
+    #[test]
+    fn coverage_is_the_definition(p in corner(), q in corner(), r in corner()) {
+        for (at, covered) in covered([p, q, r]).into_iter().enumerate() {
+            let (x, y) = (at as i64 % i64::from(SIDE), at as i64 / i64::from(SIDE));
+            prop_assert_eq!(covered, covers([p, q, r], x * 256 + 128, y * 256 + 128), "pixel ({}, {})", x, y);
+        }
+    }
+
+    #[test]
+    fn triangles_around_a_point_cover_each_sample_once(
+        center in corner(),
+        rim in prop::collection::vec((-6000_i32..6000, 1_i32..6000), 3..9),
+    ) {
+        // A rim sorted by angle around the centre, without two corners in one direction: a fan without overlap.
+        let mut rim: Vec<(i32, i32)> = rim.into_iter().flat_map(|(x, y)| [(x, y), (-x, -y)]).collect();
+        let upper = |&(x, y): &(i32, i32)| y < 0 || (y == 0 && x < 0);
+        let cross = |a: &(i32, i32), b: &(i32, i32)| i64::from(a.0) * i64::from(b.1) - i64::from(a.1) * i64::from(b.0);
+        rim.sort_by(|a, b| upper(a).cmp(&upper(b)).then(0.cmp(&cross(a, b))));
+        rim.dedup_by(|a, b| upper(a) == upper(b) && cross(a, b) == 0);
+        let at = |(x, y): (i32, i32)| vertex(center.x + x, center.y + y);
+        let mut hits = vec![0; (SIDE * SIDE) as usize];
+        for k in 0..rim.len() {
+            let triangle = [center, at(rim[k]), at(rim[(k + 1) % rim.len()])];
+            for (hits, covered) in hits.iter_mut().zip(covered(triangle)) {
+                *hits += u32::from(covered);
+            }
+        }
+        prop_assert!(hits.iter().all(|&hits| hits <= 1), "{:?}", hits);
+        // Samples nearer to the centre than every rim edge are inside the fan.
+        let reach = (0..rim.len()).map(|k| {
+            let (a, b) = (rim[k], rim[(k + 1) % rim.len()]);
+            let length = f64::from(b.0 - a.0).hypot_exact(f64::from(b.1 - a.1));
+            if length == 0.0 { 0.0 } else { (cross(&a, &b) as f64 / length).abs() }
+        }).fold(f64::INFINITY, f64::min);
+        for (n, hits) in hits.iter().enumerate() {
+            let (x, y) = ((n as i32 % SIDE as i32) * 256 + 128, (n as i32 / SIDE as i32) * 256 + 128);
+            let distance = f64::from(x - center.x).hypot_exact(f64::from(y - center.y));
+            prop_assert!(*hits == 1 || distance >= reach, "sample ({}, {}) in a gap", x, y);
+        }
+    }
+}
+
+/// √(x² + y²) of numbers whose squares neither over- nor underflow.
+trait Hypot {
+    fn hypot_exact(self, other: f64) -> f64;
+}
+
+impl Hypot for f64 {
+    fn hypot_exact(self, other: f64) -> f64 {
+        (self * self + other * other).sqrt()
+    }
+}
+
+#[test]
+fn a_strip_across_a_picture_of_16384_pixels_has_no_gaps_and_no_overlaps() {
+    // Slivers that meet the far corner of the largest picture; one row of it is looked at.
+    let width = raster::MAX_SIDE;
+    let mut frame = Frame::new(width, 1, Samples::One).expect("one row");
+    let (left, right) = (0, width as i32 * 256);
+    let heights: Vec<i32> = (-200..200).map(|k| k * 3 - 1).collect();
+    for (id, pair) in heights.windows(2).enumerate() {
+        let (y0, y1) = (pair[0], pair[1]);
+        let corners =
+            [vertex(left, y0 * 40), vertex(right, y0), vertex(right, y1), vertex(left, y1 * 40)];
+        let [a, b, c, d] = corners;
+        frame.triangle([a, b, c], id as u32 * 2, Cover::Solid);
+        frame.triangle([a, c, d], id as u32 * 2 + 1, Cover::Solid);
+    }
+    let first = frame.visibility();
+    assert!(first.ids.iter().all(Option::is_some), "a gap");
+}
+
+#[test]
+fn the_nearer_wins_and_at_equal_depth_the_first() {
+    let square = |depth: f32| {
+        [(0, 0), (8, 0), (0, 8)].map(|(x, y)| ScreenVertex { depth, ..vertex(x * 256, y * 256) })
+    };
+    let seen = |depths: &[f32]| {
+        let mut frame = Frame::new(8, 8, Samples::One).expect("a small frame");
+        for (id, &depth) in depths.iter().enumerate() {
+            frame.triangle(square(depth), id as u32, Cover::Solid);
+        }
+        frame.visibility().ids[0]
+    };
+    assert_eq!(seen(&[0.25, 0.75, 0.5]), Some(1));
+    assert_eq!(seen(&[0.5, 0.5]), Some(0));
+    assert_eq!(seen(&[0.0]), Some(0), "what lies on the far plane is seen");
+}
+
+#[test]
+fn depth_is_that_of_the_plane_and_weights_that_of_the_projection() {
+    // Corners at different distances: in the middle of the screen the nearer corner counts for less than half of the edge.
+    let corner = |x: f64, y: f64, w: f64| {
+        ScreenVertex::snap(Point::new(x, y, 1.0 / w), w).expect("within the grid")
+    };
+    let mut frame = Frame::new(64, 64, Samples::One).expect("a small frame");
+    let (p, q, r) = ([0.0, 0.0], [64.0, 0.0], [0.0, 64.0]);
+    frame.triangle(
+        [corner(p[0], p[1], 1.0), corner(q[0], q[1], 3.0), corner(r[0], r[1], 2.0)],
+        0,
+        Cover::Solid,
+    );
+    let depth = frame.visibility().depth;
+    let mut checked = 0;
+    frame.fragments(|fragment| {
+        let (x, y) = (f64::from(fragment.x) + 0.5, f64::from(fragment.y) + 0.5);
+        let screen = [1.0 - x / 64.0 - y / 64.0, x / 64.0, y / 64.0];
+        let over_w = [screen[0], screen[1] / 3.0, screen[2] / 2.0];
+        let inv_w: f64 = over_w.iter().sum();
+        for (k, share) in over_w.iter().enumerate() {
+            assert!((f64::from(fragment.weights[k]) - share / inv_w).abs() < 1e-6, "({x}, {y})");
+        }
+        let at = (fragment.y * 64 + fragment.x) as usize;
+        assert!((f64::from(depth[at]) - inv_w).abs() < 1e-7, "({x}, {y})");
+        checked += 1;
+    });
+    assert_eq!(
+        checked,
+        64 * 63 / 2,
+        "the centres on the long side belong to the other half of the square"
+    );
+}
+
+#[test]
+fn lines_and_points_are_rectangles_of_their_width() {
+    let mut frame = Frame::new(16, 8, Samples::One).expect("a small frame");
+    frame.line([vertex(2 * 256, 4 * 256), vertex(14 * 256, 4 * 256)], 2.0, 1, Cover::Solid);
+    assert_eq!(frame.visibility().ids.iter().flatten().count(), 12 * 2);
+    frame.fragments(|fragment| {
+        let along = (f64::from(fragment.x) + 0.5 - 2.0) / 12.0;
+        assert!(
+            (f64::from(fragment.weights[1]) - along).abs() < 1e-6 && fragment.weights[2] == 0.0
+        );
+    });
+    let mut frame = Frame::new(8, 8, Samples::One).expect("a small frame");
+    frame.point(vertex(4 * 256, 4 * 256), 4.0, 1, Cover::Solid);
+    assert_eq!(frame.visibility().ids.iter().flatten().count(), 16);
+    frame.fragments(|fragment| assert_eq!(fragment.weights, [1.0, 0.0, 0.0]));
+}

@@ -1,0 +1,128 @@
+//! Drawing: samples, layers, masks and threads.
+
+use raster::{Cover, Fragment, Frame, Samples, ScreenVertex, Surface};
+
+fn vertex(x: f64, y: f64, depth: f64) -> ScreenVertex {
+    ScreenVertex::snap(homog::Point::new(x, y, depth), 1.0).expect("within the grid")
+}
+
+/// Adds a rectangle as two triangles of one name.
+fn rectangle(frame: &mut Frame, [x0, y0, x1, y1]: [f64; 4], depth: f64, id: u32, cover: Cover) {
+    let [a, b] = [vertex(x0, y0, depth), vertex(x1, y0, depth)];
+    let [c, d] = [vertex(x1, y1, depth), vertex(x0, y1, depth)];
+    frame.triangle([a, b, c], id, cover);
+    frame.triangle([a, c, d], id, cover);
+}
+
+/// Colours by name, and a mask that keeps every other column.
+struct Colors(Vec<[f32; 4]>);
+
+impl Surface for Colors {
+    fn keeps(&self, fragment: &Fragment) -> bool {
+        fragment.x.is_multiple_of(2)
+    }
+    fn shade(&self, fragment: &Fragment) -> [f32; 4] {
+        self.0[fragment.id as usize]
+    }
+}
+
+fn draw(frame: &Frame, colors: &[[f32; 4]], background: [f32; 4], threads: usize) -> Vec<[f32; 4]> {
+    let mut target = vec![[0.0; 4]; (frame.width() * frame.height()) as usize];
+    frame.draw(&Colors(colors.to_vec()), background, threads, &mut target, |color| color);
+    target
+}
+
+const RED: [f32; 4] = [1.0, 0.0, 0.0, 1.0];
+const BLUE: [f32; 4] = [0.0, 0.0, 1.0, 1.0];
+const CLEAR: [f32; 4] = [0.0; 4];
+
+#[test]
+fn a_pixel_is_the_mean_of_its_samples() {
+    for samples in [Samples::One, Samples::Four, Samples::Eight, Samples::Sixteen] {
+        let mut frame = Frame::new(3, 1, samples).expect("a small frame");
+        rectangle(&mut frame, [0.0, 0.0, 1.5, 1.0], 0.5, 0, Cover::Solid);
+        let alpha: Vec<f32> = draw(&frame, &[RED], CLEAR, 1).iter().map(|c| c[3]).collect();
+        assert_eq!((alpha[0], alpha[2]), (1.0, 0.0), "{samples:?}");
+        let half = if samples == Samples::One { 0.0 } else { 0.5 };
+        assert!((alpha[1] - half).abs() <= 1.0 / 16.0, "{samples:?}: {}", alpha[1]);
+    }
+}
+
+#[test]
+fn neighbouring_triangles_show_nothing_of_the_background_between_them() {
+    let mut frame = Frame::new(40, 40, Samples::Eight).expect("a small frame");
+    let at = |i: i32, j: i32| {
+        let wobble = f64::from((i * 7 + j * 13) % 5) * 0.37;
+        vertex(f64::from(i) * 7.3 - 10.0 + wobble, f64::from(j) * 6.1 - 10.0 - wobble, 0.5)
+    };
+    for i in 0..10 {
+        for j in 0..12 {
+            frame.triangle([at(i, j), at(i + 1, j), at(i + 1, j + 1)], 0, Cover::Solid);
+            frame.triangle([at(i, j), at(i + 1, j + 1), at(i, j + 1)], 0, Cover::Solid);
+        }
+    }
+    assert!(draw(&frame, &[RED], [0.0, 1.0, 0.0, 1.0], 1).iter().all(|&color| color == RED));
+}
+
+#[test]
+fn layers_are_blended_from_the_farthest_to_the_nearest_whatever_their_order() {
+    // Premultiplied halves of red and blue over white; the solid square hides the layer behind it.
+    let colors = [[0.5, 0.0, 0.0, 0.5], [0.0, 0.0, 0.5, 0.5], [0.0, 1.0, 0.0, 1.0]];
+    let white = [1.0; 4];
+    let mut pictures = Vec::new();
+    for order in [[0, 1], [1, 0]] {
+        for samples in [Samples::One, Samples::Four] {
+            let mut frame = Frame::new(4, 4, samples).expect("a small frame");
+            for id in order {
+                let depth = if id == 0 { 0.25 } else { 0.75 };
+                rectangle(&mut frame, [0.0, 0.0, 4.0, 4.0], depth, id, Cover::Translucent);
+            }
+            rectangle(&mut frame, [0.0, 0.0, 2.0, 4.0], 0.5, 2, Cover::Solid);
+            let picture = draw(&frame, &colors, white, 1);
+            // Blue over red over white; blue over green where the square hides the red.
+            assert_eq!(picture[3], [0.5, 0.25, 0.75, 1.0]);
+            assert_eq!(picture[0], [0.0, 0.5, 0.5, 1.0]);
+            pictures.push(picture);
+        }
+    }
+    assert!(pictures.iter().all(|picture| *picture == pictures[0]));
+}
+
+#[test]
+fn a_masked_surface_is_absent_where_it_is_not_kept_and_hides_where_it_is() {
+    let mut frame = Frame::new(4, 1, Samples::One).expect("a small frame");
+    rectangle(&mut frame, [0.0, 0.0, 4.0, 1.0], 0.75, 0, Cover::Masked);
+    rectangle(&mut frame, [0.0, 0.0, 4.0, 1.0], 0.5, 1, Cover::Solid);
+    assert_eq!(draw(&frame, &[RED, BLUE], CLEAR, 1), [RED, BLUE, RED, BLUE]);
+}
+
+#[test]
+fn the_number_of_threads_and_the_place_in_the_picture_change_nothing() {
+    let mut frame = Frame::new(200, 333, Samples::Four).expect("a frame of several tiles");
+    let colors: Vec<[f32; 4]> =
+        (0..200_u32).map(|n| [n as f32 / 200.0, 0.3, 1.0 - n as f32 / 300.0, 0.8]).collect();
+    for id in 0..200_u32 {
+        let f = f64::from(id);
+        let corner = |k: f64| {
+            vertex(
+                (f * 37.0 + k * 91.0) % 260.0 - 30.0,
+                (f * 59.0 + k * 133.0) % 400.0 - 30.0,
+                ((f * 17.0 + k * 29.0) % 100.0) / 100.0,
+            )
+        };
+        let cover = if id % 3 == 0 { Cover::Translucent } else { Cover::Solid };
+        frame.triangle([corner(0.0), corner(1.0), corner(2.0)], id, cover);
+    }
+    let once = draw(&frame, &colors, CLEAR, 1);
+    for threads in [2, 3, 7, 100] {
+        assert!(draw(&frame, &colors, CLEAR, threads) == once, "{threads} threads");
+    }
+}
+
+#[test]
+fn sizes_out_of_range_are_refused() {
+    for (width, height) in [(0, 5), (5, 0), (raster::MAX_SIDE + 1, 1), (1, u32::MAX)] {
+        let error = Frame::new(width, height, Samples::One).expect_err("refused").to_string();
+        assert!(error.contains(&format!("{width} x {height}")), "{error}");
+    }
+}
