@@ -1,0 +1,83 @@
+//! The program under test, run as a process.
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// So long a file may take.
+const LIMIT: Duration = Duration::from_secs(10);
+
+/// The program `alberti`.
+pub struct Program {
+    path: PathBuf,
+}
+
+/// How a run ended.
+pub struct Run {
+    /// The exit code; `None` if a signal ended the process.
+    pub code: Option<i32>,
+    /// Whether the time limit ended it.
+    pub hung: bool,
+    pub stderr: String,
+}
+
+impl Program {
+    /// The program at `$ALBERTI`, or a fresh build beside this test.
+    pub fn find() -> Result<Self, String> {
+        if let Some(path) = std::env::var_os("ALBERTI") {
+            let path = PathBuf::from(path);
+            let missing = format!("ALBERTI names {}, which is no file", path.display());
+            return if path.is_file() { Ok(Self { path }) } else { Err(missing) };
+        }
+        let this = std::env::current_exe().map_err(|error| error.to_string())?;
+        let folder = this.parent().and_then(Path::parent).ok_or("this test has no folder")?;
+        let target = folder.parent().ok_or("this test has no target folder")?;
+        let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+        cargo.args(["build", "--quiet", "--package", "pipeline", "--bin", "alberti"]);
+        cargo.current_dir(env!("CARGO_MANIFEST_DIR")).arg("--target-dir").arg(target);
+        if folder.ends_with("release") {
+            cargo.arg("--release");
+        }
+        match cargo.status() {
+            Ok(status) if status.success() => {
+                let name = format!("alberti{}", std::env::consts::EXE_SUFFIX);
+                Ok(Self { path: folder.join(name) })
+            }
+            Ok(status) => Err(format!("the program does not build: {status}")),
+            Err(error) => Err(format!("cargo does not run: {error}")),
+        }
+    }
+
+    /// Draws a file into `picture`, `SIZE` pixels large, and waits no longer than the limit.
+    pub fn render(&self, input: &Path, picture: &Path, size: (u32, u32)) -> Result<Run, String> {
+        let log = picture.with_extension("log");
+        let stderr = File::create(&log).map_err(|error| error.to_string())?;
+        let mut process = Command::new(&self.path)
+            .arg("render")
+            .arg(input)
+            .arg("-o")
+            .arg(picture)
+            .arg("--size")
+            .arg(format!("{}x{}", size.0, size.1))
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(stderr)
+            .spawn()
+            .map_err(|error| format!("the program does not start: {error}"))?;
+        let end = Instant::now() + LIMIT;
+        let mut hung = false;
+        let status = loop {
+            if let Some(status) = process.try_wait().map_err(|error| error.to_string())? {
+                break status;
+            }
+            if Instant::now() > end && !hung {
+                hung = true;
+                process.kill().map_err(|error| error.to_string())?;
+            }
+            std::thread::sleep(Duration::from_millis(5));
+        };
+        let stderr = String::from_utf8_lossy(&std::fs::read(&log).unwrap_or_default()).into_owned();
+        Ok(Run { code: status.code(), hung, stderr })
+    }
+}

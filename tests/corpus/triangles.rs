@@ -1,0 +1,30 @@
+//! The number of triangles the importer finds, against the manifest's.
+
+use crate::expected;
+use crate::manifest::Row;
+use pipeline::import::{ImportOptions, load};
+use pipeline::model::{Model, Primitive, Topology};
+use std::path::Path;
+
+/// Counts the triangles of all models that load; gives the number of files that agree with the manifest.
+pub fn check(folder: &Path, rows: &[Row], known: bool, failures: &mut Vec<String>) -> usize {
+    let mut agreed = 0;
+    for row in rows.iter().filter(|row| row.group() == "models") {
+        let Some(expected) = row.scene_triangles else { continue };
+        let Ok(model) = load(&folder.join(&row.path), &ImportOptions::default()) else { continue };
+        let found = shown(&model);
+        if found == expected || known && expected::refusal(row).is_some() {
+            agreed += 1;
+        } else {
+            let path = &row.path;
+            failures.push(format!("{path}: {found} triangles, {expected} in the manifest"));
+        }
+    }
+    agreed
+}
+
+fn shown(model: &Model) -> usize {
+    let meshes = model.instances().into_iter().filter_map(|at| model.nodes[at.node].mesh);
+    let primitives = meshes.flat_map(|mesh| &model.meshes[mesh].primitives);
+    primitives.filter(|p| p.topology == Topology::Triangles).map(Primitive::count).sum()
+}
