@@ -62,9 +62,8 @@
 //! Beside the three-dimensional types stand those of the line and the plane, [`Hom1`], [`Hom2`], [`Line2`] and [`Homography`], on
 //! which the textbook explains homogeneous coordinates. `cargo run -p homog --example railway` shows the crate at work.
 //!
-//! Source: the chapter *Viewing* of P. Shirley and others, *Fundamentals of Computer Graphics*, 2002 and later editions, sections
-//! on homogeneous coordinates and projective transformations. Formula ids such as HO-2 or IN-1 in the documentation
-//! name the project's list of formulas.
+//! Source: P. Shirley, S. Marschner and others, *Fundamentals of Computer Graphics*, chapter 8, *Viewing*. Formula ids such as HO-2
+//! or IN-1 in the documentation name entries of the project's list of formulas.
 #![no_std]
 
 mod affine;

@@ -78,7 +78,7 @@ proptest! {
     }
 
     #[test]
-    fn exercise_11_order_is_kept(w in [1e-3..1e3, 1e-3..1e3], s in 0.0..1.0, t in 0.0..1.0) {
+    fn exercise_11_order_is_kept(w in [1e-3..1e3, 1e-3..1e3], s in 0.0..1.0_f64, t in 0.0..1.0_f64) {
         let f = Foreshortening::new(w[0], w[1]).expect("both positive");
         let image = |t: f64| f.image(t).expect("within the segment");
         prop_assume!((s - t).abs() > 1e-12);
