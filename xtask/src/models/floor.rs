@@ -10,7 +10,7 @@ use glam::{DVec3, dvec3};
 use serde_json::json;
 
 /// Half the number of tiles across; tiles are one metre.
-const HALF_WIDTH: i32 = 6;
+const HALF_WIDTH: i32 = 4;
 /// The tiles from behind the camera to the far end.
 const FROM_Z: i32 = -72;
 const TO_Z: i32 = 24;
@@ -28,9 +28,9 @@ pub fn floor() -> Document {
         "post",
         &[(&post(), stone), (&Mesh::sphere(0.22, 16).moved(dvec3(0.0, 2.36, 0.0)), cap)],
     );
-    for step in 0..16 {
-        let z = f64::from(TO_Z) - 4.0 - 6.0 * f64::from(step);
-        for (side, x) in [("left", -5.5), ("right", 5.5)] {
+    for step in 0..23 {
+        let z = f64::from(TO_Z) - 1.5 - 4.0 * f64::from(step);
+        for (side, x) in [("left", -3.5), ("right", 3.5)] {
             document.root(
                 &format!("{side} post {step}"),
                 Some(post),

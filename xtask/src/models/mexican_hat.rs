@@ -6,7 +6,7 @@
 
 use super::document::{Document, Mode};
 use super::mesh::Mesh;
-use super::palette::{CLAY, CREAM, INK, OCHRE, SKY, TEAL, ramp};
+use super::palette::{BRICK, CLAY, CREAM, Color, INK, OCHRE, SAND, SKY, TEAL, ramp};
 use glam::{DVec3, dvec3};
 use serde_json::json;
 use std::f64::consts::TAU;
@@ -26,8 +26,7 @@ pub fn surface() -> Document {
     }
     mesh.weave(0, COLUMNS, ROWS);
     let mut document = Document::default();
-    let material =
-        document.double_sided("coloured by height", super::palette::Color(255, 255, 255));
+    let material = document.double_sided("coloured by height", Color(255, 255, 255));
     let mesh = document.mesh("Mexican hat", &[(&mesh, material)]);
     document.root("Mexican hat", Some(mesh), json!({}));
     document
@@ -86,8 +85,8 @@ impl Hat {
 
 /// From the trough, the least height −0.2172, to the peak.
 fn color(height: f64) -> [f64; 3] {
-    let stops = [TEAL, SKY, CREAM, OCHRE, CLAY, CLAY].map(super::palette::Color::linear);
-    ramp(&stops, libm::sqrt(((height + 0.2172) / 1.2172).max(0.0)))
+    let stops = [TEAL, SKY, CREAM, SAND, OCHRE, CLAY, BRICK];
+    ramp(&stops.map(Color::linear), (height + 0.2172) / 1.2172)
 }
 
 #[cfg(test)]

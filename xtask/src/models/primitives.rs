@@ -60,7 +60,7 @@ fn rays() -> Vec<u32> {
 
 /// A strip between the outline and the inner ring, closed.
 fn ring(count: u32) -> Vec<u32> {
-    (0..=count).flat_map(|step| [step % count, count + 1 + step % count]).collect()
+    (0..=count).flat_map(|step| [count + 1 + step % count, step % count]).collect()
 }
 
 /// A fan about the middle, closed.

@@ -55,7 +55,7 @@ pub fn room() -> Document {
     );
     piece(
         "shelf",
-        WOOD,
+        BARK,
         &[
             (dvec3(-1.3, 1.3, -1.85), dvec3(1.5, 0.06, 0.3)),
             (dvec3(-1.3, 1.75, -1.85), dvec3(1.5, 0.06, 0.3)),
@@ -97,10 +97,10 @@ fn books() -> Vec<(DVec3, DVec3)> {
 fn cameras(document: &mut Document) {
     let lens = json!({ "type": "perspective",
         "perspective": { "yfov": 50.0_f64.to_radians(), "znear": 0.1, "zfar": 50.0 } });
-    let [_, turn_y, _, turn_w] = turn(DVec3::Y, 42.0);
-    let [tip_x, _, _, tip_w] = turn(DVec3::X, -22.0);
+    let [_, turn_y, _, turn_w] = turn(DVec3::Y, 43.5);
+    let [tip_x, _, _, tip_w] = turn(DVec3::X, -26.0);
     let both = [turn_w * tip_x, turn_y * tip_w, -turn_y * tip_x, turn_w * tip_w];
-    document.camera("from the door", lens, [4.0, 3.3, 4.2], both);
+    document.camera("from the door", lens, [4.8, 4.1, 5.0], both);
 
     let flat = |half_height: f64| {
         json!({ "type": "orthographic",

@@ -36,8 +36,8 @@ fn tessellate(part: &Part) -> Mesh {
 }
 
 /// Radius of the table top, and of the part of it inside its darker rim.
-const RADIUS: f64 = 4.6;
-const RIM: f64 = 4.45;
+const RADIUS: f64 = 4.2;
+const RIM: f64 = 4.05;
 
 /// A round table top with a soft dark patch in the middle, where a pot of radius 1.5 stands: painted contact shadow.
 pub fn table() -> Document {
@@ -53,7 +53,7 @@ fn table_top() -> Mesh {
     let outline = |normal, radius, height| Turned { radius, height, normal };
     let edge = dvec2(1.0, 0.0);
     let mut rings = vec![outline(edge, RADIUS, -0.25), outline(edge, RADIUS, 0.0)];
-    rings.extend([RADIUS, RIM + 0.01, RIM, 3.6].map(flat));
+    rings.extend([RADIUS, RIM + 0.01, RIM - 0.01, 3.5].map(flat));
     // Fine only where the shadow ends.
     rings.extend((12..=28).rev().map(|tenth| flat(f64::from(tenth) / 10.0)));
     rings.push(flat(0.0));

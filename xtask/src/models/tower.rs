@@ -24,7 +24,7 @@ pub fn tower() -> Document {
     let mut roof = Mesh::block(dvec3(0.0, top, 0.0), dvec3(WIDTH + 0.8, 0.35, WIDTH + 0.8)).plain();
     roof.append(&Mesh::block(dvec3(-1.2, top + 0.35, -1.0), dvec3(1.6, 1.1, 1.6)).plain());
     let door = Mesh::block(dvec3(0.0, 0.0, WIDTH / 2.0), dvec3(1.1, 1.6, 0.15)).plain();
-    let ground = Mesh::block(dvec3(0.0, -0.1, 6.0), dvec3(60.0, 0.1, 40.0)).plain();
+    let ground = Mesh::block(dvec3(0.0, -0.1, 6.0), dvec3(800.0, 0.1, 800.0)).plain();
     let tower = document.mesh(
         "tower",
         &[

@@ -37,7 +37,7 @@ pub fn vase() -> Document {
     let plinth = document.mesh("plinth", &[(&plinth, stone)]);
     document.root("plinth", Some(plinth), json!({}));
 
-    let disc = Mesh::lathe(&corners(&[(3.6, -0.15), (3.6, 0.0), (0.0, 0.0)]), 72);
+    let disc = Mesh::lathe(&corners(&[(2.3, -0.15), (2.3, 0.0), (0.0, 0.0)]), 72);
     let disc = document.mesh("ground", &[(&disc, ground)]);
     document.root("ground", Some(disc), json!({}));
     document
