@@ -10,10 +10,14 @@
 #![allow(clippy::print_stdout, reason = "a test program speaks on its standard output")]
 #![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
 
+mod chain;
 mod clipping;
+mod lessons;
 mod numbers;
+mod points;
 mod projection;
 mod raster;
+mod windows;
 
 use serde_json::Value;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -23,7 +27,15 @@ use std::process::ExitCode;
 type Runner = fn(&Value, &Value) -> Result<(), String>;
 
 /// The runners, by the name of their file.
-const RUNNERS: &[&[(&str, Runner)]] = &[clipping::RUNNERS, projection::RUNNERS, raster::RUNNERS];
+const RUNNERS: &[&[(&str, Runner)]] = &[
+    chain::RUNNERS,
+    clipping::RUNNERS,
+    lessons::RUNNERS,
+    points::RUNNERS,
+    projection::RUNNERS,
+    raster::RUNNERS,
+    windows::RUNNERS,
+];
 
 /// Files whose subject is not built yet, and why.
 const PENDING: &[(&str, &str)] = &[("hidden_lines", "line drawing's issue")];

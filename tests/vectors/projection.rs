@@ -37,7 +37,7 @@ pub const RUNNERS: &[(&str, Runner)] = &[
 ];
 
 type Check = Result<(), String>;
-type Built = Result<(DMat4, DMat4), ProjectionError>;
+pub type Built = Result<(DMat4, DMat4), ProjectionError>;
 
 /// Convention and sort of the interfaces' builders.
 fn convention(builder: &str) -> Convention {
@@ -52,7 +52,7 @@ fn convention(builder: &str) -> Convention {
 }
 
 /// The matrix as the named builder makes it, and the closed-form inverse.
-fn build(case: &Value) -> Result<Built, String> {
+pub fn build(case: &Value) -> Result<Built, String> {
     let builder = text(case, "builder")?;
     if builder.starts_with("perspective") {
         return by_angle(builder, case);
