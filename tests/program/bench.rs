@@ -1,0 +1,78 @@
+//! A place to run the program in: an empty folder of its own for each test.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::OnceLock;
+
+/// An empty folder, and the program to run in it.
+pub(crate) struct Bench {
+    folder: PathBuf,
+}
+
+/// How a run ended.
+pub(crate) struct Run {
+    pub(crate) code: i32,
+    pub(crate) stdout: String,
+    pub(crate) stderr: String,
+}
+
+impl Bench {
+    /// A folder with the name of the test.
+    pub(crate) fn new(name: &str) -> Self {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        let _ = std::fs::remove_dir_all(&folder);
+        std::fs::create_dir_all(&folder).expect("a folder for the test");
+        Self { folder }
+    }
+
+    /// Runs the program here.
+    pub(crate) fn run(&self, arguments: &[&str]) -> Run {
+        static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
+        let program = PROGRAM.get_or_init(|| alberti_tests::program().expect("the program"));
+        let mut command = Command::new(program);
+        let output = command.args(arguments).current_dir(&self.folder).output();
+        let output = output.expect("the program starts");
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes UTF-8");
+        Run {
+            code: output.status.code().expect("no signal ends the program"),
+            stdout: text(output.stdout),
+            stderr: text(output.stderr),
+        }
+    }
+
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    pub(crate) fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        std::fs::write(self.path(name), content).expect("a file for the test");
+    }
+
+    /// Brings a model of `scenes/models` here.
+    pub(crate) fn bring(&self, model: &str) {
+        let from = alberti_tests::root().join("scenes/models").join(model);
+        std::fs::copy(from, self.path(model)).expect("a committed model");
+    }
+
+    /// The names of the files that are here, sorted.
+    pub(crate) fn files(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(&self.folder).expect("the folder");
+        let name = |entry: std::io::Result<std::fs::DirEntry>| {
+            entry.expect("an entry").file_name().into_string().expect("a UTF-8 name")
+        };
+        let mut names: Vec<String> = entries.map(name).collect();
+        names.sort();
+        names
+    }
+
+    /// Width, height and RGBA pixels of a PNG that is here.
+    pub(crate) fn picture(&self, name: &str) -> (u32, u32, Vec<[u8; 4]>) {
+        let file = std::fs::File::open(self.path(name)).expect("a picture");
+        let mut decoder = png::Decoder::new(std::io::BufReader::new(file));
+        decoder.set_transformations(png::Transformations::ALPHA);
+        let mut reader = decoder.read_info().expect("a PNG");
+        let mut bytes = vec![0; reader.output_buffer_size().expect("a small picture")];
+        let info = reader.next_frame(&mut bytes).expect("pixels");
+        (info.width, info.height, bytes.as_chunks::<4>().0.to_vec())
+    }
+}

@@ -1,0 +1,55 @@
+//! Files: where pictures go, and what a failed run leaves behind.
+
+use crate::bench::Bench;
+
+#[test]
+fn without_a_name_the_picture_goes_to_the_current_folder() {
+    let bench = Bench::new("default_output");
+    bench.bring("teapot.glb");
+    let run = bench.run(&["render", "teapot.glb", "--size", "40x30"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    assert_eq!(bench.files(), ["teapot.glb", "teapot.png"]);
+    assert_eq!(bench.picture("teapot.png").0, 40);
+}
+
+#[test]
+fn a_failed_run_leaves_the_old_picture_and_nothing_else() {
+    let bench = Bench::new("failed_run");
+    bench.write("out.png", "the old picture");
+    bench.write("broken.glb", "glTF but not really");
+    bench.write("broken.ron", "Scene(models: [(path: \"missing.glb\")])");
+    for input in ["broken.glb", "broken.ron", "missing.glb", "missing.ron", "."] {
+        let run = bench.run(&["render", input, "-o", "out.png"]);
+        assert_eq!(run.code, 1, "{input}");
+        assert!(run.stderr.starts_with("error: "), "{input}: {}", run.stderr);
+        assert_eq!(bench.files(), ["broken.glb", "broken.ron", "out.png"], "{input}");
+        let old = std::fs::read_to_string(bench.path("out.png")).expect("the old picture");
+        assert_eq!(old, "the old picture", "{input}");
+    }
+}
+
+#[test]
+fn an_output_that_cannot_be_written_is_named() {
+    let bench = Bench::new("bad_output");
+    bench.bring("crate.glb");
+    let run = bench.run(&["render", "crate.glb", "-o", "no/such/folder/out.png"]);
+    assert_eq!(run.code, 1);
+    assert!(run.stderr.contains("no/such/folder/out.png"), "{}", run.stderr);
+    let run = bench.run(&["render", "crate.glb", "-o", "out.jpg"]);
+    assert_eq!(run.code, 1);
+    assert!(run.stderr.contains("out.jpg") && run.stderr.contains(".png"), "{}", run.stderr);
+    assert_eq!(bench.files(), ["crate.glb"]);
+}
+
+#[test]
+fn a_scene_may_not_lead_out_of_its_folder_unless_allowed() {
+    let bench = Bench::new("sandbox");
+    bench.bring("crate.glb");
+    std::fs::create_dir(bench.path("inner")).expect("a folder");
+    bench.write("inner/scene.ron", "Scene(models: [(path: \"../crate.glb\")])");
+    let run = bench.run(&["render", "inner/scene.ron", "--size", "16x16"]);
+    assert_eq!(run.code, 1);
+    assert!(run.stderr.contains("--allow-outside"), "{}", run.stderr);
+    let run = bench.run(&["render", "inner/scene.ron", "--size", "16x16", "--allow-outside"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+}

@@ -1,0 +1,112 @@
+//! Messages: usage, mistakes in scenes, and exit codes.
+
+use crate::bench::Bench;
+
+#[test]
+fn help_and_version_are_worth_reading() {
+    let bench = Bench::new("help");
+    let help = bench.run(&["--help"]);
+    assert_eq!(help.code, 0);
+    for word in ["render", "info", "Examples:", "Exit codes:"] {
+        assert!(help.stdout.contains(word), "{word}");
+    }
+    let version = bench.run(&["--version"]);
+    assert_eq!(version.stdout.trim(), concat!("alberti ", env!("CARGO_PKG_VERSION")));
+    let render = bench.run(&["render", "--help"]);
+    for flag in ["--output", "--size", "--style", "--camera", "--view", "--background", "--samples"]
+    {
+        assert!(render.stdout.contains(flag), "{flag}");
+    }
+}
+
+#[test]
+fn wrong_usage_ends_with_code_2() {
+    let bench = Bench::new("usage");
+    let wrong: [&[&str]; 8] = [
+        &[],
+        &["rendr"],
+        &["render"],
+        &["render", "a.glb", "--size", "0x10"],
+        &["render", "a.glb", "--size", "huge"],
+        &["render", "a.glb", "--style", "cubist"],
+        &["render", "a.glb", "--camera", "a", "--view", "front"],
+        &["render", "a.glb", "--threads", "0"],
+    ];
+    for arguments in wrong {
+        let run = bench.run(arguments);
+        assert_eq!((run.code, run.stdout.as_str()), (2, ""), "{arguments:?}");
+        assert!(!run.stderr.is_empty(), "{arguments:?}");
+    }
+}
+
+#[test]
+fn a_mistake_in_a_scene_is_shown_where_it_is() {
+    let bench = Bench::new("pointed");
+    bench.bring("crate.glb");
+    bench.write(
+        "scene.ron",
+        "Scene(\n    models: [(path: \"crate.glb\")],\n    camera: (view: LookAt(eye: (4, 3, 5), traget: (0, 0, 0))),\n)\n",
+    );
+    let run = bench.run(&["render", "scene.ron"]);
+    assert_eq!(run.code, 1);
+    let expected = "\
+error: unexpected field `traget` in `LookAt`
+ --> scene.ron:3:43
+  |
+3 |     camera: (view: LookAt(eye: (4, 3, 5), traget: (0, 0, 0))),
+  |                                           ^^^^^^
+  |
+  = help: did you mean `target`?
+";
+    assert_eq!(run.stderr, expected);
+}
+
+#[test]
+fn what_makes_no_sense_is_pointed_at_as_well() {
+    let bench = Bench::new("senseless");
+    bench.bring("crate.glb");
+    let scene = |rest: &str| format!("Scene(\n  models: [(path: \"crate.glb\")],\n  {rest}\n)");
+    for (rest, place, words) in [
+        (
+            "camera: (view: LookAt(eye: (0, 3, 0), target: (0, 0, 0)))",
+            "3:18",
+            "parallel to the gaze",
+        ),
+        ("camera: (view: LookTo(eye: (0, 3, 0), gaze: (0, 0, 0)))", "3:18", "gaze"),
+        ("camera: (view: FromModel(Index(0)))", "3:18", "no camera"),
+        ("camera: (view: Frame(padding_percent: 50))", "3:18", "padding"),
+        ("camera: (projection: Perspective(near: 5, far: 2))", "3:24", "far"),
+        ("lights: [Sun(direction: (0, 0, 0), lux: 1)]", "3:27", "direction"),
+        ("image: (samples: 3)", "3:20", "1, 4, 8 and 16"),
+        ("image: (size: (0, 10))", "3:17", "0 x 10"),
+        ("image: (size: (20000, 10))", "3:17", "16384"),
+        ("image: (background: Color(\"mauve\"))", "3:23", "#rrggbb"),
+    ] {
+        bench.write("scene.ron", scene(rest));
+        let run = bench.run(&["render", "scene.ron"]);
+        assert_eq!(run.code, 1, "{rest}");
+        let pointed = run.stderr.contains(&format!("--> scene.ron:{place}\n"));
+        assert!(pointed && run.stderr.contains(words), "{rest}:\n{}", run.stderr);
+    }
+    for (model, words) in [
+        ("no_such.glb", "no_such.glb"),
+        ("/etc/hostname", "leads out of the scene's folder"),
+        ("../crate.glb", "leads out of the scene's folder"),
+        ("scene.ron", "scene.ron"),
+    ] {
+        bench.write("scene.ron", format!("Scene(models: [\n  (path: \"{model}\"),\n])"));
+        let run = bench.run(&["render", "scene.ron"]);
+        assert_eq!(run.code, 1, "{model}");
+        let pointed = run.stderr.contains("--> scene.ron:2:10\n");
+        assert!(pointed && run.stderr.contains(words), "{model}:\n{}", run.stderr);
+    }
+}
+
+#[test]
+fn a_camera_that_is_not_there_is_answered_with_those_that_are() {
+    let bench = Bench::new("cameras");
+    bench.bring("room.glb");
+    let run = bench.run(&["render", "room.glb", "--camera", "nobody", "--size", "16x16"]);
+    assert_eq!(run.code, 1);
+    assert!(run.stderr.contains("nobody") && run.stderr.contains("possible"), "{}", run.stderr);
+}

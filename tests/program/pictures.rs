@@ -1,0 +1,99 @@
+//! Pictures: sizes, backgrounds, and the same bytes again.
+
+use crate::bench::Bench;
+
+#[test]
+fn flags_go_before_what_the_scene_says() {
+    let bench = Bench::new("flags");
+    bench.bring("crate.glb");
+    bench.write(
+        "scene.ron",
+        "Scene(models: [(path: \"crate.glb\")], image: (size: (30, 20), background: Color(\"#f00\")))",
+    );
+    assert_eq!(bench.run(&["render", "scene.ron"]).code, 0);
+    let (width, height, pixels) = bench.picture("scene.png");
+    assert_eq!((width, height, pixels[0]), (30, 20, [255, 0, 0, 255]));
+    let flags = ["--size", "50x40", "--background", "#00f", "--view", "top", "--samples", "1"];
+    let run = bench.run(&[&["render", "scene.ron", "-o", "other.png"][..], &flags].concat());
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    let (width, height, pixels) = bench.picture("other.png");
+    assert_eq!((width, height, pixels[0]), (50, 40, [0, 0, 255, 255]));
+}
+
+#[test]
+fn a_transparent_background_has_no_halo() {
+    let bench = Bench::new("transparent");
+    bench.bring("spheres.glb");
+    let render = |name: &str, background: &str| {
+        let flags = ["--size", "64x32", "--view", "front", "--background", background];
+        let run = bench.run(&[&["render", "spheres.glb", "-o", name][..], &flags].concat());
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        bench.picture(name).2
+    };
+    let clear = render("clear.png", "transparent");
+    let white = render("white.png", "#fff");
+    let partly = clear.iter().filter(|pixel| (1..255).contains(&pixel[3])).count();
+    assert!(partly > 20, "edges are soft");
+    for (at, (clear, white)) in clear.iter().zip(&white).enumerate() {
+        match clear[3] {
+            0 => assert_eq!((*clear, *white), ([0; 4], [255; 4]), "pixel {at}"),
+            255 => assert_eq!(clear, white, "pixel {at}"),
+            alpha => {
+                // Over white, in linear light, the soft pixel must give the opaque picture's colour.
+                let share = f64::from(alpha) / 255.0;
+                for k in 0..3 {
+                    let over = linear(clear[k]) * share + 1.0 - share;
+                    let difference = (over - linear(white[k])).abs();
+                    assert!(difference < 0.02, "pixel {at}, channel {k}: {difference}");
+                }
+            }
+        }
+    }
+}
+
+fn linear(code: u8) -> f64 {
+    let srgb = f64::from(code) / 255.0;
+    if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
+}
+
+#[test]
+fn threads_and_repetition_change_no_byte() {
+    let bench = Bench::new("same_bytes");
+    bench.bring("teapot.glb");
+    let bytes = |name: &str, threads: &str| {
+        let flags = ["-o", name, "--size", "333x222", "--threads", threads];
+        let run = bench.run(&[&["render", "teapot.glb"][..], &flags].concat());
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        std::fs::read(bench.path(name)).expect("a picture")
+    };
+    let first = bytes("a.png", "1");
+    assert!(
+        first == bytes("b.png", "1")
+            && first == bytes("c.png", "2")
+            && first == bytes("d.png", "5")
+    );
+}
+
+#[test]
+fn every_view_style_and_projection_shows_something() {
+    let bench = Bench::new("views");
+    bench.bring("house.glb");
+    let views = ["front", "back", "left", "right", "top", "bottom", "three-quarter", "isometric"];
+    for view in views {
+        for style in ["shaded", "flat", "wireframe"] {
+            for projection in ["perspective", "orthographic"] {
+                let flags = ["--view", view, "--style", style, "--projection", projection];
+                let size = ["--size", "48x32", "-o", "out.png"];
+                let run = bench.run(&[&["render", "house.glb"][..], &flags, &size].concat());
+                assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{flags:?}");
+                let (_, _, pixels) = bench.picture("out.png");
+                let inked = pixels.iter().filter(|pixel| pixel[3] > 0).count();
+                assert!(inked > 48 * 32 / 16, "{flags:?}: {inked} pixels");
+                // Framing leaves the margin of 5 per cent free: nothing touches the border.
+                let border = |n: usize| n % 48 == 0 || n % 48 == 47 || n < 48 || n >= 48 * 31;
+                let touches = pixels.iter().enumerate().any(|(n, pixel)| border(n) && pixel[3] > 0);
+                assert!(!touches, "{flags:?}");
+            }
+        }
+    }
+}
