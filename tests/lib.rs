@@ -33,3 +33,22 @@ pub fn program() -> Result<PathBuf, String> {
     let path = folder.join(format!("alberti{}", std::env::consts::EXE_SUFFIX));
     if status.success() { Ok(path) } else { Err("the program does not build".to_owned()) }
 }
+
+/// The examples of the README are compiled and run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
+#[cfg(test)]
+mod tests {
+    use super::root;
+
+    #[test]
+    fn the_scene_in_the_readme_is_the_committed_one() {
+        let read = |name: &str| std::fs::read_to_string(root().join(name)).expect(name);
+        let readme = read("README.md");
+        let shown = readme.split("```ron\n").nth(1).and_then(|rest| rest.split("```").next());
+        let scene = read("scenes/mexican_hat.ron");
+        assert!(scene.ends_with(shown.expect("a scene in the README")));
+    }
+}
