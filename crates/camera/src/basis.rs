@@ -97,6 +97,15 @@ impl Basis {
         Self { u, v: v / v.length(), w }
     }
 
+    /// Three axes that are orthonormal by the formula they come from.
+    pub(crate) const fn from_orthonormal(
+        u: Vector<World>,
+        v: Vector<World>,
+        w: Vector<World>,
+    ) -> Self {
+        Self { u, v, w }
+    }
+
     /// To the right in the picture: a unit vector.
     #[must_use]
     pub const fn u(self) -> Vector<World> {

@@ -62,6 +62,64 @@ pub enum CameraError {
         /// Its value.
         value: f64,
     },
+    /// A number is too large to compute with.
+    #[error("the {name} is {value:e}: its size must not be above {limit:e}")]
+    TooLarge {
+        /// Which input.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// The greatest allowed.
+        limit: f64,
+    },
+    /// Two opposite sides of the window coincide.
+    #[error(
+        "the window [{left}, {right}] x [{bottom}, {top}] is empty: opposite sides must differ"
+    )]
+    EmptyWindow {
+        /// Its left side.
+        left: f64,
+        /// Its right side.
+        right: f64,
+        /// Its lower side.
+        bottom: f64,
+        /// Its upper side.
+        top: f64,
+    },
+    /// A picture must have pixels.
+    #[error("a picture of {nx} x {ny} pixels has none: both numbers must be at least 1")]
+    EmptyGrid {
+        /// Pixels across.
+        nx: u32,
+        /// Pixels from top to bottom.
+        ny: u32,
+    },
+    /// The projectors run along the view plane and never meet it, or towards the viewer, or are not finite.
+    #[error("the projectors run along {direction} in view space: z must be negative")]
+    Projectors {
+        /// Their direction as given.
+        direction: Vector<View>,
+    },
+    /// Two corners of the screen are the same point.
+    #[error("two corners of the screen are both {corner}: it needs a width and a height")]
+    FlatScreen {
+        /// The place of both.
+        corner: Point<World>,
+    },
+    /// The sides of the screen are not at right angles.
+    #[error("the sides of the screen are not at right angles: their angle has the cosine {cosine}")]
+    SkewedScreen {
+        /// The cosine of the angle between them.
+        cosine: f64,
+    },
+    /// The eye is in the plane of the screen or behind it.
+    #[error(
+        "the eye is {distance} in front of the screen: it must be in front, where left is left"
+    )]
+    EyeBehindScreen {
+        /// Its distance from the screen's plane, not positive.
+        distance: f64,
+    },
 }
 
 /// Why some points cannot be framed.

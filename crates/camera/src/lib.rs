@@ -33,18 +33,30 @@
 //! ```
 #![no_std]
 
+mod attitude;
 mod basis;
 mod error;
 mod exact;
 mod framing;
 mod named;
+mod orbit;
 mod parallel;
 mod points;
 mod pose;
+mod rays;
+mod screen;
+mod stereo;
+mod window;
 
+pub use attitude::Attitude;
 pub use basis::Basis;
 pub use error::{CameraError, FramingError};
 pub use framing::{Fit, Framing, Slopes, frame_perspective};
 pub use named::{NamedView, UnknownView};
+pub use orbit::Orbit;
 pub use parallel::{ParallelFraming, frame_oblique, frame_parallel};
 pub use pose::Camera;
+pub use rays::{PixelCenters, PixelGrid, Ray, Rays, VerticalAxis};
+pub use screen::ScreenCorners;
+pub use stereo::{CameraView, StereoPair, StereoRig, apex_moved};
+pub use window::Window;

@@ -11,7 +11,7 @@
 //! 0 0 0 −ze, misprint M11: that matrix is singular and puts every point at one depth.)
 
 use crate::{Basis, CameraError};
-use homog::{Affine, Point, Vector, View, World};
+use homog::{Affine, Point, Space, Vector, View, World};
 
 /// The greatest coordinate of an eye: with it u · e still is a finite number.
 const EYE_LIMIT: f64 = f64::MAX / 4.0;
@@ -95,6 +95,17 @@ impl Camera {
         up: Vector<World>,
     ) -> Result<Self, CameraError> {
         Self::new(eye, Basis::from_gaze_or_fallback(gaze, up)?)
+    }
+
+    /// The camera at the origin of a frame, looking along its −z with its +y up, as the camera nodes of glTF do. The
+    /// frame may be scaled, sheared or mirrored; the camera is not.
+    ///
+    /// # Errors
+    /// A frame whose z axis is zero or parallel to its y axis, or that is not finite.
+    pub fn from_frame<L: Space>(local_to_world: Affine<L, World>) -> Result<Self, CameraError> {
+        let gaze = local_to_world.vector(-Vector::Z);
+        let up = local_to_world.vector(Vector::Y);
+        Self::look_to(local_to_world.point(Point::ORIGIN), gaze, up)
     }
 
     /// Where the camera stands; the centre of projection if the projection is a perspective.

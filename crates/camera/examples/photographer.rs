@@ -1,0 +1,57 @@
+//! A photographer's round: walks about a house, keeps all of it in the picture, and ends with a stereo pair.
+//!
+//! Run it with `cargo run -p camera --example photographer`.
+#![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
+
+use camera::{FramingError, NamedView, Slopes, StereoRig, frame_parallel, frame_perspective};
+use homog::Point;
+
+/// A house: four walls and a ridge, in metres.
+const HOUSE: [[f64; 3]; 10] = [
+    [-4.0, 0.0, -6.0],
+    [4.0, 0.0, -6.0],
+    [4.0, 0.0, 6.0],
+    [-4.0, 0.0, 6.0],
+    [-4.0, 5.0, -6.0],
+    [4.0, 5.0, -6.0],
+    [4.0, 5.0, 6.0],
+    [-4.0, 5.0, 6.0],
+    [0.0, 8.0, -6.0],
+    [0.0, 8.0, 6.0],
+];
+
+fn main() -> Result<(), FramingError> {
+    let house = HOUSE.map(Point::from);
+    let lens = Slopes::vertical_angle(40_f64.to_radians(), 3.0 / 2.0)?;
+
+    println!("Where to stand so that the house fills the picture but for 5 per cent on each side:");
+    for view in NamedView::ALL {
+        let shot = frame_perspective(house, view.basis(), lens, 0.05)?;
+        let (eye, near, far) = (shot.camera.eye(), shot.near, shot.far);
+        println!(
+            "  {view:<13} {eye:.1}  from {near:.1} to {far:.1} m ahead, {:?} decides",
+            shot.fit
+        );
+    }
+
+    println!("\nHow large a sheet at 1:100 must be, in cm:");
+    for view in NamedView::PRINCIPAL {
+        let sheet = frame_parallel(house, view.basis(), 1.0, 0.0)?;
+        println!("  {view:<13} {:.1}", sheet.right - sheet.left);
+    }
+
+    let shot = frame_perspective(house, NamedView::ThreeQuarter.basis(), lens, 0.05)?;
+    let rig = StereoRig { interocular: 0.5, zero_parallax: (shot.near + shot.far) / 2.0 };
+    let pair = rig.pair(shot.camera, lens.at(shot.near)?)?;
+    println!("\nA stereo pair whose eyes meet in the middle of the house:");
+    for (name, eye) in [("left", pair.left), ("right", pair.right)] {
+        let window = eye.window;
+        println!(
+            "  {name:<6} eye {:.2}, window x {:.3} to {:.3}",
+            eye.camera.eye(),
+            window.left,
+            window.right
+        );
+    }
+    Ok(())
+}

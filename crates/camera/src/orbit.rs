@@ -1,0 +1,99 @@
+//! Cameras that go round a target: azimuth, elevation, distance.
+//!
+//! ```text
+//!            +y                          elevation ε: up from the horizon
+//!             │    ● eye                 azimuth α: from the front, +z, round to the right, +x
+//!             │   ╱
+//!             │ ╱ ) ε                    w = (sin α cos ε, sin ε, cos α cos ε)
+//!      target ●──────── +x               u = (cos α, 0, −sin α)
+//!            ╱  α ╲                      v = (−sin α sin ε, cos ε, −cos α sin ε)
+//!          +z                            eye = target + distance · w
+//! ```
+//!
+//! The axes come from the angles and not from a view-up, so that the poles are places like any other: at ε = 90° the camera
+//! looks straight down and the azimuth says which side is up. A turntable never jumps there.
+
+use crate::window::{check_finite, check_positive};
+use crate::{Basis, Camera, CameraError};
+use core::f64::consts::TAU;
+use homog::{Point, Vector, World};
+
+/// A place on a sphere around a target, looking at it.
+///
+/// ```
+/// use camera::Orbit;
+/// use homog::Point;
+/// let orbit = Orbit { target: Point::ORIGIN, azimuth: 0.0, elevation: 0.0, distance: 5.0 };
+/// assert_eq!(orbit.camera()?.eye(), Point::new(0.0, 0.0, 5.0)); // the front view
+/// let quarter = orbit.turntable(4).nth(1).expect("four frames");
+/// assert!((quarter.camera()?.eye() - Point::new(5.0, 0.0, 0.0)).length() < 1e-15); // from the right
+/// # Ok::<(), camera::CameraError>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Orbit {
+    /// What the camera looks at.
+    pub target: Point<World>,
+    /// Radians from the front (+z) towards the right (+x): the viewer walks anticlockwise as seen from above.
+    pub azimuth: f64,
+    /// Radians above the horizon. Beyond ±π/2 the picture is upside down.
+    pub elevation: f64,
+    /// From the target to the eye, greater than 0.
+    pub distance: f64,
+}
+
+impl Orbit {
+    /// The camera at this place.
+    ///
+    /// # Errors
+    /// A distance that is not positive; any number that is not finite.
+    pub fn camera(self) -> Result<Camera, CameraError> {
+        check_positive("distance of the orbit", self.distance)?;
+        let basis = Basis::from_azimuth_elevation(self.azimuth, self.elevation)?;
+        if !self.target.is_finite() {
+            let value = self.target - Point::ORIGIN;
+            return Err(CameraError::NotFinite { name: "target", value });
+        }
+        Camera::new(self.target + basis.w() * self.distance, basis)
+    }
+
+    /// `frames` places, evenly spaced once round the vertical axis, starting here; the last is one step before the first.
+    pub fn turntable(self, frames: u32) -> impl ExactSizeIterator<Item = Self> + Clone {
+        let step = TAU / f64::from(frames.max(1));
+        (0..frames).map(move |i| {
+            let turn = step * f64::from(i);
+            Self { azimuth: self.azimuth + turn, ..self }
+        })
+    }
+
+    /// The place of `camera` on the sphere around `target`; `None` if it does not look at the target, or is rolled.
+    ///
+    /// The inverse of [`camera`](Self::camera), with the azimuth in (−π, π] and the elevation in [−π/2, π/2].
+    #[must_use]
+    pub fn of(camera: Camera, target: Point<World>) -> Option<Self> {
+        let offset = camera.eye() - target;
+        let distance = offset.length();
+        let direction = offset.normalized()?;
+        let looks_at_it = (direction - camera.w()).length() < 1e-9;
+        let level = camera.u().y().abs() < 1e-9 && camera.v().y() > -1e-9;
+        let azimuth = libm::atan2(-camera.u().z(), camera.u().x());
+        let elevation = libm::atan2(camera.w().y(), camera.v().y());
+        (looks_at_it && level).then_some(Self { target, azimuth, elevation, distance })
+    }
+}
+
+impl Basis {
+    /// The orientation of a camera that stands at the given azimuth and elevation and looks at the middle (see [`Orbit`]).
+    ///
+    /// # Errors
+    /// An angle that is not finite.
+    pub fn from_azimuth_elevation(azimuth: f64, elevation: f64) -> Result<Self, CameraError> {
+        check_finite("azimuth", azimuth)?;
+        check_finite("elevation", elevation)?;
+        let ((sa, ca), (se, ce)) = (libm::sincos(azimuth), libm::sincos(elevation));
+        Ok(Self::from_orthonormal(
+            Vector::new(ca, 0.0, -sa),
+            Vector::new(-sa * se, ce, -ca * se),
+            Vector::new(sa * ce, se, ca * ce),
+        ))
+    }
+}

@@ -1,0 +1,113 @@
+//! The window: the rectangle in front of the eye through which the world is seen.
+//!
+//! ```text
+//!          eye ●
+//!             ╱ ╲          plane at `distance` along the gaze; x to the right and y up, counted from where
+//!   left ────┼───┼──── right         the gaze meets the plane
+//! ```
+//!
+//! It is plain numbers, for a camera knows no projection: hand them to a frustum or an orthographic box whose near distance is
+//! `distance`.
+
+use crate::{CameraError, Slopes};
+
+/// The greatest number of a window: rays through pixels far outside of it still are finite.
+const LIMIT: f64 = 1e290;
+
+/// A rectangle on the plane at `distance` in front of an eye, in view space.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Window {
+    /// Left side: x in view space.
+    pub left: f64,
+    /// Right side. Less than `left` in a mirrored picture.
+    pub right: f64,
+    /// Lower side: y in view space.
+    pub bottom: f64,
+    /// Upper side. Less than `bottom` in a picture upside down.
+    pub top: f64,
+    /// How far ahead of the eye the plane is: −z in view space.
+    pub distance: f64,
+}
+
+impl Window {
+    /// The window on the plane at another distance that is seen under the same angles.
+    ///
+    /// # Errors
+    /// A distance, old or new, that is not positive and finite; a window that is empty or not finite, then or before.
+    ///
+    /// ```
+    /// use camera::Window;
+    /// let window = Window { left: -1.0, right: 3.0, bottom: -1.0, top: 1.0, distance: 2.0 };
+    /// assert_eq!(window.at(1.0)?.right, 1.5);
+    /// # Ok::<(), camera::CameraError>(())
+    /// ```
+    pub fn at(self, distance: f64) -> Result<Self, CameraError> {
+        self.check_perspective()?;
+        let by = distance / self.distance;
+        let Self { left, right, bottom, top, .. } = self;
+        let moved = Self {
+            left: left * by,
+            right: right * by,
+            bottom: bottom * by,
+            top: top * by,
+            distance,
+        };
+        moved.check_perspective().map(|()| moved)
+    }
+
+    /// The slopes of the four sides: the window on the plane at distance 1.
+    ///
+    /// # Errors
+    /// As [`at`](Self::at).
+    pub fn slopes(self) -> Result<Slopes, CameraError> {
+        let Self { left, right, bottom, top, .. } = self.at(1.0)?;
+        Ok(Slopes { left, right, bottom, top })
+    }
+
+    /// Refuses numbers that are not finite or too large, and sides that coincide.
+    pub(crate) fn check(self) -> Result<(), CameraError> {
+        let Self { left, right, bottom, top, distance } = self;
+        for (name, value) in [
+            ("left side of the window", left),
+            ("right side of the window", right),
+            ("lower side of the window", bottom),
+            ("upper side of the window", top),
+            ("distance of the window", distance),
+        ] {
+            check_finite(name, value)?;
+            if value.abs() > LIMIT {
+                return Err(CameraError::TooLarge { name, value, limit: LIMIT });
+            }
+        }
+        if left == right || bottom == top {
+            return Err(CameraError::EmptyWindow { left, right, bottom, top });
+        }
+        Ok(())
+    }
+
+    /// As [`check`](Self::check), and the window must be in front of the eye.
+    pub(crate) fn check_perspective(self) -> Result<(), CameraError> {
+        self.check()?;
+        check_positive("distance of the window", self.distance)
+    }
+}
+
+impl Slopes {
+    /// The window of this frame on the plane at `distance`.
+    ///
+    /// # Errors
+    /// A distance that is not positive and finite; slopes that are not finite or coincide.
+    pub fn at(self, distance: f64) -> Result<Window, CameraError> {
+        let Self { left, right, bottom, top } = self;
+        Window { left, right, bottom, top, distance: 1.0 }.at(distance)
+    }
+}
+
+pub(crate) fn check_finite(name: &'static str, value: f64) -> Result<(), CameraError> {
+    if value.is_finite() { Ok(()) } else { Err(CameraError::NumberNotFinite { name, value }) }
+}
+
+pub(crate) fn check_positive(name: &'static str, value: f64) -> Result<(), CameraError> {
+    check_finite(name, value)?;
+    if value > 0.0 { Ok(()) } else { Err(CameraError::NotPositive { name, value }) }
+}

@@ -1,0 +1,336 @@
+//! Orbits, attitudes, stereo rigs, screens in the world and viewing rays, against their formulas.
+
+use camera::{
+    Attitude, Basis, Camera, CameraError, CameraView, NamedView, Orbit, PixelCenters, PixelGrid,
+    Rays, ScreenCorners, StereoRig, VerticalAxis, Window, apex_moved,
+};
+use core::f64::consts::{FRAC_PI_2, PI};
+use homog::{Affine, Model, Point, Vector, View, World};
+use proptest::prelude::*;
+
+const WINDOW: Window = Window { left: -1.0, right: 3.0, bottom: -2.0, top: 1.0, distance: 2.0 };
+
+fn triple() -> impl Strategy<Value = [f64; 3]> {
+    [-10.0..10.0, -10.0..10.0, -10.0..10.0]
+}
+
+fn camera() -> impl Strategy<Value = Camera> {
+    (triple(), triple(), triple()).prop_filter_map("a gaze and an up", |(eye, gaze, up)| {
+        Camera::look_to(eye.into(), gaze.into(), up.into()).ok()
+    })
+}
+
+fn window() -> impl Strategy<Value = Window> {
+    (-2.0..2.0, 0.1..3.0, -2.0..2.0, 0.1..3.0, 0.1..5.0).prop_map(
+        |(left, width, bottom, height, distance)| Window {
+            left,
+            right: left + width,
+            bottom,
+            top: bottom + height,
+            distance,
+        },
+    )
+}
+
+/// Where a view sees a point, as parts of its window from the lower left corner.
+fn seen(view: CameraView, point: Point<World>) -> [f64; 2] {
+    let p = view.camera.world_to_view().point(point);
+    let w = view.window;
+    let (x, y) = (p.x() * w.distance / -p.z(), p.y() * w.distance / -p.z());
+    [(x - w.left) / (w.right - w.left), (y - w.bottom) / (w.top - w.bottom)]
+}
+
+fn close(a: Basis, b: Basis) -> bool {
+    (a.u() - b.u()).length() + (a.v() - b.v()).length() + (a.w() - b.w()).length() < 1e-12
+}
+
+proptest! {
+    #[test]
+    fn attitudes_are_read_back(yaw in -3.1..3.1, pitch in -1.5..1.5, roll in -3.1..3.1) {
+        let attitude = Attitude { yaw, pitch, roll };
+        let back = Attitude::of(attitude.basis().expect("finite"));
+        for (got, want) in [(back.yaw, yaw), (back.pitch, pitch), (back.roll, roll)] {
+            prop_assert!((got - want).abs() < 1e-12, "{back:?} is not {attitude:?}");
+        }
+    }
+
+    #[test]
+    fn an_attitude_is_the_product_of_three_rotations(
+        yaw in -9.0..9.0, pitch in -9.0..9.0, roll in -9.0..9.0,
+    ) {
+        let basis = Attitude { yaw, pitch, roll }.basis().expect("finite");
+        let turn = Affine::<Model, World>::rotation_z(roll)
+            .then(Affine::<World, World>::rotation_x(pitch))
+            .then(Affine::<World, World>::rotation_y(yaw));
+        for (axis, image) in [(basis.u(), Vector::X), (basis.v(), Vector::Y), (basis.w(), Vector::Z)] {
+            prop_assert!((axis - turn.vector(image)).length() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn every_basis_has_an_attitude(camera in camera()) {
+        let again = Attitude::of(camera.basis()).basis().expect("finite");
+        prop_assert!(close(again, camera.basis()));
+    }
+
+    #[test]
+    fn an_orbit_looks_at_its_target_and_is_read_back(
+        target in triple(), azimuth in -3.1..3.1, elevation in -1.57..1.57, distance in 0.1..50.0,
+    ) {
+        let orbit = Orbit { target: target.into(), azimuth, elevation, distance };
+        let camera = orbit.camera().expect("valid");
+        let middle = camera.world_to_view().point(orbit.target);
+        prop_assert!((middle - Point::new(0.0, 0.0, -distance)).length() < 1e-12);
+        let back = Orbit::of(camera, orbit.target).expect("it looks at it, level");
+        prop_assert!((back.azimuth - azimuth).abs() < 1e-9);
+        prop_assert!((back.elevation - elevation).abs() < 1e-9);
+        prop_assert!((back.distance - distance).abs() < 1e-12);
+        let tilted = Camera::new(camera.eye(), camera.basis().rolled(0.1).expect("finite"));
+        prop_assert_eq!(Orbit::of(tilted.expect("valid"), orbit.target), None);
+    }
+
+    #[test]
+    fn a_stereo_pair_meets_at_zero_parallax_and_nowhere_else(
+        middle in camera(), window in window(), at in [0.0..1.0, 0.0..1.0],
+        interocular in 0.01..1.0, zero_parallax in 0.5..20.0, distance in 0.5..40.0,
+    ) {
+        let rig = StereoRig { interocular, zero_parallax };
+        let pair = rig.pair(middle, window).expect("valid");
+        let rays = Rays::perspective(middle, window, PixelGrid { nx: 1, ny: 1, ..UNIT }).expect("valid");
+        let ray = rays.at(at[0], at[1]).expect("finite");
+        let ahead = |d: f64| ray.at(d / ray.direction.dot(middle.gaze()));
+
+        // In the plane of zero parallax both eyes and the middle see the same.
+        let [left, right] = [pair.left, pair.right].map(|eye| seen(eye, ahead(zero_parallax)));
+        for i in 0..2 {
+            prop_assert!((left[i] - right[i]).abs() < 1e-10 && (left[i] - at[i]).abs() < 1e-10);
+        }
+        // Elsewhere they differ by the parallax, and never vertically.
+        let [left, right] = [pair.left, pair.right].map(|eye| seen(eye, ahead(distance)));
+        let width = (window.right - window.left) * zero_parallax / window.distance;
+        let parallax = rig.parallax(distance).expect("positive");
+        prop_assert!(((right[0] - left[0]) * width - parallax).abs() < 1e-9);
+        prop_assert!((right[1] - left[1]).abs() < 1e-10);
+    }
+
+    #[test]
+    fn c65_the_apex_moved_variant_agrees_on_the_windows_plane_only(
+        camera in camera(), window in window(), at in [0.0..1.0, 0.0..1.0],
+    ) {
+        let whole = CameraView { camera, window };
+        let moved = apex_moved(camera, window).expect("valid");
+        prop_assert!((moved.window.left + moved.window.right).abs() < 1e-15);
+        let rays = Rays::perspective(camera, window, PixelGrid { nx: 1, ny: 1, ..UNIT }).expect("valid");
+        let ray = rays.at(at[0], at[1]).expect("finite");
+        let [on_window, behind] = [1.0, 2.0].map(|times| {
+            ray.at(times * window.distance / ray.direction.dot(camera.gaze()))
+        });
+        let apart = |p: Point<World>| {
+            let (a, b) = (seen(whole, p), seen(moved, p));
+            (a[0] - b[0]).abs() + (a[1] - b[1]).abs()
+        };
+        prop_assert!(apart(on_window) < 1e-9);
+        let off_axis = (window.left + window.right).abs() / (window.right - window.left);
+        prop_assert!(apart(behind) >= 0.2 * off_axis, "{} behind the window", apart(behind));
+    }
+
+    #[test]
+    fn a_screen_is_a_hole_in_the_wall(camera in camera(), size in [0.1..5.0, 0.1..5.0], eye in triple()) {
+        let (u, v) = (camera.u() * size[0], camera.v() * size[1]);
+        let corner = camera.eye();
+        let screen =
+            ScreenCorners { lower_left: corner, lower_right: corner + u, upper_left: corner + v };
+        let eye = corner + camera.w() * (0.1 + eye[2].abs()) + u * eye[0] + v * eye[1];
+        let view = screen.view_from(eye).expect("the eye is in front");
+        for (point, want) in [
+            (screen.lower_left, [0.0, 0.0]),
+            (screen.lower_right, [1.0, 0.0]),
+            (screen.upper_left, [0.0, 1.0]),
+            (eye.lerp(corner + u * 0.25 + v * 0.5, 3.0), [0.25, 0.5]), // far behind it
+        ] {
+            let got = seen(view, point);
+            prop_assert!((got[0] - want[0]).abs() + (got[1] - want[1]).abs() < 1e-9, "{got:?}, {want:?}");
+        }
+    }
+
+    #[test]
+    fn c1_rays_are_the_inverse_of_projecting(
+        camera in camera(), window in window(), grid in grid(), x in -2.0..20.0_f64, y in -2.0..20.0_f64,
+        distance in 0.1..100.0, slant in [-1.0..1.0, -1.0..1.0],
+    ) {
+        // Down the pipeline from a point of the ray: M_cam, the window, the pixels.
+        let to_pixels = |x: f64, y: f64| {
+            let [nx, ny] = [f64::from(grid.nx), f64::from(grid.ny)];
+            let part = [
+                (x - window.left) / (window.right - window.left),
+                (y - window.bottom) / (window.top - window.bottom),
+            ];
+            let shift = if grid.centers == PixelCenters::Integers { -0.5 } else { 0.0 };
+            let down = grid.y == VerticalAxis::Down;
+            [part[0] * nx + shift, if down { 1.0 - part[1] } else { part[1] } * ny + shift]
+        };
+        let view = |p: Point<World>| -> Point<View> { camera.world_to_view().point(p) };
+        let check = |got: [f64; 2]| (got[0] - x).abs() + (got[1] - y).abs() < 1e-9;
+
+        let rays = Rays::perspective(camera, window, grid).expect("valid");
+        let p = view(rays.at(x, y).expect("finite").at(distance));
+        let scale = window.distance / -p.z();
+        prop_assert!(check(to_pixels(p.x() * scale, p.y() * scale)));
+
+        let projectors = Vector::new(slant[0], slant[1], -1.0);
+        let rays = Rays::oblique(camera, window, grid, projectors).expect("valid");
+        let p = view(rays.at(x, y).expect("finite").at(distance));
+        let back = -p.z() - window.distance;
+        prop_assert!(check(to_pixels(p.x() - back * slant[0], p.y() - back * slant[1])));
+    }
+}
+
+const UNIT: PixelGrid =
+    PixelGrid { nx: 1, ny: 1, centers: PixelCenters::Halves, y: VerticalAxis::Up };
+
+fn grid() -> impl Strategy<Value = PixelGrid> {
+    (1..20_u32, 1..20_u32, any::<bool>(), any::<bool>()).prop_map(|(nx, ny, integers, up)| {
+        PixelGrid {
+            nx,
+            ny,
+            centers: if integers { PixelCenters::Integers } else { PixelCenters::Halves },
+            y: if up { VerticalAxis::Up } else { VerticalAxis::Down },
+        }
+    })
+}
+
+#[test]
+fn orbits_pass_through_the_named_views_poles_included() {
+    let quarter = FRAC_PI_2;
+    for (azimuth, elevation, view) in [
+        (0.0, 0.0, NamedView::Front),
+        (quarter, 0.0, NamedView::Right),
+        (PI, 0.0, NamedView::Back),
+        (-quarter, 0.0, NamedView::Left),
+        (0.0, quarter, NamedView::Top),
+        (0.0, -quarter, NamedView::Bottom),
+        (PI / 4.0, libm::asin(1.0 / libm::sqrt(3.0)), NamedView::Isometric),
+    ] {
+        let basis = Basis::from_azimuth_elevation(azimuth, elevation).expect("finite");
+        assert!(close(basis, view.basis()), "{view}: {basis:?}");
+    }
+}
+
+#[test]
+fn a_turntable_closes_without_repeating_its_first_frame() {
+    let start = Orbit { target: Point::ORIGIN, azimuth: 0.3, elevation: 0.2, distance: 2.0 };
+    let places: Vec<Orbit> = start.turntable(8).collect();
+    assert_eq!((places.len(), places[0]), (8, start));
+    assert!((places[7].azimuth + PI / 4.0 - (0.3 + 2.0 * PI)).abs() < 1e-15);
+    assert_eq!(start.turntable(0).len(), 0);
+}
+
+#[test]
+fn attitudes_turn_the_way_they_say() {
+    let gaze =
+        |yaw: f64, pitch: f64| Attitude { yaw, pitch, roll: 0.0 }.basis().expect("finite").gaze();
+    assert!(gaze(0.1, 0.0).x() < 0.0, "positive yaw looks left");
+    assert!(gaze(0.0, 0.1).y() > 0.0, "positive pitch looks up");
+    let tipped = Basis::WORLD.rolled(0.1).expect("finite");
+    assert!(tipped.v().x() < 0.0, "positive roll tips the head to the left");
+    let up = Attitude { yaw: 0.5, pitch: FRAC_PI_2, roll: 0.25 }.basis().expect("finite");
+    let read = Attitude::of(up);
+    assert_eq!(read.roll, 0.0);
+    assert!(close(read.basis().expect("finite"), up), "straight up, yaw takes all");
+}
+
+#[test]
+fn a_pair_with_moved_apexes_does_not_meet_where_it_was_told_to() {
+    let middle = Camera::new(Point::ORIGIN, Basis::WORLD).expect("valid");
+    let rig = StereoRig { interocular: 0.5, zero_parallax: 8.0 };
+    let meeting = Point::new(0.0, 0.0, -8.0);
+    let across =
+        |pair: camera::StereoPair| seen(pair.right, meeting)[0] - seen(pair.left, meeting)[0];
+    assert!(across(rig.pair(middle, WINDOW).expect("valid")).abs() < 1e-15);
+    let wrong = rig.pair_apex_moved(middle, WINDOW).expect("valid");
+    assert!(across(wrong).abs() > 0.01);
+    let apart = wrong.right.camera.eye().x() - wrong.left.camera.eye().x();
+    assert_eq!(apart, 0.5 * (1.0 - 2.0 / 8.0), "and the eyes are closer than told");
+}
+
+#[test]
+fn pixels_have_their_centres_where_the_convention_says() {
+    let camera = Camera::new(Point::ORIGIN, Basis::WORLD).expect("valid");
+    let window = Window { left: 0.0, right: 4.0, bottom: 0.0, top: 2.0, distance: 0.0 };
+    let origin =
+        |grid: PixelGrid| Rays::parallel(camera, window, grid).expect("valid").pixel(0, 0).origin;
+    assert_eq!(origin(PixelGrid::chapter(4, 2)), Point::new(0.5, 0.5, 0.0));
+    assert_eq!(origin(PixelGrid::image(4, 2)), Point::new(0.5, 1.5, 0.0));
+    let rays = Rays::parallel(camera, window, PixelGrid::chapter(4, 2)).expect("valid");
+    let corner = rays.at(-0.5, -0.5).expect("finite");
+    assert_eq!((corner.origin, corner.direction), (Point::ORIGIN, -Vector::Z));
+    assert_eq!(rays.at(f64::NAN, 0.0), None);
+}
+
+#[test]
+fn a_camera_node_may_be_scaled_and_mirrored() {
+    let node = Affine::<Model, Model>::scale(-2.0, 3.0, 0.5)
+        .then(Affine::<Model, Model>::rotation_y(0.5))
+        .then(Affine::<Model, World>::translation(Vector::new(1.0, 2.0, 3.0)));
+    let camera = Camera::from_frame(node).expect("not flat");
+    assert_eq!(camera.eye(), Point::new(1.0, 2.0, 3.0));
+    let turned = Basis::from_azimuth_elevation(0.5, 0.0).expect("finite");
+    assert!(close(camera.basis(), turned), "neither scale nor mirror turns a camera");
+    let flat = Camera::from_frame(Affine::<Model, World>::scale(1.0, 1.0, 0.0));
+    assert_eq!(flat, Err(CameraError::ZeroGaze));
+}
+
+#[test]
+fn rigs_refuse_what_has_no_meaning() {
+    let camera = Camera::new(Point::ORIGIN, Basis::WORLD).expect("valid");
+    let rig = StereoRig { interocular: 0.06, zero_parallax: 2.0 };
+    let is_not_positive =
+        |got: Result<_, CameraError>| matches!(got, Err(CameraError::NotPositive { .. }));
+    assert!(is_not_positive(StereoRig { interocular: 0.0, ..rig }.pair(camera, WINDOW).map(drop)));
+    assert!(is_not_positive(
+        StereoRig { zero_parallax: -1.0, ..rig }.pair(camera, WINDOW).map(drop)
+    ));
+    assert!(is_not_positive(rig.pair(camera, Window { distance: 0.0, ..WINDOW }).map(drop)));
+    assert!(is_not_positive(rig.parallax(0.0).map(drop)));
+    assert!(is_not_positive(WINDOW.at(-1.0).map(drop)));
+    let nan = StereoRig { interocular: f64::NAN, ..rig }.pair(camera, WINDOW);
+    assert!(matches!(nan, Err(CameraError::NumberNotFinite { .. })));
+    let empty = Window { left: 3.0, ..WINDOW };
+    assert!(matches!(apex_moved(camera, empty), Err(CameraError::EmptyWindow { .. })));
+    let huge = Window { right: 1e300, ..WINDOW };
+    assert!(matches!(apex_moved(camera, huge), Err(CameraError::TooLarge { .. })));
+
+    let grid = PixelGrid::image(0, 4);
+    let none = Rays::perspective(camera, WINDOW, grid);
+    assert_eq!(none, Err(CameraError::EmptyGrid { nx: 0, ny: 4 }));
+    let towards = Rays::oblique(camera, WINDOW, UNIT, Vector::Z);
+    assert!(matches!(towards, Err(CameraError::Projectors { .. })));
+
+    let orbit = Orbit { target: Point::ORIGIN, azimuth: 0.0, elevation: 0.0, distance: 1.0 };
+    assert!(is_not_positive(Orbit { distance: 0.0, ..orbit }.camera().map(drop)));
+    let lost = Orbit { azimuth: f64::INFINITY, ..orbit }.camera();
+    assert!(matches!(lost, Err(CameraError::NumberNotFinite { name: "azimuth", .. })));
+    let nowhere = Orbit { target: Point::new(f64::NAN, 0.0, 0.0), ..orbit }.camera();
+    assert!(matches!(nowhere, Err(CameraError::NotFinite { name: "target", .. })));
+}
+
+#[test]
+fn screens_must_be_rectangles_before_the_eye() {
+    let o = Point::<World>::ORIGIN;
+    let wall =
+        ScreenCorners { lower_left: o, lower_right: o + Vector::X, upper_left: o + Vector::Y };
+    let front = Point::new(0.5, 0.5, 2.0);
+    assert!(wall.view_from(front).is_ok());
+    let behind = wall.view_from(Point::new(0.5, 0.5, -2.0));
+    assert_eq!(behind, Err(CameraError::EyeBehindScreen { distance: -2.0 }));
+    assert_eq!(wall.view_from(o + Vector::X), Err(CameraError::EyeBehindScreen { distance: 0.0 }));
+    let flat = ScreenCorners { upper_left: o, ..wall };
+    assert_eq!(flat.view_from(front), Err(CameraError::FlatScreen { corner: o }));
+    let skewed = ScreenCorners { upper_left: o + Vector::X + Vector::Y, ..wall };
+    assert!(matches!(skewed.view_from(front), Err(CameraError::SkewedScreen { .. })));
+    let nan = ScreenCorners { lower_right: Point::new(f64::NAN, 0.0, 0.0), ..wall };
+    assert!(matches!(
+        nan.view_from(front),
+        Err(CameraError::NotFinite { name: "lower right corner", .. })
+    ));
+}
