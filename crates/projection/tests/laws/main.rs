@@ -3,5 +3,7 @@
 #![allow(missing_docs)]
 
 mod builders;
+mod decomposition;
+mod doctor;
 mod parity;
 mod samples;

@@ -1,12 +1,18 @@
 //! Random valid parameters and the comparisons the laws need.
 
 use glam::DMat4;
-use projection::{Convention, Fov, Frustum, Handedness, NdcY, Orthographic, Perspective};
+use homog::{Affine, Point, Vector, View};
+use projection::{
+    Axonometric, Convention, Fov, Frustum, Handedness, NPoint, NdcY, Oblique, Orthographic,
+    Perspective,
+};
 use proptest::prelude::*;
 
-/// So many cases; failures are not written into the source tree, since the cases are few enough to run again.
+/// So many cases, or `PROPTEST_CASES`. Failures are not written into the source tree.
 pub(crate) fn cases(cases: u32) -> ProptestConfig {
-    ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
+    let asked = ProptestConfig::default();
+    let cases = if std::env::var_os("PROPTEST_CASES").is_some() { asked.cases } else { cases };
+    ProptestConfig { cases, failure_persistence: None, ..asked }
 }
 
 /// All conventions that are named, and the variants of each.
@@ -64,4 +70,37 @@ pub(crate) fn distance(a: DMat4, b: DMat4) -> f64 {
     let (a, b) = (a.to_cols_array(), b.to_cols_array());
     let size = b.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
     a.iter().zip(b).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) / size
+}
+
+pub(crate) fn point() -> impl Strategy<Value = Point<View>> {
+    prop::array::uniform3(-3.0..3.0).prop_map(Point::from)
+}
+
+pub(crate) fn direction() -> impl Strategy<Value = Vector<View>> {
+    prop::array::uniform3(-1.0_f64..1.0)
+        .prop_map(Vector::from)
+        .prop_filter("a direction", |direction| direction.length() > 0.1)
+}
+
+pub(crate) fn rotation() -> impl Strategy<Value = Affine<View, View>> {
+    prop::array::uniform3(-3.0..3.0).prop_map(|[x, y, z]| {
+        Affine::<View, View>::rotation_x(x)
+            .then(Affine::<View, View>::rotation_y(y))
+            .then(Affine::rotation_z(z))
+    })
+}
+
+pub(crate) fn oblique() -> impl Strategy<Value = Oblique> {
+    (0.05..2.0, -3.0..3.0).prop_map(|(length, phi)| Oblique::new(length, phi).expect("valid"))
+}
+
+/// Not upside down.
+pub(crate) fn axonometric() -> impl Strategy<Value = Axonometric> {
+    (-3.0..3.0, -1.5..1.5)
+        .prop_map(|(alpha, beta)| Axonometric::by_angles(alpha, beta).expect("finite"))
+}
+
+pub(crate) fn npoint() -> impl Strategy<Value = NPoint> {
+    let entry = || prop_oneof![Just(0.0), -0.2..-0.02, 0.02..0.2];
+    (entry(), entry(), entry()).prop_filter_map("not all 0", |(p, q, r)| NPoint::new(p, q, r).ok())
 }

@@ -1,0 +1,353 @@
+//! From any 4×4 matrix back to the projection that made it (D7 of the inventory's ideas: "matrix doctor", first half).
+//!
+//! ```text
+//!                         last row (p, q, r, s)
+//!            ┌────────────────────┴──────────────────────┐
+//!      p = q = r = 0: parallel                      else: central
+//!      rows at right angles?                        eye: where x, y and w vanish
+//!        upright      → orthographic                  at the origin, upright → frustum
+//!        turned       → axonometric, placed           beside it, centred     → apex moved (LW-1)
+//!      z in x and y   → oblique                       anywhere, turned       → placed
+//!      no inverse     → classical: the centre is what the matrix sends to nothing
+//! ```
+//!
+//! A matrix and its multiples are the same map, so a common factor is taken out first and reported. A matrix does not
+//! tell its convention: the OpenGL matrix of (N, F) is the zero-to-one matrix of (2FN/(F+N), F). So the convention is asked
+//! for; [`readings`] tries the named ones.
+
+use crate::placed::{self, Placement};
+use crate::{
+    ApexMovedFrustum, Axonometric, Classical, Convention, Frustum, NPoint, Oblique, Orthographic,
+    ProjectionError, Window,
+};
+use glam::{DMat4, DVec3, DVec4};
+use homog::{Affine, HPoint, Normal, Plane, View};
+use thiserror::Error;
+
+/// What a matrix turned out to be.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Decomposed {
+    /// A perspective from the origin; with a centred window [`crate::Perspective`] can be had from it.
+    Frustum(Frustum),
+    /// The frustum of the WebGL lesson, its apex beside the origin (LW-1).
+    ApexMoved(ApexMovedFrustum),
+    /// A perspective from elsewhere or turned: a camera and a lens in one matrix.
+    PlacedFrustum {
+        /// What the camera does.
+        placement: Affine<View, View>,
+        /// What the lens does.
+        frustum: Frustum,
+    },
+    /// A perspective whose near plane is inclined (Lengyel).
+    ObliqueNear {
+        /// What the camera does: the identity if there is none.
+        placement: Affine<View, View>,
+        /// The window one unit ahead of the eye.
+        slopes: Window,
+        /// The near plane, after the camera; its normal has length 1 and points to what is visible.
+        near_plane: Plane<View>,
+    },
+    /// An upright box.
+    Orthographic(Orthographic),
+    /// A classical projection with depth kept, and what is shown of it.
+    Classical {
+        /// The projection.
+        projection: Classical,
+        /// The window on the picture, near and far.
+        volume: Orthographic,
+    },
+    /// An orthographic projection turned in a way that no axonometric projection is: a camera and a box in one matrix.
+    PlacedOrthographic {
+        /// What the camera does.
+        placement: Affine<View, View>,
+        /// The box.
+        volume: Orthographic,
+    },
+    /// The bare map of an n-point perspective, depth kept, without a view volume.
+    NPoint(NPoint),
+    /// A classical projection that drops a dimension: singular.
+    Flat {
+        /// The centre of projection: what the matrix sends to nothing. w = 0 if the projectors are parallel.
+        centre: HPoint<View>,
+        /// Which one, if it drops z in one of the known ways.
+        projection: Option<Classical>,
+    },
+}
+
+/// The result of [`decompose`].
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Decomposition {
+    /// What the matrix is, without the factor.
+    pub kind: Decomposed,
+    /// The common factor that was taken out. Negative if w is negative in front of the eye, as in the textbook's M_per:
+    /// divide by it before clipping (PE-3).
+    pub factor: f64,
+}
+
+/// Why a matrix is no projection of the given convention.
+#[derive(Clone, Copy, PartialEq, Debug, Error)]
+#[non_exhaustive]
+pub enum DecomposeError {
+    /// An entry is NaN or infinite.
+    #[error("the entry in row {row}, column {column} is not a finite number")]
+    NotFinite {
+        /// Counted from 0.
+        row: usize,
+        /// Counted from 0.
+        column: usize,
+    },
+    /// More than one dimension is lost.
+    #[error("the matrix has rank {rank}; a projection keeps at least a picture, rank 3")]
+    RankTooLow {
+        /// Its rank.
+        rank: usize,
+    },
+    /// The picture's x and y axis are not at right angles, or the depth depends on the place in no known way.
+    #[error(
+        "the axes of the picture are not at right angles: the matrix shears as no projection here does"
+    )]
+    Sheared,
+    /// Near and far make no sense in this convention.
+    #[error("in this convention near and far would be {near} and {far}; allowed: 0 < near < far")]
+    DepthRange {
+        /// What the matrix maps to the near depth.
+        near: f64,
+        /// What the matrix maps to the far depth.
+        far: f64,
+    },
+    /// The parameters that come out are refused by their builder.
+    #[error(transparent)]
+    Refused(#[from] ProjectionError),
+}
+
+/// The projection, read in the given convention, that has this matrix (column vectors).
+///
+/// ```
+/// use projection::{Convention, Decomposed, Frustum, decompose};
+/// let made = Frustum::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0)?;
+/// let found = decompose(made.view_to_clip(Convention::VULKAN).raw() * -5.0, Convention::VULKAN)?;
+/// assert_eq!(found.factor, -5.0);
+/// let Decomposed::Frustum(found) = found.kind else { panic!("a frustum") };
+/// assert!((found.far() - 6.0).abs() < 1e-12 && (found.window().left() + 1.0).abs() < 1e-12);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// If an entry is not finite, or the matrix is no projection of this convention.
+pub fn decompose(matrix: DMat4, convention: Convention) -> Result<Decomposition, DecomposeError> {
+    check_finite(matrix)?;
+    let largest = matrix.to_cols_array().iter().fold(0.0, |size: f64, entry| size.max(entry.abs()));
+    if largest == 0.0 {
+        return Err(DecomposeError::RankTooLow { rank: 0 });
+    }
+    if let Some(rank) = placed::lost_rank(matrix * (1.0 / largest)) {
+        return flat(matrix, rank);
+    }
+    if let Some((projection, factor)) = bare_npoint(matrix) {
+        return Ok(Decomposition { kind: Decomposed::NPoint(projection), factor });
+    }
+    let last = matrix.row(3);
+    if placed::negligible(last.truncate(), DVec4::splat(last.w)) {
+        let kind = parallel(matrix * (1.0 / last.w), convention)?;
+        return Ok(Decomposition { kind, factor: last.w });
+    }
+    central(matrix, convention)
+}
+
+/// Every named convention in which the matrix makes sense, with the projection it then is.
+pub fn readings(matrix: DMat4) -> impl Iterator<Item = (Convention, Decomposition)> {
+    let named = [
+        Convention::OPENGL,
+        Convention::CHAPTER,
+        Convention::WEBGPU,
+        Convention::WEBGPU.reversed(),
+        Convention::VULKAN,
+        Convention::VULKAN.reversed(),
+        Convention::DIRECT3D,
+        Convention::DIRECT3D.reversed(),
+        Convention::OPENGL.left_handed(),
+    ];
+    named.into_iter().filter_map(move |c| Some((c, decompose(matrix, c).ok()?)))
+}
+
+fn check_finite(matrix: DMat4) -> Result<(), DecomposeError> {
+    for row in 0..4 {
+        for column in 0..4 {
+            if !matrix.col(column)[row].is_finite() {
+                return Err(DecomposeError::NotFinite { row, column });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The identity with (p, q, r, 1) below, up to a factor.
+fn bare_npoint(matrix: DMat4) -> Option<(NPoint, f64)> {
+    let factor = matrix.w_axis.w;
+    let unit = matrix * (1.0 / factor);
+    let bare = unit.row(0) == DVec4::X && unit.row(1) == DVec4::Y && unit.row(2) == DVec4::Z;
+    let [p, q, r, _] = unit.row(3).to_array();
+    Some((NPoint::new(p, q, r).ok()?, factor)).filter(|_| bare)
+}
+
+/// Rank 3: what is sent to nothing is the centre of projection.
+fn flat(matrix: DMat4, rank: usize) -> Result<Decomposition, DecomposeError> {
+    let centre =
+        placed::kernel(matrix).filter(|_| rank == 3).ok_or(DecomposeError::RankTooLow { rank })?;
+    let (x, y, w) = (matrix.row(0), matrix.row(1), matrix.row(3));
+    let factor = if w.w == 0.0 { 1.0 } else { w.w };
+    let drops_z = matrix.row(2) == DVec4::ZERO;
+    let projection = if drops_z { known_flat(x / factor, y / factor, w / factor) } else { None };
+    Ok(Decomposition {
+        kind: Decomposed::Flat { centre: HPoint::from_raw(centre), projection },
+        factor,
+    })
+}
+
+/// The classical projection with these rows, z dropped.
+fn known_flat(x: DVec4, y: DVec4, w: DVec4) -> Option<Classical> {
+    if x == DVec4::X && y == DVec4::Y && w != DVec4::W {
+        return NPoint::new(w.x, w.y, w.z).ok().map(Into::into).filter(|_| w.w == 1.0);
+    }
+    if w != DVec4::W || x.w != 0.0 || y.w != 0.0 {
+        return None;
+    }
+    if x.truncate().with_z(0.0) == DVec3::X && y.truncate().with_z(0.0) == DVec3::Y {
+        let direction = homog::Vector::new(x.z, y.z, -1.0);
+        return Oblique::by_direction(direction, 0.0).ok().map(Into::into);
+    }
+    let (x, y) = (x.truncate(), y.truncate());
+    upright_axonometric([x, y, x.cross(y)]).map(Into::into)
+}
+
+/// The axonometric projection whose turn has these rows, if there is one.
+fn upright_axonometric([x, y, z]: [DVec3; 3]) -> Option<Axonometric> {
+    let axonometric = Axonometric::by_normal(Normal::from_raw(z)).ok()?;
+    let turn = axonometric.depth_kept().raw();
+    let same = |row: usize, ours: DVec3| (turn.row(row).truncate() - ours).length() < 1e-9;
+    (same(0, x) && same(1, y) && same(2, z)).then_some(axonometric)
+}
+
+/// w = 1 everywhere.
+fn parallel(matrix: DMat4, convention: Convention) -> Result<Decomposed, DecomposeError> {
+    let mut columns = matrix;
+    columns.z_axis *= -convention.ahead();
+    // From here on view space looks along −z.
+    let (x, y, z) = (columns.row(0), columns.row(1) * convention.top(), columns.row(2));
+    if placed::straight(x, y, z) {
+        let volume = upright_box(x.x, x.w, y.y, y.w, (-z.z, z.w), convention)?;
+        let (slant_x, slant_y) = (x.z / x.x, y.z / y.y);
+        if slant_x == 0.0 && slant_y == 0.0 {
+            return Ok(Decomposed::Orthographic(volume));
+        }
+        let direction = homog::Vector::new(slant_x, slant_y, -1.0);
+        let projection = Oblique::by_direction(direction, 0.0)?.into();
+        return Ok(Decomposed::Classical { projection, volume });
+    }
+    turned_box([x, y, z], convention)
+}
+
+/// x' = ax x + tx, y' = ay y + ty, depth = factor D + offset.
+fn upright_box(
+    ax: f64,
+    tx: f64,
+    ay: f64,
+    ty: f64,
+    (factor, offset): (f64, f64),
+    convention: Convention,
+) -> Result<Orthographic, DecomposeError> {
+    let near = (convention.near_depth() - offset) / factor;
+    let far = (convention.far_depth() - offset) / factor;
+    let window = Window::new((-1.0 - tx) / ax, (1.0 - tx) / ax, (-1.0 - ty) / ay, (1.0 - ty) / ay)?;
+    Ok(Orthographic::from_window(window, near, far)?)
+}
+
+fn turned_box(rows: [DVec4; 3], convention: Convention) -> Result<Decomposed, DecomposeError> {
+    let [x, y, z] = rows.map(DVec4::truncate);
+    let right = placed::unit(x).ok_or(DecomposeError::Sheared)?;
+    let out = placed::unit(right.cross(y)).ok_or(DecomposeError::Sheared)?;
+    let up = out.cross(right);
+    let square = placed::across(y, right) && placed::across(z, right) && placed::across(z, up);
+    if !square {
+        return Err(DecomposeError::Sheared);
+    }
+    let depth = (-z.dot(out), rows[2].w);
+    let volume = upright_box(x.dot(right), rows[0].w, y.dot(up), rows[1].w, depth, convention)?;
+    if let Some(axonometric) = upright_axonometric([right, up, out]) {
+        return Ok(Decomposed::Classical { projection: axonometric.into(), volume });
+    }
+    let turn =
+        DMat4::from_cols(right.extend(0.0), up.extend(0.0), out.extend(0.0), DVec4::W).transpose();
+    let placement = Affine::from_raw(turn).ok_or(DecomposeError::Sheared)?;
+    Ok(Decomposed::PlacedOrthographic { placement, volume })
+}
+
+/// w changes from place to place.
+fn central(matrix: DMat4, convention: Convention) -> Result<Decomposition, DecomposeError> {
+    let mut columns = matrix;
+    columns.z_axis *= -convention.ahead();
+    // From here on view space looks along −z and y points up.
+    if convention.top() < 0.0 {
+        columns = DMat4::from_diagonal(DVec4::new(1.0, -1.0, 1.0, 1.0)) * columns;
+    }
+    let last = columns.row(3).truncate();
+    let length = homog::Vector::<View>::from_raw(last).length();
+    let unturned = placed::negligible(last.with_z(0.0), DVec4::splat(last.z));
+    let with_factor = |factor: f64| {
+        let placement = Placement::of(columns * (1.0 / factor)).ok_or(DecomposeError::Sheared)?;
+        Ok(Decomposition { kind: lens(placement, convention)?, factor })
+    };
+    match with_factor(if unturned && last.z > 0.0 { -length } else { length }) {
+        // The sign of w is free: a turned camera with w < 0 in front of it looks the other way.
+        Err(DecomposeError::DepthRange { near, .. }) if near < 0.0 && !unturned => {
+            with_factor(-length)
+        }
+        found => found,
+    }
+}
+
+fn lens(found: Placement, convention: Convention) -> Result<Decomposed, DecomposeError> {
+    let Placement { scale, centre, depth, .. } = found;
+    let slopes = Window::new(
+        (centre.x - 1.0) / scale.x,
+        (centre.x + 1.0) / scale.x,
+        (centre.y - 1.0) / scale.y,
+        (centre.y + 1.0) / scale.y,
+    )?;
+    let placement = found.map();
+    if !placed::negligible(depth.truncate().with_z(0.0), DVec4::splat(depth.truncate().length())) {
+        // z' − w·near, with w the distance ahead, −z: the near plane, positive where it is visible.
+        let plane = depth + DVec4::Z * convention.near_depth();
+        let inwards = (convention.far_depth() - convention.near_depth()).signum();
+        let near_plane = Plane::from_raw(plane * (inwards / plane.truncate().length()));
+        return Ok(Decomposed::ObliqueNear { placement, slopes, near_plane });
+    }
+    let (near, far) = planes(-depth.z, depth.w, convention)?;
+    let frustum = Frustum::from_slopes(slopes, near, far)?;
+    let (eye, window) = (found.eye, frustum.window());
+    let size = DVec4::new(window.width(), window.height(), near, 0.0);
+    if found.is_upright() && placed::negligible(eye, size) {
+        return Ok(Decomposed::Frustum(frustum));
+    }
+    if !found.is_upright() {
+        return Ok(Decomposed::PlacedFrustum { placement, frustum });
+    }
+    let centred = placed::negligible(centre.extend(0.0), DVec4::ONE);
+    if centred && placed::negligible(DVec3::Z * eye.z, size) {
+        let (l, r) = (window.left() + eye.x, window.right() + eye.x);
+        let (b, t) = (window.bottom() + eye.y, window.top() + eye.y);
+        return Ok(Decomposed::ApexMoved(ApexMovedFrustum::new(l, r, b, t, near, far)?));
+    }
+    Ok(Decomposed::PlacedFrustum { placement, frustum })
+}
+
+/// The distances at which factor + offset/D is the near and the far depth.
+fn planes(factor: f64, offset: f64, convention: Convention) -> Result<(f64, f64), DecomposeError> {
+    let near = offset / (convention.near_depth() - factor);
+    let gap = convention.far_depth() - factor;
+    // A far plane so far that rounding hides it might as well not be there.
+    let endless = gap.abs() <= 16.0 * f64::EPSILON;
+    let far = if endless { f64::INFINITY } else { offset / gap };
+    let sensible = near > 0.0 && near < far;
+    sensible.then_some((near, far)).ok_or(DecomposeError::DepthRange { near, far })
+}
