@@ -97,3 +97,31 @@ fn every_view_style_and_projection_shows_something() {
         }
     }
 }
+
+#[test]
+fn the_floor_is_whole_from_the_horizon_down_with_the_eye_just_above_it() {
+    let bench = Bench::new("floor");
+    bench.bring("floor.glb");
+    for height in [0.1, 0.01, 0.001, 0.0001] {
+        bench.write(
+            "scene.ron",
+            format!(
+                "Scene(models: [(path: \"floor.glb\")], camera: (
+                   view: LookTo(eye: (0.3, {height}, 0.2), gaze: (0.02, 0, -1)),
+                   projection: Perspective(fov_y_degrees: 60)),
+                 image: (size: (200, 120), background: Color(\"#f0f\"), samples: 1))"
+            ),
+        );
+        let run = bench.run(&["render", "scene.ron"]);
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+        let (width, _, pixels) = bench.picture("scene.png");
+        let rows: Vec<usize> = pixels
+            .chunks(width as usize)
+            .map(|row| row.iter().filter(|pixel| **pixel == [255, 0, 255, 255]).count())
+            .collect();
+        // The horizon is row 60. From a little below it, where the sides of the floor are out of sight, no pixel is missing.
+        let torn: Vec<usize> = (66..120).filter(|&row| rows[row] > 0).collect();
+        assert!(torn.is_empty(), "eye at {height}: background in rows {torn:?}");
+        assert_eq!(rows[0], width as usize, "sky above");
+    }
+}
