@@ -81,7 +81,7 @@ fn draw(program: &Program, way: &Way, folder: &Path) -> Result<PathBuf, String> 
     for scene in scenes()? {
         program.render(&scene.path, &picture(&folder, &scene), &flags)?;
     }
-    println!("{:16} drawn ({:?} build)", way.name, way.build);
+    println!("{:18} drawn", way.name);
     Ok(folder)
 }
 
