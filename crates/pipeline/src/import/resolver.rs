@@ -49,7 +49,7 @@ impl<'a> Resolver<'a> {
         if uri.is_empty() {
             return Err(Fault::invalid(pointer, "the URI is empty"));
         }
-        let decoded = percent_decoded(uri);
+        let decoded = percent_decoded(uri).and_then(|bytes| String::from_utf8(bytes).ok());
         let candidates =
             [Some(uri.to_owned()), decoded.clone(), decoded.map(|d| d.replace('\\', "/"))];
         for candidate in candidates.into_iter().flatten() {
@@ -158,8 +158,8 @@ fn scheme(uri: &str) -> Option<&str> {
     (first && rest).then_some(scheme)
 }
 
-/// The text with every `%41` replaced by the byte it stands for; `None` if that is not possible or not UTF-8.
-fn percent_decoded(text: &str) -> Option<String> {
+/// The bytes of a text in which `%41` stands for the byte 0x41; `None` where two digits do not follow a `%`.
+fn percent_decoded(text: &str) -> Option<Vec<u8>> {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text.as_bytes();
     while let Some((&byte, after)) = rest.split_first() {
@@ -176,7 +176,7 @@ fn percent_decoded(text: &str) -> Option<String> {
             }
         }
     }
-    String::from_utf8(bytes).ok()
+    Some(bytes)
 }
 
 /// Either alphabet of base64, with or without padding.
@@ -190,11 +190,8 @@ fn decode(data: &str, pointer: &str) -> Result<Vec<u8>, Fault> {
         return Err(Fault::invalid(pointer, "the data URI has no comma before its data"));
     };
     if !kind.to_ascii_lowercase().ends_with(";base64") {
-        // Text, or binary by %00 escapes; rare and small.
-        return match percent_decoded(data) {
-            Some(text) => Ok(text.into_bytes()),
-            None => Err(Fault::invalid(pointer, "the data URI is neither base64 nor text")),
-        };
+        let problem = "the data URI is neither base64 nor has it two digits after every %";
+        return percent_decoded(data).ok_or_else(|| Fault::invalid(pointer, problem));
     }
     let standard = GeneralPurpose::new(&alphabet::STANDARD, LENIENT).decode(data);
     let bytes = standard.or_else(|error| {

@@ -1,0 +1,191 @@
+//! Counts, offsets, lengths and strides that lie.
+
+use crate::case::{Case, Expected};
+use crate::document::{Document, floats};
+use serde_json::{Value, json};
+
+pub fn cases() -> Vec<Case> {
+    let mut cases = numbers();
+    cases.extend(strides());
+    cases.extend(sparse());
+    cases.extend(values());
+    cases.extend(zeros());
+    cases
+}
+
+/// Every number of accessors, views and buffers replaced by numbers that are wrong.
+fn numbers() -> Vec<Case> {
+    let wrong = [
+        json!(0),
+        json!(1),
+        json!(2),
+        json!(4),
+        json!(35),
+        json!(36),
+        json!(37),
+        json!(65_535),
+        json!(4_000_000_000u64),
+        json!(4_294_967_295u64),
+        json!(4_294_967_296u64),
+        json!(u64::MAX / 12),
+        json!(u64::MAX - 1),
+        json!(u64::MAX),
+        json!(1e300),
+        json!(-1),
+        json!(0.5),
+        json!(1u64 << 40),
+    ];
+    let members = [
+        "/accessors/0/count",
+        "/accessors/0/byteOffset",
+        "/accessors/0/bufferView",
+        "/accessors/0/componentType",
+        "/accessors/1/count",
+        "/accessors/1/byteOffset",
+        "/accessors/1/bufferView",
+        "/bufferViews/0/byteLength",
+        "/bufferViews/0/byteOffset",
+        "/bufferViews/0/byteStride",
+        "/bufferViews/0/buffer",
+        "/buffers/0/byteLength",
+        "/bufferViews/1/byteLength",
+        "/bufferViews/1/byteOffset",
+        "/bufferViews/1/byteStride",
+        "/accessors/0/sparse/count",
+        "/accessors/0/sparse/indices/bufferView",
+        "/accessors/0/sparse/indices/byteOffset",
+        "/accessors/0/sparse/values/bufferView",
+        "/accessors/0/sparse/values/byteOffset",
+        "/meshes/0/primitives/0/indices",
+        "/meshes/0/primitives/0/attributes/POSITION",
+        "/meshes/0/primitives/0/attributes/NORMAL",
+        "/meshes/0/primitives/0/mode",
+        "/meshes/0/primitives/0/material",
+    ];
+    let spoil = |(member, value): (&str, &Value)| {
+        let document = Document::rich().with(member, value.clone());
+        Case::of(format!("{member} is {value}"), &document, Expected::Anything)
+    };
+    members
+        .into_iter()
+        .flat_map(|member| wrong.iter().map(move |value| (member, value)))
+        .map(spoil)
+        .collect()
+}
+
+/// Every stride from 0 to 300 over positions that have room for three elements of stride 252.
+fn strides() -> Vec<Case> {
+    let stride = |stride: usize| {
+        let mut document = Document::triangle();
+        let bytes = vec![0; 2 * 252 + 12];
+        let accessor = json!({"componentType": 5126, "type": "VEC3", "count": 3});
+        let number = document.accessor(&bytes, accessor);
+        let view = document.json["accessors"][number]["bufferView"].clone();
+        document.json["bufferViews"][view.as_u64().unwrap_or(0) as usize]["byteStride"] =
+            json!(stride);
+        document.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = json!(number);
+        let expected =
+            if (12..=252).contains(&stride) { Expected::LoadsClean } else { Expected::Refused };
+        Case::of(format!("stride {stride}"), &document, expected)
+    };
+    (0..=300).map(stride).collect()
+}
+
+fn sparse() -> Vec<Case> {
+    let case = |name: &str, indices: &[u8], sparse: Value, expected: Expected| {
+        let mut document = Document::triangle();
+        let at = document.view(indices);
+        let values = document.view(&floats(&[9.0; 6]));
+        let mut sparse = sparse;
+        sparse["indices"] = json!({"bufferView": at, "componentType": 5121});
+        sparse["values"] = json!({"bufferView": values});
+        Case::of(format!("sparse: {name}"), &document.with("/accessors/0/sparse", sparse), expected)
+    };
+    let refused = |text: &str| Expected::Says(text.to_owned());
+    vec![
+        case("two of three", &[0, 2], json!({"count": 2}), Expected::LoadsClean),
+        case("none", &[], json!({"count": 0}), Expected::Loads),
+        case(
+            "out of range",
+            &[0, 3],
+            json!({"count": 2}),
+            refused(
+                "/accessors/0/sparse/indices: element 3 is to be replaced and there are 3; export the file again",
+            ),
+        ),
+        case("falling", &[2, 0], json!({"count": 2}), Expected::Loads),
+        case("doubled", &[1, 1], json!({"count": 2}), Expected::Loads),
+        case("too many", &[0, 1], json!({"count": 3}), Expected::Refused),
+        case("far too many", &[0, 1], json!({"count": u64::MAX}), Expected::Refused),
+    ]
+}
+
+/// Values that are no places, and indices that have no vertex.
+fn values() -> Vec<Case> {
+    let mut cases = Vec::new();
+    for wrong in
+        [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN, f32::MIN_POSITIVE, 1e-45]
+    {
+        for accessor in [0, 2, 3, 6, 7, 8] {
+            for word in 0..6 {
+                let mut document = Document::rich();
+                let view = document.json["accessors"][accessor]["bufferView"].as_u64().unwrap_or(0);
+                let start = document.json["bufferViews"][view as usize]["byteOffset"]
+                    .as_u64()
+                    .unwrap_or(0) as usize;
+                if let Some(bytes) = document.bytes.get_mut(start + 4 * word..start + 4 * word + 4)
+                {
+                    bytes.copy_from_slice(&wrong.to_le_bytes());
+                }
+                cases.push(Case::of(
+                    format!("accessor {accessor}, word {word} is {wrong}"),
+                    &document,
+                    Expected::Anything,
+                ));
+            }
+        }
+    }
+    for index in [3u16, 4, 255, 256, u16::MAX] {
+        for place in 0..3 {
+            for mode in 0..=7 {
+                let mut document =
+                    Document::triangle().with("/meshes/0/primitives/0/mode", json!(mode));
+                document.bytes[36 + 2 * place..38 + 2 * place]
+                    .copy_from_slice(&index.to_le_bytes());
+                let expected = if mode == 7 { Expected::Refused } else { Expected::Loads };
+                cases.push(Case::of(
+                    format!("index {place} is {index} in mode {mode}"),
+                    &document,
+                    expected,
+                ));
+            }
+        }
+    }
+    cases
+}
+
+/// Accessors without bytes: zeros, in bounded numbers.
+fn zeros() -> Vec<Case> {
+    let case = |count: u64, expected: Expected| {
+        let document = Document::triangle()
+            .without("/accessors/0/bufferView")
+            .with("/accessors/0/count", json!(count));
+        Case::of(format!("{count} zeros"), &document, expected)
+    };
+    let too_many = |count: u64| {
+        Expected::Says(format!(
+            "/accessors/0/count: {count} elements are read up to here, more than the limit of 100000000; \
+             raise the limit `elements` if you trust the file"
+        ))
+    };
+    vec![
+        case(3, Expected::LoadsClean),
+        case(1_000_000, Expected::LoadsClean),
+        case(2_000_001, Expected::Says(
+            "/accessors/0/count: 2000001 elements are read up to here, more than the limit of 2000000; \
+             raise the limit `zero_elements` if you trust the file".to_owned(),
+        )),
+        case(4_000_000_000, too_many(4_000_000_000)),
+        case(u64::MAX, too_many(u64::MAX)),
+    ]
+}

@@ -1,0 +1,75 @@
+//! A hostile file, and what is to come of it.
+
+use crate::document::Document;
+use crate::promises;
+use pipeline::import::{ImportOptions, load};
+use std::path::Path;
+
+/// A file that wishes the importer ill.
+pub struct Case {
+    pub name: String,
+    pub file: Vec<u8>,
+    pub options: ImportOptions,
+    pub expected: Expected,
+}
+
+/// What must come of a file, besides that loading returns and keeps its promises.
+pub enum Expected {
+    /// Either a model or an error.
+    Anything,
+    /// A model.
+    Loads,
+    /// A model without any warning.
+    LoadsClean,
+    /// A model with a warning.
+    Warned,
+    /// A model with a warning that reads so: the pointer, a blank, the message.
+    Warns(String),
+    /// An error.
+    Refused,
+    /// An error that reads so, after the file's name.
+    Says(String),
+}
+
+impl Case {
+    pub fn new(name: impl Into<String>, file: Vec<u8>, expected: Expected) -> Self {
+        Self { name: name.into(), file, options: ImportOptions::default(), expected }
+    }
+
+    pub fn of(name: impl Into<String>, document: &Document, expected: Expected) -> Self {
+        Self::new(name, document.glb(), expected)
+    }
+
+    /// Writes the file into a folder, loads it, and compares.
+    pub fn run(&self, folder: &Path) -> Result<(), String> {
+        let path = folder.join("model.gltf");
+        std::fs::write(&path, &self.file).map_err(|error| error.to_string())?;
+        judge(&path, &self.options, &self.expected)
+    }
+}
+
+/// Loads a file and compares what comes of it with what is expected.
+pub fn judge(path: &Path, options: &ImportOptions, expected: &Expected) -> Result<(), String> {
+    let loaded = load(path, options);
+    if let Ok(model) = &loaded {
+        promises::check(model)?;
+    }
+    let said = loaded.as_ref().err().map(|error| error.fault.to_string());
+    match (expected, &loaded, said) {
+        (Expected::Anything, ..) | (Expected::Loads, Ok(_), _) | (Expected::Refused, Err(_), _) => {
+            Ok(())
+        }
+        (Expected::Warned, Ok(model), _) if !model.warnings.is_empty() => Ok(()),
+        (Expected::Warned, Ok(_), _) => Err("there is no warning".to_owned()),
+        (Expected::LoadsClean, Ok(model), _) if model.warnings.is_empty() => Ok(()),
+        (Expected::LoadsClean, Ok(model), _) => Err(format!("warnings: {:?}", model.warnings)),
+        (Expected::Warns(text), Ok(model), _) => {
+            let warnings = model.warnings.iter().map(|w| format!("{} {}", w.pointer, w.message));
+            let warnings: Vec<String> = warnings.collect();
+            if warnings.contains(text) { Ok(()) } else { Err(format!("warnings: {warnings:#?}")) }
+        }
+        (Expected::Says(text), Err(_), Some(said)) if *text == said => Ok(()),
+        (_, Err(_), Some(said)) => Err(format!("refused: {said}")),
+        _ => Err("it was loaded".to_owned()),
+    }
+}

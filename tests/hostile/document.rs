@@ -1,0 +1,156 @@
+//! Small valid glTF files, to be spoilt.
+
+use serde_json::{Value, json};
+
+/// A glTF document with the bytes of its only buffer.
+#[derive(Clone)]
+pub struct Document {
+    pub json: Value,
+    pub bytes: Vec<u8>,
+}
+
+impl Document {
+    /// One triangle with indices: accessor 0 has the positions, accessor 1 the indices.
+    pub fn triangle() -> Self {
+        let mut document = Self {
+            json: json!({
+                "asset": {"version": "2.0"},
+                "scene": 0,
+                "scenes": [{"nodes": [0]}],
+                "nodes": [{"mesh": 0}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+                "accessors": [], "bufferViews": [], "buffers": [{"byteLength": 0}]
+            }),
+            bytes: Vec::new(),
+        };
+        let corners: [f32; 9] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+        document.accessor(
+            &floats(&corners),
+            json!({"componentType": 5126, "type": "VEC3", "count": 3}),
+        );
+        let indices = [0u8, 0, 1, 0, 2, 0];
+        document.accessor(&indices, json!({"componentType": 5123, "type": "SCALAR", "count": 3}));
+        document
+    }
+
+    /// Everything that is read: a skinned, textured, coloured triangle with normals, a camera, an animation, a sparse accessor.
+    pub fn rich() -> Self {
+        let mut document = Self::triangle();
+        let vec3 = |count: usize| json!({"componentType": 5126, "type": "VEC3", "count": count});
+        let normals = document.accessor(&floats(&[0.0, 0.0, 1.0].repeat(3)), vec3(3));
+        let uv = json!({"componentType": 5126, "type": "VEC2", "count": 3});
+        let uvs = document.accessor(&floats(&[0.0, 1.0, 0.5, 0.25, 0.0, 0.75]), uv);
+        let color = json!({"componentType": 5121, "type": "VEC4", "count": 3, "normalized": true});
+        let colors = document.accessor(&[255; 12], color);
+        let joint = json!({"componentType": 5121, "type": "VEC4", "count": 3});
+        let joints = document.accessor(&[0; 12], joint);
+        let weight = json!({"componentType": 5126, "type": "VEC4", "count": 3});
+        let weights = document.accessor(&floats(&[1.0, 0.0, 0.0, 0.0].repeat(3)), weight);
+        let identity: Vec<f32> = (0..16).map(|at| if at % 5 == 0 { 1.0 } else { 0.0 }).collect();
+        let matrix = json!({"componentType": 5126, "type": "MAT4", "count": 1});
+        let bind = document.accessor(&floats(&identity), matrix);
+        let time = json!({"componentType": 5126, "type": "SCALAR", "count": 2});
+        let times = document.accessor(&floats(&[0.0, 1.5]), time);
+        let moves = document.accessor(&floats(&[0.0; 6]), vec3(2));
+        let image = document.view(&super::images::png(2, 2));
+        let at = document.view(&[0, 0, 0, 0]);
+        document.json["accessors"][0]["sparse"] = json!({"count": 1,
+            "indices": {"bufferView": at, "componentType": 5123}, "values": {"bufferView": 0, "byteOffset": 0}});
+        document.json["meshes"][0]["name"] = json!("triangle");
+        document.json["meshes"][0]["primitives"][0] = json!({"indices": 1, "material": 0, "mode": 4,
+            "attributes": {"POSITION": 0, "NORMAL": normals, "TEXCOORD_0": uvs, "COLOR_0": colors,
+                "JOINTS_0": joints, "WEIGHTS_0": weights}});
+        document.json["nodes"] = json!([
+            {"mesh": 0, "skin": 0, "children": [1, 2], "name": "top"},
+            {"translation": [0, 0, 1], "rotation": [0, 0, 0, 1], "scale": [1, 1, 1]},
+            {"camera": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}]);
+        document.json["skins"] =
+            json!([{"joints": [1], "inverseBindMatrices": bind, "skeleton": 1}]);
+        document.json["cameras"] = json!([
+            {"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1, "zfar": 100, "aspectRatio": 1.5}},
+            {"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "znear": 0, "zfar": 10}}]);
+        document.json["materials"] = json!([{"name": "paint", "doubleSided": true, "alphaMode": "MASK", "alphaCutoff": 0.5,
+            "emissiveFactor": [0, 0, 1], "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 1], "metallicFactor": 0,
+                "roughnessFactor": 1, "baseColorTexture": {"index": 0, "texCoord": 0,
+                    "extensions": {"KHR_texture_transform": {"offset": [0, 0], "rotation": 0.5, "scale": [1, 1], "texCoord": 0}}}},
+            "extensions": {"KHR_materials_unlit": {}, "KHR_materials_emissive_strength": {"emissiveStrength": 2},
+                "KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [1, 1, 1, 1], "glossinessFactor": 0.5,
+                    "diffuseTexture": {"index": 0}}}}]);
+        document.json["textures"] = json!([{"source": 0, "sampler": 0}]);
+        document.json["samplers"] =
+            json!([{"magFilter": 9728, "minFilter": 9987, "wrapS": 33071, "wrapT": 33648}]);
+        document.json["images"] = json!([{"bufferView": image, "mimeType": "image/png"}]);
+        document.json["animations"] = json!([{"name": "move",
+            "samplers": [{"input": times, "output": moves, "interpolation": "LINEAR"}],
+            "channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}]}]);
+        document.json["extensionsUsed"] = json!(["KHR_materials_unlit", "KHR_texture_transform"]);
+        document
+    }
+
+    /// Adds a buffer view with these bytes; gives its number.
+    pub fn view(&mut self, bytes: &[u8]) -> usize {
+        let start = self.bytes.len();
+        self.bytes.extend(bytes);
+        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
+        self.json["buffers"][0]["byteLength"] = json!(self.bytes.len());
+        let views = self.json["bufferViews"].as_array_mut().expect("the document has buffer views");
+        views.push(json!({"buffer": 0, "byteOffset": start, "byteLength": bytes.len()}));
+        views.len() - 1
+    }
+
+    /// Adds an accessor over a view of its own; gives its number.
+    pub fn accessor(&mut self, bytes: &[u8], mut accessor: Value) -> usize {
+        accessor["bufferView"] = json!(self.view(bytes));
+        let accessors = self.json["accessors"].as_array_mut().expect("the document has accessors");
+        accessors.push(accessor);
+        accessors.len() - 1
+    }
+
+    /// The document with the member at a JSON pointer set; its parent must exist.
+    #[must_use]
+    pub fn with(mut self, pointer: &str, value: Value) -> Self {
+        let (parent, member) = pointer.rsplit_once('/').expect("a pointer begins with a slash");
+        let parent = self.json.pointer_mut(parent).expect("the parent exists");
+        match member.parse::<usize>() {
+            Ok(index) if parent.is_array() => parent[index] = value,
+            _ => parent[member] = value,
+        }
+        self
+    }
+
+    /// The document without the member at a JSON pointer.
+    #[must_use]
+    pub fn without(mut self, pointer: &str) -> Self {
+        let (parent, member) = pointer.rsplit_once('/').expect("a pointer begins with a slash");
+        let parent = self.json.pointer_mut(parent).expect("the parent exists");
+        if let Some(members) = parent.as_object_mut() {
+            members.remove(member);
+        }
+        self
+    }
+
+    /// The document as a binary file.
+    pub fn glb(&self) -> Vec<u8> {
+        glb(self.json.to_string().as_bytes(), &self.bytes)
+    }
+}
+
+/// A binary file of two chunks.
+pub fn glb(json: &[u8], bytes: &[u8]) -> Vec<u8> {
+    let mut file = b"glTF\x02\0\0\0\0\0\0\0".to_vec();
+    for (kind, filler, data) in [(b"JSON", b' ', json), (b"BIN\0", 0, bytes)] {
+        let length = data.len().next_multiple_of(4);
+        file.extend((length as u32).to_le_bytes());
+        file.extend(kind);
+        file.extend(data);
+        file.resize(file.len() + length - data.len(), filler);
+    }
+    let length = (file.len() as u32).to_le_bytes();
+    file[8..12].copy_from_slice(&length);
+    file
+}
+
+/// Numbers as they lie in a buffer.
+pub fn floats(numbers: &[f32]) -> Vec<u8> {
+    numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
+}

@@ -1,0 +1,106 @@
+//! Images that lie about their size, are cut off, or are something else.
+
+use crate::case::{Case, Expected};
+use crate::document::Document;
+use serde_json::json;
+
+/// A valid PNG of one colour.
+pub fn png(width: u32, height: u32) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Rgba);
+    let pixels = vec![128; (width * height * 4) as usize];
+    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&pixels));
+    written.expect("a small PNG can be written to memory");
+    bytes
+}
+
+/// A PNG whose header says what it likes; the checksum is right.
+fn lying_png(width: u32, height: u32, depth: u8, color: u8) -> Vec<u8> {
+    let mut bytes = png(2, 2);
+    bytes[16..20].copy_from_slice(&width.to_be_bytes());
+    bytes[20..24].copy_from_slice(&height.to_be_bytes());
+    (bytes[24], bytes[25]) = (depth, color);
+    let checksum = crc(&bytes[12..29]);
+    bytes[29..33].copy_from_slice(&checksum.to_be_bytes());
+    bytes
+}
+
+/// The checksum of PNG (ISO 3309), bit by bit.
+fn crc(bytes: &[u8]) -> u32 {
+    let step = |crc: u32, _| if crc & 1 == 1 { (crc >> 1) ^ 0xEDB8_8320 } else { crc >> 1 };
+    !bytes.iter().fold(u32::MAX, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))
+}
+
+/// The header of a JPEG with so many components, and nothing after it.
+fn jpeg_header(width: u16, height: u16, components: u8) -> Vec<u8> {
+    let mut bytes = vec![0xFF, 0xD8, 0xFF, 0xC0, 0, 8 + 3 * components, 8];
+    bytes.extend(height.to_be_bytes());
+    bytes.extend(width.to_be_bytes());
+    bytes.push(components);
+    (1..=components).for_each(|number| bytes.extend([number, 0x11, 0]));
+    bytes.extend([0xFF, 0xDA, 0, 2, 0xFF, 0xD9]);
+    bytes
+}
+
+/// A textured triangle with this image.
+fn textured(name: &str, image: &[u8], expected: Expected) -> Case {
+    let mut document = Document::rich();
+    let view = document.view(image);
+    Case::of(
+        format!("image: {name}"),
+        &document.with("/images/0/bufferView", json!(view)),
+        expected,
+    )
+}
+
+fn warns(problem: &str) -> Expected {
+    Expected::Warns(format!("/images/0 {problem}; the surface is shown without it"))
+}
+
+pub fn cases() -> Vec<Case> {
+    let mut cases = vec![
+        textured(
+            "100,000 squared",
+            &lying_png(100_000, 100_000, 8, 6),
+            warns("the image has 100000 x 100000 texels, more than the limit of 16384"),
+        ),
+        textured("16,384 squared without data", &lying_png(16_384, 16_384, 8, 6), Expected::Loads),
+        textured("2^31 wide", &lying_png(i32::MAX as u32, 1, 8, 6), Expected::Loads),
+        textured("no width", &lying_png(0, 7, 8, 6), Expected::Loads),
+        textured("empty", &[], warns("the image is empty")),
+        textured(
+            "text",
+            b"hello",
+            warns("this is of an unknown format; only PNG, JPEG and WebP are read"),
+        ),
+        textured("GIF", b"GIF89a", warns("this is a GIF image; only PNG, JPEG and WebP are read")),
+        textured(
+            "KTX2",
+            b"\xABKTX 20\xBB\r\n\x1A\n",
+            warns("this is a KTX image; only PNG, JPEG and WebP are read"),
+        ),
+        textured("JPEG for printing", &jpeg_header(8, 8, 4), Expected::Loads),
+        textured("JPEG, 65,500 squared", &jpeg_header(65_500, 65_500, 3), Expected::Loads),
+        textured("JPEG without data", &jpeg_header(64, 64, 3), Expected::Loads),
+        textured("WebP header", b"RIFF\xFF\xFF\xFF\xFFWEBPVP8 \xFF\xFF\xFF\xFF", Expected::Loads),
+    ];
+    for depth in [0, 1, 2, 3, 4, 8, 16, 32] {
+        for color in 0..8 {
+            let name = format!("PNG of {depth} bits, colour type {color}");
+            cases.push(textured(&name, &lying_png(2, 2, depth, color), Expected::Loads));
+        }
+    }
+    let whole = png(9, 5);
+    for end in 0..whole.len() {
+        cases.push(textured(&format!("PNG cut at {end}"), &whole[..end], Expected::Loads));
+        let mut changed = whole.clone();
+        changed[end] ^= 0xFF;
+        cases.push(textured(&format!("PNG byte {end} changed"), &changed, Expected::Loads));
+    }
+    let header = jpeg_header(64, 64, 3);
+    for end in 0..header.len() {
+        cases.push(textured(&format!("JPEG cut at {end}"), &header[..end], Expected::Loads));
+    }
+    cases
+}

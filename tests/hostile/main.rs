@@ -1,0 +1,131 @@
+//! Files that wish the importer ill, built here, each loaded in this process.
+//!
+//! Whatever a file says, loading returns, does not panic, takes little time and little memory; and if there is a model, it
+//! keeps every promise of its documentation. What must come of a file is stated where it is certain, word by word where the
+//! message matters. Arguments that are not flags choose cases by a part of their name, as in `cargo test`.
+
+#![allow(clippy::print_stdout, reason = "a test program speaks on its standard output")]
+#![allow(missing_docs, unreachable_pub, reason = "the modules of a program have no other outside")]
+
+mod accessors;
+mod bytes;
+mod case;
+mod document;
+mod images;
+mod members;
+mod nodes;
+mod promises;
+mod text;
+mod types;
+mod uris;
+
+use case::Case;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+/// So much memory the whole run may take at any time.
+const MEMORY_MIB: u64 = 200;
+
+/// A case that takes longer hangs, however busy the machine is.
+const HANG: Duration = Duration::from_secs(10);
+
+#[derive(Default)]
+struct Tally {
+    passed: usize,
+    failed: usize,
+    slowest: (Duration, String),
+    largest: (u64, String),
+}
+
+fn main() -> ExitCode {
+    let folder = std::env::temp_dir().join(format!("alberti-hostile-{}", std::process::id()));
+    let tally = run(&folder);
+    let _ = std::fs::remove_dir_all(&folder);
+    match tally {
+        Ok(tally) => {
+            println!("slowest: {:?} {}", tally.slowest.0, tally.slowest.1);
+            println!("memory: {} MiB since {}", tally.largest.0, tally.largest.1);
+            println!("{} passed, {} failed, 0 skipped", tally.passed, tally.failed);
+            if tally.failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+        }
+        Err(error) => {
+            println!("FAILED hostile: {error}");
+            println!("0 passed, 1 failed, 0 skipped");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(folder: &Path) -> Result<Tally, String> {
+    std::fs::create_dir_all(folder).map_err(|error| error.to_string())?;
+    let filters: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
+    let is_chosen =
+        |name: &str| filters.is_empty() || filters.iter().any(|f| name.contains(f.as_str()));
+    let mut tally = Tally::default();
+    for (group, cases) in groups() {
+        let before = tally.passed + tally.failed;
+        for case in cases().iter().filter(|case| is_chosen(&case.name)) {
+            tally.note(&case.name, || case.run(folder));
+        }
+        println!("{group}: {} cases", tally.passed + tally.failed - before);
+    }
+    let uris = uris::run(&folder.join("uris"))?;
+    println!("uris: {} cases", uris.len());
+    for (name, result) in uris.into_iter().filter(|(name, _)| is_chosen(name)) {
+        tally.note(&name, || result);
+    }
+    if tally.largest.0 > MEMORY_MIB {
+        tally.failed += 1;
+        println!("FAILED memory: {} MiB since {}", tally.largest.0, tally.largest.1);
+    }
+    Ok(tally)
+}
+
+type Cases = fn() -> Vec<Case>;
+
+fn groups() -> [(&'static str, Cases); 7] {
+    [
+        ("types", types::cases),
+        ("accessors", accessors::cases),
+        ("bytes", bytes::cases),
+        ("members", members::cases),
+        ("nodes", nodes::cases),
+        ("images", images::cases),
+        ("text", text::cases),
+    ]
+}
+
+impl Tally {
+    /// Runs a case and counts it.
+    fn note(&mut self, name: &str, case: impl FnOnce() -> Result<(), String>) {
+        let start = Instant::now();
+        let result =
+            catch_unwind(AssertUnwindSafe(case)).unwrap_or_else(|_| Err("panic".to_owned()));
+        let time = start.elapsed();
+        if time > self.slowest.0 {
+            self.slowest = (time, name.to_owned());
+        }
+        let memory = peak_memory_mib();
+        if memory > self.largest.0 {
+            self.largest = (memory, name.to_owned());
+        }
+        match result {
+            Ok(()) if time < HANG => self.passed += 1,
+            result => {
+                let problem = result.err().unwrap_or_else(|| format!("it took {time:?}"));
+                println!("FAILED {name}: {problem}");
+                self.failed += 1;
+            }
+        }
+    }
+}
+
+/// The most memory this process has had so far, where the system tells; else 0.
+fn peak_memory_mib() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kib = line.and_then(|line| line.split_whitespace().next()?.parse::<u64>().ok());
+    kib.unwrap_or(0) / 1024
+}

@@ -1,0 +1,166 @@
+//! Node trees that are no trees, or too deep, or out of all bounds.
+
+use crate::case::{Case, Expected};
+use crate::document::Document;
+use serde_json::{Value, json};
+
+fn nodes(name: &str, nodes: Value, expected: Expected) -> Case {
+    Case::of(format!("nodes: {name}"), &Document::triangle().with("/nodes", nodes), expected)
+}
+
+fn says(text: &str) -> Expected {
+    Expected::Says(format!("{text}; export the file again"))
+}
+
+pub fn cases() -> Vec<Case> {
+    let chain = |length: usize| {
+        let node = |at: usize| {
+            if at + 1 < length { json!({"children": [at + 1]}) } else { json!({"mesh": 0}) }
+        };
+        Value::Array((0..length).map(node).collect())
+    };
+    let doubled: Vec<Value> = (0..61)
+        .map(|at| if at < 60 { json!({"children": [at + 1, at + 1]}) } else { json!({}) })
+        .collect();
+    let deep = "raise the limit `node_depth` if you trust the file";
+    let mut cases = vec![
+        nodes(
+            "below itself",
+            json!([{"children": [0]}]),
+            says("/nodes/0/children: node 0 is below itself"),
+        ),
+        nodes(
+            "a ring of three",
+            json!([{"children": [1]}, {"children": [2]}, {"children": [0]}]),
+            says("/nodes/0/children: node 0 is below itself"),
+        ),
+        nodes(
+            "a ring beside the scene",
+            json!([{}, {"children": [2]}, {"children": [1]}]),
+            says("/nodes/1/children: node 1 is below itself"),
+        ),
+        nodes(
+            "two parents",
+            json!([{"children": [1, 2]}, {"children": [2]}, {}]),
+            says("/nodes/1/children/0: node 2 is a child of node 0 already"),
+        ),
+        nodes(
+            "a child twice",
+            json!([{"children": [1, 1]}, {}]),
+            says("/nodes/0/children/1: node 1 is a child of node 0 already"),
+        ),
+        nodes("2^60 paths", Value::Array(doubled), Expected::Refused),
+        nodes(
+            "no such child",
+            json!([{"children": [1]}]),
+            says("/nodes/0/children/0: there is no node 1: the file has only node 0"),
+        ),
+        nodes(
+            "no such mesh",
+            json!([{"mesh": 1}]),
+            says("/nodes/0/mesh: there is no mesh 1: the file has only mesh 0"),
+        ),
+        nodes(
+            "no such skin",
+            json!([{"mesh": 0, "skin": 0}]),
+            says("/nodes/0/skin: there is no skin 0: the file has none"),
+        ),
+        nodes("1,024 deep", chain(1024), Expected::LoadsClean),
+        nodes(
+            "1,025 deep",
+            chain(1025),
+            Expected::Says(format!(
+                "/nodes/1024: the node tree is 1025 levels deep, more than the limit of 1024; {deep}"
+            )),
+        ),
+        nodes("100,000 deep", chain(100_000), Expected::Refused),
+        nodes("100,000 wide", json!(vec![json!({"mesh": 0}); 100_000]), Expected::LoadsClean),
+    ];
+    cases.extend(transforms());
+    cases.extend(scenes());
+    cases
+}
+
+fn transforms() -> Vec<Case> {
+    let matrix = |last: [f64; 4]| {
+        let mut matrix =
+            [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+        for (column, value) in last.into_iter().enumerate() {
+            matrix[4 * column + 3] = value;
+        }
+        json!([{"mesh": 0, "matrix": matrix}])
+    };
+    let huge =
+        json!([{"scale": [1e200, 1, 1], "children": [1]}, {"mesh": 0, "scale": [1e200, 1, 1]}]);
+    vec![
+        nodes(
+            "a matrix that divides",
+            matrix([0.0, 0.0, -1.0, 0.0]),
+            says(
+                "/nodes/0/matrix: the last row of the matrix is [0.0, 0.0, -1.0, 0.0] and not [0, 0, 0, 1]",
+            ),
+        ),
+        nodes("a matrix rounded", matrix([0.0, 1e-9, 0.0, 0.999_999_9]), Expected::LoadsClean),
+        nodes("zero matrix", json!([{"mesh": 0, "matrix": vec![0; 16]}]), Expected::Refused),
+        nodes(
+            "15 numbers",
+            json!([{"mesh": 0, "matrix": vec![0; 15]}]),
+            says("/nodes/0/matrix: 16 numbers are due"),
+        ),
+        nodes(
+            "zero rotation",
+            json!([{"mesh": 0, "rotation": [0, 0, 0, 0]}]),
+            says("/nodes/0/rotation: [0.0, 0.0, 0.0, 0.0] is not a rotation"),
+        ),
+        nodes(
+            "long rotation",
+            json!([{"mesh": 0, "rotation": [0, 0, 5e200, 5e200]}]),
+            Expected::LoadsClean,
+        ),
+        nodes("zero scale", json!([{"mesh": 0, "scale": [0, 0, 0]}]), Expected::LoadsClean),
+        nodes("mirror", json!([{"mesh": 0, "scale": [-1, 1, 1]}]), Expected::LoadsClean),
+        nodes(
+            "a product beyond numbers",
+            huge,
+            says("/nodes/1: the product of the transforms down to here is too large for numbers"),
+        ),
+        nodes("far away", json!([{"mesh": 0, "translation": [1e300, 0, 0]}]), Expected::Anything),
+    ]
+}
+
+fn scenes() -> Vec<Case> {
+    let scene = |name: &str, member: &str, value: Value, expected: Expected| {
+        let document = Document::triangle().with("/nodes", json!([{"children": [1]}, {"mesh": 0}]));
+        Case::of(format!("scenes: {name}"), &document.with(member, value), expected)
+    };
+    vec![
+        scene(
+            "no such scene",
+            "/scene",
+            json!(1),
+            says("/scene: there is no scene 1: the file has only scene 0"),
+        ),
+        scene(
+            "no such node",
+            "/scenes/0/nodes",
+            json!([2]),
+            says("/scenes/0/nodes/0: there is no node 2: the file has nodes 0 to 1"),
+        ),
+        scene(
+            "a child listed",
+            "/scenes/0/nodes",
+            json!([1]),
+            Expected::Warns("/scenes/0/nodes node 1 is listed, but it is no root".to_owned()),
+        ),
+        scene("a child listed with its parent", "/scenes/0/nodes", json!([0, 1]), Expected::Loads),
+        scene(
+            "a node twice",
+            "/scenes/0/nodes",
+            json!([0, 0]),
+            Expected::Warns(
+                "/scenes/0/nodes/1 the node is listed twice; it is shown once".to_owned(),
+            ),
+        ),
+        scene("no scenes", "/scenes", json!([]), Expected::Refused),
+    ]
+}

@@ -1,0 +1,110 @@
+//! What a loaded model promises, checked without mercy.
+
+use pipeline::model::{Model, Primitive};
+
+/// Every sentence of the model's documentation that can be checked.
+pub fn check(model: &Model) -> Result<(), String> {
+    for (at, mesh) in model.meshes.iter().enumerate() {
+        for (part, primitive) in mesh.primitives.iter().enumerate() {
+            check_primitive(model, primitive)
+                .map_err(|e| format!("mesh {at}, primitive {part}: {e}"))?;
+        }
+    }
+    check_nodes(model)?;
+    for material in &model.materials {
+        let used = material.base_color_texture;
+        must(used.is_none_or(|used| used.texture < model.textures.len()), "a texture is lacking")?;
+        let numbers =
+            [material.metallic, material.roughness].into_iter().chain(material.base_color);
+        must(numbers.chain(material.emissive).all(f32::is_finite), "a factor is not finite")?;
+        let uv_map = used.map(|used| used.uv_map);
+        let finite = |map: [[f32; 3]; 2]| map.as_flattened().iter().all(|x| x.is_finite());
+        must(uv_map.is_none_or(finite), "a texture transform is not finite")?;
+    }
+    for texture in &model.textures {
+        must(texture.image.is_none_or(|image| image < model.images.len()), "an image is lacking")?;
+    }
+    for image in model.images.iter().flatten() {
+        let texels = u64::from(image.width) * u64::from(image.height);
+        must(texels > 0 && image.rgba.len() as u64 == texels, "an image is incomplete")?;
+    }
+    for instance in model.instances() {
+        must(instance.node_to_model.is_finite(), "a place is not finite")?;
+        let mesh = model.nodes[instance.node].mesh.map(|mesh| &model.meshes[mesh]);
+        for primitive in mesh.iter().flat_map(|mesh| &mesh.primitives) {
+            check_posed(model, instance, primitive)?;
+        }
+    }
+    Ok(())
+}
+
+fn must(truth: bool, otherwise: &str) -> Result<(), String> {
+    if truth { Ok(()) } else { Err(otherwise.to_owned()) }
+}
+
+fn check_primitive(model: &Model, primitive: &Primitive) -> Result<(), String> {
+    let vertices = primitive.positions.len();
+    let whole = primitive.indices.len().is_multiple_of(primitive.topology.corners());
+    must(whole, "an item is incomplete")?;
+    must(primitive.indices.iter().all(|&i| (i as usize) < vertices), "an index has no vertex")?;
+    must(
+        primitive.positions.as_flattened().iter().all(|x| x.is_finite()),
+        "a position is not finite",
+    )?;
+    let lengths = [
+        primitive.normals.as_ref().map(Vec::len),
+        primitive.colors.as_ref().map(Vec::len),
+        primitive.joints.as_ref().map(Vec::len),
+        primitive.weights.as_ref().map(Vec::len),
+    ];
+    let uvs = primitive.uvs.iter().map(Vec::len);
+    must(
+        lengths.into_iter().flatten().chain(uvs).all(|n| n == vertices),
+        "an array has another length",
+    )?;
+    must(primitive.normals.iter().flatten().all(is_unit), "a normal is not of unit length")?;
+    let uvs = primitive.uvs.iter().flatten().flatten();
+    must(uvs.into_iter().all(|x| x.is_finite()), "a texture coordinate is not finite")?;
+    let colors = primitive.colors.iter().flatten().flatten();
+    must(colors.into_iter().all(|x| (0.0..=1.0).contains(x)), "a colour is not in [0, 1]")?;
+    must(primitive.material.is_none_or(|at| at < model.materials.len()), "a material is lacking")
+}
+
+fn is_unit(normal: &[f32; 3]) -> bool {
+    let square: f64 = normal.iter().map(|&x| f64::from(x) * f64::from(x)).sum();
+    (square - 1.0).abs() < 1e-5
+}
+
+fn check_nodes(model: &Model) -> Result<(), String> {
+    for (at, node) in model.nodes.iter().enumerate() {
+        must(node.to_parent.is_finite(), "a transform is not finite")?;
+        must(node.mesh.is_none_or(|mesh| mesh < model.meshes.len()), "a mesh is lacking")?;
+        must(node.camera.is_none_or(|camera| camera < model.cameras.len()), "a camera is lacking")?;
+        let skin =
+            node.skin.map(|skin| model.skins.get(skin).is_some_and(|s| !s.joints.is_empty()));
+        must(skin != Some(false), "a skin is lacking")?;
+        let child_knows =
+            |&child: &usize| model.nodes.get(child).is_some_and(|c| c.parent == Some(at));
+        must(node.children.iter().all(child_knows), "a child has another parent")?;
+    }
+    for skin in &model.skins {
+        must(skin.joints.len() == skin.inverse_bind.len(), "a joint has no matrix")?;
+        must(skin.joints.iter().all(|&joint| joint < model.nodes.len()), "a joint is lacking")?;
+    }
+    must(model.roots.iter().all(|&root| root < model.nodes.len()), "a root is lacking")
+}
+
+fn check_posed(
+    model: &Model,
+    instance: pipeline::model::Instance,
+    primitive: &Primitive,
+) -> Result<(), String> {
+    let posed = model.posed(instance, primitive);
+    let finite = posed.positions.as_flattened().iter().all(|x| x.is_finite());
+    must(finite, "a bent position is not finite")?;
+    must(posed.positions.len() == primitive.positions.len(), "a vertex is lost in bending")?;
+    must(
+        posed.normals.iter().flat_map(|n| n.iter()).all(is_unit),
+        "a bent normal is not of unit length",
+    )
+}

@@ -1,0 +1,162 @@
+//! JSON that is deep, large, oddly encoded or not JSON; versions and extensions that are not known.
+
+use crate::case::{Case, Expected};
+use crate::document::{Document, glb};
+use serde_json::{Value, json};
+
+fn text(name: &str, text: impl Into<Vec<u8>>, expected: Expected) -> Case {
+    Case::new(format!("text: {name}"), text.into(), expected)
+}
+
+fn says(text: &str) -> Expected {
+    Expected::Says(text.to_owned())
+}
+
+/// A valid document with one more member, as text.
+fn plus(member: &str) -> String {
+    format!(r#"{{"asset": {{"version": "2.0"}}, {member}}}"#)
+}
+
+pub fn cases() -> Vec<Case> {
+    let deep = |n: usize| plus(&format!(r#""extras": {}{}"#, "[".repeat(n), "]".repeat(n)));
+    let utf16: Vec<u8> = "\u{FEFF}{}".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let mut cases = vec![
+        text("empty", "", says("the file is empty; give a .gltf or .glb file")),
+        text("blanks", " \n\t ", says("the file is empty; give a .gltf or .glb file")),
+        text(
+            "not glTF",
+            "solid cube",
+            says(
+                "this is not a glTF file: it starts neither with { nor with glTF; give a .gltf or .glb file",
+            ),
+        ),
+        text("UTF-16", utf16, says("the text is in UTF-16; save it in UTF-8")),
+        text(
+            "byte order mark",
+            format!("\u{FEFF}{}", plus(r#""nodes": []"#)),
+            Expected::LoadsClean,
+        ),
+        text("not UTF-8", b"{\"asset\": {\"version\": \"2.0\xFF\"}}".to_vec(), Expected::Refused),
+        text("119 deep", deep(119), Expected::LoadsClean),
+        text("120 deep", deep(120), Expected::Refused),
+        text("100,000 deep", deep(100_000), Expected::Refused),
+        text("100,000 open", "[{".repeat(50_000), Expected::Refused),
+        text("100,000 open in an object", "{\"a\":".repeat(100_000), Expected::Refused),
+        text(
+            "10,000,000 values",
+            plus(&format!(r#""extras": [{}0]"#, "0,".repeat(10_000_000))),
+            says(
+                "the JSON has 10000005 values, more than the limit of 8000000; raise the limit `json_values` if you trust the file",
+            ),
+        ),
+        text(
+            "one long string",
+            plus(&format!(r#""extras": "{}""#, "x".repeat(4_000_000))),
+            Expected::LoadsClean,
+        ),
+        text(
+            "a string without end",
+            plus(&format!(r#""extras": "{}\"#, "x".repeat(1000))),
+            Expected::Refused,
+        ),
+        text("NaN", plus(r#""extras": NaN"#), Expected::Refused),
+        text("1e999", plus(r#""extras": 1e999"#), Expected::Refused),
+        text(
+            "a long number",
+            plus(&format!(r#""extras": {}"#, "9".repeat(100_000))),
+            Expected::Refused,
+        ),
+        text("a comma too many", plus(r#""nodes": [],"#), Expected::Refused),
+        text("a member twice", plus(r#""nodes": [], "nodes": [{}]"#), Expected::Anything),
+        text("more after the end", format!("{} {{}}", plus(r#""nodes": []"#)), Expected::Refused),
+        text("an array", "[]", Expected::Refused),
+        text("comments", format!("// hello\n{}", plus(r#""nodes": []"#)), Expected::Refused),
+    ];
+    cases.extend(versions());
+    cases.extend(extensions());
+    cases.extend(containers());
+    cases
+}
+
+fn versions() -> Vec<Case> {
+    let version = |value: Value, expected: Expected| {
+        let name = format!("version {value}");
+        Case::of(name, &Document::triangle().with("/asset", value), expected)
+    };
+    let unknown = |member: &str, version: &str| {
+        says(&format!(
+            "/asset/{member}: the file is glTF {version} and only glTF 2.0 is read; convert it to glTF 2.0"
+        ))
+    };
+    let missing = says(
+        "/asset/version: the version of glTF is missing; check that this is a glTF file; \
+         a glTF 2.0 file says \"asset\": {\"version\": \"2.0\"}",
+    );
+    vec![
+        version(json!({"version": "1.0"}), unknown("version", "1.0")),
+        version(json!({"version": "3.0"}), unknown("version", "3.0")),
+        version(json!({"version": "20.0"}), unknown("version", "20.0")),
+        version(json!({"version": "2.0", "minVersion": "2.1"}), unknown("minVersion", "2.1")),
+        version(json!({"version": "2.1"}), Expected::LoadsClean),
+        version(json!({}), missing),
+        version(json!({"version": 2.0}), Expected::Refused),
+        version(json!("2.0"), Expected::Refused),
+    ]
+}
+
+fn extensions() -> Vec<Case> {
+    let required = |name: &str, expected: Expected| {
+        let document = Document::triangle().with("/extensionsRequired", json!([name]));
+        Case::of(format!("requires {name}"), &document, expected)
+    };
+    let lacking = |name: &str, reason: &str| {
+        says(&format!(
+            "/extensionsRequired/0: the file requires the extension {name}: {reason}; export the file without it"
+        ))
+    };
+    vec![
+        required("ACME_gizmo", lacking("ACME_gizmo", "it is not known here")),
+        required("", lacking("", "it is not known here")),
+        required("KHR_texture_basisu", lacking("KHR_texture_basisu", "KTX2 images are not read")),
+        required("KHR_materials_unlit", Expected::LoadsClean),
+    ]
+}
+
+fn containers() -> Vec<Case> {
+    let json = Document::triangle().json.to_string();
+    let bytes = Document::triangle().bytes;
+    let with_length = |length: u32| {
+        let mut file = glb(json.as_bytes(), &bytes);
+        file[8..12].copy_from_slice(&length.to_le_bytes());
+        file
+    };
+    let mut cases = Vec::new();
+    for length in [0, 1, 11, 12, 19, 20, 21, u32::MAX / 2, u32::MAX] {
+        cases.push(Case::new(
+            format!("glb length {length}"),
+            with_length(length),
+            Expected::Refused,
+        ));
+    }
+    for at in [12, 20 + json.len().next_multiple_of(4)] {
+        for length in [0, 1, 3, 5, 1000, u32::MAX - 7, u32::MAX] {
+            let mut file = glb(json.as_bytes(), &bytes);
+            file[at..at + 4].copy_from_slice(&length.to_le_bytes());
+            cases.push(Case::new(
+                format!("chunk at {at}, length {length}"),
+                file,
+                Expected::Refused,
+            ));
+        }
+    }
+    let mut longer = glb(json.as_bytes(), &bytes);
+    longer.extend([0; 5]);
+    let ignored = Expected::Warns(" 5 bytes after the end are ignored".to_owned());
+    cases.push(Case::new("glb with more after it", longer, ignored));
+    cases.push(Case::new(
+        "glb without binary chunk",
+        glb(json.as_bytes(), &[]),
+        Expected::Anything,
+    ));
+    cases
+}

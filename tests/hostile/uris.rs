@@ -1,0 +1,179 @@
+//! URIs that try to leave the folder, and such that only look as if they did.
+
+use crate::case::{Expected, judge};
+use crate::document::Document;
+use pipeline::import::{ImportOptions, Limits};
+use serde_json::json;
+use std::fs;
+use std::path::Path;
+
+const OUTSIDE: &str = "copy the file beside the glTF file and name it by a relative path";
+
+/// A case's name, and what was wrong.
+pub type Judged = (String, Result<(), String>);
+
+/// Runs the cases in a folder of their own; gives what became of each.
+pub fn run(folder: &Path) -> Result<Vec<Judged>, String> {
+    let models = folder.join("models");
+    prepare(folder, &models).map_err(|error| error.to_string())?;
+    let mut results = Vec::new();
+    for (uri, expected) in table(&models) {
+        let document = Document::triangle().with("/buffers/0/uri", json!(uri));
+        let file = models.join("model.gltf");
+        fs::write(&file, document.json.to_string()).map_err(|error| error.to_string())?;
+        let limits = Limits { file_bytes: 4096, ..Limits::default() };
+        let options = ImportOptions { limits, ..ImportOptions::default() };
+        results.push((format!("uri {uri:?}"), judge(&file, &options, &expected)));
+    }
+    for (root, uri, expected) in [
+        (folder, "../secret.bin", Expected::LoadsClean),
+        (folder, "../../secret.bin", Expected::Refused),
+        (folder, "../models/data.bin", Expected::LoadsClean),
+        (&models.join("sub"), "data.bin", Expected::Refused),
+        (&models.join("nowhere"), "data.bin", Expected::Refused),
+    ] {
+        let document = Document::triangle().with("/buffers/0/uri", json!(uri));
+        let file = models.join("model.gltf");
+        fs::write(&file, document.json.to_string()).map_err(|error| error.to_string())?;
+        let options = ImportOptions { root: Some(root.to_owned()), ..ImportOptions::default() };
+        let name = format!("root {:?}, uri {uri:?}", root.file_name().unwrap_or_default());
+        results.push((name, judge(&file, &options, &expected)));
+    }
+    Ok(results)
+}
+
+fn prepare(folder: &Path, models: &Path) -> std::io::Result<()> {
+    fs::create_dir_all(models.join("sub"))?;
+    fs::create_dir_all(models.join("folder.bin"))?;
+    let bytes = Document::triangle().bytes;
+    fs::write(folder.join("secret.bin"), &bytes)?;
+    for name in
+        ["data.bin", "a b.bin", "a+b.bin", "50%.bin", "%41.bin", "ü.bin", "sub/in.bin", "..bin"]
+    {
+        fs::write(models.join(name), &bytes)?;
+    }
+    fs::write(models.join("large.bin"), vec![0; 5000])?;
+    #[cfg(unix)]
+    {
+        fs::write(models.join("x:y.bin"), &bytes)?;
+        for (target, link) in [
+            ("../secret.bin", "out.bin"),
+            ("data.bin", "in.bin"),
+            ("in.bin", "twice.bin"),
+            ("self.bin", "self.bin"),
+            ("..", "up"),
+            ("nowhere", "dangling.bin"),
+            ("/dev/zero", "zero.bin"),
+        ] {
+            let link = models.join(link);
+            let _ = fs::remove_file(&link);
+            std::os::unix::fs::symlink(target, link)?;
+        }
+    }
+    Ok(())
+}
+
+fn table(models: &Path) -> Vec<(String, Expected)> {
+    let at = |problem: &str, remedy: &str| {
+        Expected::Says(format!("/buffers/0/uri: {problem}; {remedy}"))
+    };
+    let outside = |uri: &str| at(&format!("{uri:?} is outside of the model's folder"), OUTSIDE);
+    let missing =
+        |uri: &str| at(&format!("the file {uri:?} does not exist"), "put it beside the glTF file");
+    let scheme = |scheme: &str, uri: &str| {
+        at(&format!("the scheme {scheme:?} of {uri:?} is not read"), OUTSIDE)
+    };
+    let absolute = models.join("data.bin").to_string_lossy().into_owned();
+    let mut table = vec![
+        (absolute.clone(), outside(&absolute)),
+        (format!("file://{absolute}"), scheme("file", &format!("file://{absolute}"))),
+    ];
+    for uri in [
+        "data.bin",
+        "a b.bin",
+        "a%20b.bin",
+        "a+b.bin",
+        "50%.bin",
+        "%41.bin",
+        "%C3%BC.bin",
+        "ü.bin",
+        "sub/in.bin",
+        "./data.bin",
+        "sub/../data.bin",
+        "sub/./in.bin",
+        "sub//in.bin",
+        "%64ata.bin",
+        "..bin",
+        "sub\\in.bin",
+        "sub%2Fin.bin",
+    ] {
+        table.push((uri.to_owned(), Expected::LoadsClean));
+    }
+    for uri in [
+        "../secret.bin",
+        "../../../../../../etc/passwd",
+        "sub/../../secret.bin",
+        "/etc/passwd",
+        "\\etc\\passwd",
+        "..",
+        "a/../../secret.bin",
+    ] {
+        table.push((uri.to_owned(), outside(uri)));
+    }
+    table.extend([
+        ("%2e%2e/secret.bin".to_owned(), outside("../secret.bin")),
+        ("%2E%2E%2Fsecret.bin".to_owned(), outside("../secret.bin")),
+        ("%2Fetc%2Fpasswd".to_owned(), outside("/etc/passwd")),
+        ("..\\secret.bin".to_owned(), outside("../secret.bin")),
+        ("data.bin%00".to_owned(), outside("data.bin\0")),
+        ("%252e%252e/secret.bin".to_owned(), missing("%252e%252e/secret.bin")),
+        ("nowhere.bin".to_owned(), missing("nowhere.bin")),
+        ("data.bin?x=1".to_owned(), missing("data.bin?x=1")),
+        ("%FF%FE.bin".to_owned(), missing("%FF%FE.bin")),
+        ("%".to_owned(), missing("%")),
+        ("%4".to_owned(), missing("%4")),
+        ("x".repeat(10_000), Expected::Refused),
+        (String::new(), at("the URI is empty", "export the file again")),
+        ("folder.bin".to_owned(), at("\"folder.bin\" is not a regular file", OUTSIDE)),
+        (".".to_owned(), at("\".\" is not a regular file", OUTSIDE)),
+        (
+            "large.bin".to_owned(),
+            at(
+                "the file has 5000 bytes, more than the limit of 4096",
+                "raise the limit `file_bytes` if you trust the file",
+            ),
+        ),
+        ("http://example.com/a.bin".to_owned(), scheme("http", "http://example.com/a.bin")),
+        ("HTTPS://example.com/a.bin".to_owned(), scheme("HTTPS", "HTTPS://example.com/a.bin")),
+        ("C:\\x.bin".to_owned(), Expected::Refused),
+        (
+            "data:".to_owned(),
+            at("the data URI has no comma before its data", "export the file again"),
+        ),
+        ("data:;base64,".to_owned(), Expected::Refused),
+        ("data:;base64,!!!!".to_owned(), Expected::Refused),
+        ("data:;base64,A".to_owned(), Expected::Refused),
+        ("data:application/octet-stream;base64,AAAA".to_owned(), Expected::Refused),
+        (format!("data:;base64,{}", "A".repeat(60)), Expected::LoadsClean),
+        (format!("data:;base64,{}", "-_".repeat(30)), Expected::Loads),
+        (format!("DATA:application/gltf-buffer;base64,{}=", "A".repeat(59)), Expected::Loads),
+        (format!("data:,{}", "%00".repeat(44)), Expected::LoadsClean),
+        (format!("data:,{}", "%FF".repeat(44)), Expected::Loads),
+    ]);
+    if cfg!(unix) {
+        table.extend([
+            ("x:y.bin".to_owned(), Expected::LoadsClean),
+            ("in.bin".to_owned(), Expected::LoadsClean),
+            ("twice.bin".to_owned(), Expected::LoadsClean),
+            ("out.bin".to_owned(), at("\"out.bin\" leads out of the model's folder", OUTSIDE)),
+            (
+                "up/secret.bin".to_owned(),
+                at("\"up/secret.bin\" leads out of the model's folder", OUTSIDE),
+            ),
+            ("zero.bin".to_owned(), at("\"zero.bin\" leads out of the model's folder", OUTSIDE)),
+            ("self.bin".to_owned(), missing("self.bin")),
+            ("dangling.bin".to_owned(), missing("dangling.bin")),
+        ]);
+    }
+    table
+}
