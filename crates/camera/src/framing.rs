@@ -108,7 +108,7 @@ pub struct Framing {
 ///
 /// # Errors
 /// No points; a point that is not finite; an empty or mirrored window; a padding outside [0, ½); points so
-/// far out that the eye has no finite coordinates.
+/// far out, or a frame so narrow or so far off the axis, that f64 has no place for the eye.
 ///
 /// ```
 /// use camera::{NamedView, Slopes, frame_perspective};
@@ -134,9 +134,9 @@ where
     let points = Coordinates::of(points.into_iter(), orientation)?;
     let sides = Sides::touching(&points, frame);
     let (eye, fit) = sides.eye(&points, frame);
-    let camera = points.camera(eye)?;
     let (near, far) = (eye.z() - points.extent.max.z, eye.z() - points.extent.min.z);
-    points.check(near.is_finite() && far.is_finite() && near > 0.0)?;
+    points.check(near.is_finite() && far.is_finite())?;
+    let camera = points.camera(eye, near)?;
     Ok(Framing { camera, near, far, fit })
 }
 

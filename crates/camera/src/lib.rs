@@ -31,6 +31,32 @@
 //! assert!(framing.near > 0.0);
 //! # Ok::<(), camera::FramingError>(())
 //! ```
+//!
+//! | to say where a camera stands | take |
+//! | --- | --- |
+//! | eye and target, or eye and gaze | [`Camera::look_at`], [`Camera::look_to`], and `…_or_fallback` if any up will do |
+//! | front, top, isometric … by name | [`NamedView`] |
+//! | just so that all of it is in the picture | [`frame_perspective`], [`frame_parallel`], [`frame_oblique`] |
+//! | round a target, or on a turntable | [`Orbit`] |
+//! | yaw, pitch and roll | [`Attitude`] |
+//! | a node of a scene | [`Camera::from_frame`] |
+//! | two eyes | [`StereoRig`], and [`apex_moved`] to see how not to |
+//! | before a screen that stands in the world | [`ScreenCorners`] |
+//!
+//! and [`Rays`] goes the other way, from the pixels of a picture into the world.
+//!
+//! # Conventions
+//!
+//! - Model and world: +y up, and things face +z, as in glTF. World and view space are right-handed.
+//! - A [`Window`] is four numbers in view space and the distance of their plane; [`Slopes`] are those of the plane at
+//!   distance 1. Give them to any projection.
+//! - No constructor returns a camera with NaN in it. What cannot be done is a [`CameraError`] or a [`FramingError`] that
+//!   names the values at fault and says what would do: a view-up along the gaze comes back with one that works.
+//!
+//! `cargo run -p camera --example photographer` shows the crate at work.
+//!
+//! Sources: P. Shirley, S. Marschner and others, *Fundamentals of Computer Graphics*, chapter 8, *Viewing* (CA-1 to CA-3); R. Kooima,
+//! *Generalized Perspective Projection*, 2008, for screens.
 #![no_std]
 
 mod attitude;

@@ -46,7 +46,7 @@ pub struct ParallelFraming {
 ///
 /// # Errors
 /// No points; a point that is not finite; an aspect that is not positive and finite; a padding outside [0, ½);
-/// points so far out that camera or window are not finite.
+/// points so far out, or an aspect or projectors so extreme, that f64 has no place for the eye.
 ///
 /// ```
 /// use camera::{NamedView, frame_parallel};
@@ -101,10 +101,10 @@ where
     let near = points.extent.diagonal();
     let z = points.extent.max.z + near;
     let middle = image.middle();
-    let camera = points.camera(Vector::new(middle.x + z * shear.x, middle.y + z * shear.y, z))?;
+    let eye = Vector::new(middle.x + z * shear.x, middle.y + z * shear.y, z);
     let far = z - points.extent.min.z;
     points.check(half_width.is_finite() && half_height.is_finite() && far.is_finite())?;
-    points.check(half_width > 0.0 && half_height > 0.0)?;
+    let camera = points.camera(eye, near.min(half_width).min(half_height))?;
     let (left, right, bottom, top) = (-half_width, half_width, -half_height, half_height);
     Ok(ParallelFraming { camera, left, right, bottom, top, near, far, fit })
 }

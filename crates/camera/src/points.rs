@@ -11,6 +11,8 @@ use homog::{Bounds, Point, Vector, View, World};
 const FARTHEST: f64 = 1e300;
 /// Points closer together than this part of their distance from the origin count as one.
 const ONE_POINT: f64 = 1e-12;
+/// An eye's coordinates are rounded by less than this part of them.
+const EYE_PRECISION: f64 = 1e-14;
 /// The side of the cube a lone point is framed as, where numbers are small enough to have such a cube.
 const LONE_SIDE: f64 = 1.0;
 /// Its least side as a part of the point's distance from the origin.
@@ -81,10 +83,13 @@ impl<I: Iterator<Item = Point<World>> + Clone> Coordinates<I> {
         }
     }
 
-    /// The camera whose eye has the given coordinates.
-    pub(crate) fn camera(&self, eye: Vector<View>) -> Result<Camera, FramingError> {
+    /// The camera whose eye has the given coordinates. `smallest` is the least length that the place of the eye must
+    /// get right: so far out that it cannot, there is no camera.
+    pub(crate) fn camera(&self, eye: Vector<View>, smallest: f64) -> Result<Camera, FramingError> {
         let eye = self.center + self.basis.to_world(eye);
         self.check(eye.is_finite())?;
+        let reach = eye.raw().abs().max_element().max(self.farthest);
+        self.check(smallest > 0.0 && smallest >= EYE_PRECISION * reach)?;
         Ok(Camera::new(eye, self.basis)?)
     }
 

@@ -139,6 +139,9 @@ fn what_cannot_be_framed_is_refused_with_its_values() {
         Err(FramingError::OutOfRange { farthest: f64::MAX })
     );
     let points = [Point::ORIGIN, Point::new(1.0, 2.0, 3.0)];
+    let sliver = Slopes { left: 1e30, right: 2e30, ..FRAME };
+    let nowhere = frame_perspective(points, Basis::WORLD, sliver, 0.0);
+    assert_eq!(nowhere, Err(FramingError::OutOfRange { farthest: 3.0 }));
     for padding in [-0.01, 0.5, f64::NAN] {
         let got = frame_perspective(points, Basis::WORLD, FRAME, padding);
         assert!(matches!(got, Err(FramingError::Padding { .. })), "padding {padding}");

@@ -20,7 +20,7 @@ fn camera() -> impl Strategy<Value = Camera> {
 
 proptest! {
     #[test]
-    fn axes_are_orthonormal_and_right_handed(camera in camera()) {
+    fn c11_axes_are_orthonormal_and_right_handed(camera in camera()) {
         let (u, v, w) = (camera.u(), camera.v(), camera.w());
         for (name, value, want) in [
             ("u·u", u.dot(u), 1.0), ("v·v", v.dot(v), 1.0), ("w·w", w.dot(w), 1.0),
@@ -32,7 +32,7 @@ proptest! {
     }
 
     #[test]
-    fn m_cam_is_undone_by_its_inverse_and_puts_the_eye_at_the_origin(
+    fn c12_m_cam_is_undone_by_its_inverse_and_puts_the_eye_at_the_origin(
         camera in camera(), p in triple(),
     ) {
         let p = Point::<World>::from(p);
@@ -53,7 +53,7 @@ proptest! {
 }
 
 #[test]
-fn exercise_10_camera_above_looking_down() {
+fn exercise_10_c46_camera_above_looking_down() {
     let camera = Camera::look_to(Point::new(0.0, 1.0, 0.0), v(0.0, -1.0, 0.0), v(1.0, 1.0, 0.0))
         .expect("the exercise's camera");
     assert_eq!(camera.u(), v(0.0, 0.0, 1.0));

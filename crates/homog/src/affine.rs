@@ -123,6 +123,13 @@ impl<A: Space, B: Space> Affine<A, B> {
         Point::from_raw(self.raw.transform_point3(point.raw()))
     }
 
+    /// Writes the images of `points` to `images`, as many as both have: the same bits as [`point`](Self::point), in one pass.
+    pub fn points_into(self, points: &[Point<A>], images: &mut [Point<B>]) {
+        for (point, image) in points.iter().zip(images) {
+            *image = self.point(*point);
+        }
+    }
+
     /// The image of a vector: the translation does not touch it.
     #[must_use]
     pub fn vector(self, vector: Vector<A>) -> Vector<B> {
@@ -248,7 +255,11 @@ mod tests {
         let by = Vector::new(1.0, 2.0, 3.0);
         let rows = Map::translation(by).rows();
         assert_eq!([rows[0][3], rows[1][3], rows[2][3]], [1.0, 2.0, 3.0]);
-        // C37: it works on points that are not divided yet, and leaves directions alone (HO-4).
+    }
+
+    #[test]
+    fn c37_c52_translations_work_before_the_divide_and_leave_directions_alone() {
+        let by = Vector::new(1.0, 2.0, 3.0);
         let map = Projective::from(Map::translation(by));
         let (x, y, z, h) = (2.0, -6.0, 4.0, 4.0);
         let moved = map.hpoint(crate::HPoint::new(x, y, z, h));
@@ -258,7 +269,7 @@ mod tests {
     }
 
     #[test]
-    fn exercise_5_under_an_affine_map_multiples_stay_multiples() {
+    fn exercise_5_c42_under_an_affine_map_multiples_stay_multiples() {
         let rows = [
             [1.0, 2.0, 3.0, 4.0],
             [0.0, -1.0, 2.0, 0.5],

@@ -155,6 +155,16 @@ mod tests {
     }
 
     #[test]
+    fn c101_row_vectors_want_the_transposed_matrix() {
+        let map = Projective::<Model, World>::from_row_major(core::array::from_fn(|i| i as f64));
+        let v = [1.0, -2.0, 3.0, 0.5];
+        let theirs = map.to_column_major(); // read by rows: the matrix of v' = v M
+        let image: [f64; 4] =
+            core::array::from_fn(|j| (0..4).map(|i| v[i] * theirs[4 * i + j]).sum());
+        assert_eq!(<[f64; 4]>::from(map.hpoint(v.into())), image);
+    }
+
+    #[test]
     fn an_affine_map_needs_its_last_row() {
         let rows = [[1.0, 0.0, 0.0, 5.0], [0.0, 1.0, 0.0, 6.0], [0.0, 0.0, 1.0, 7.0]];
         let with =

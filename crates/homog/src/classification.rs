@@ -239,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn misprint_m27_a_perspective_is_linear_on_four_numbers_and_not_affine_on_places() {
+    fn c58_misprint_m27_a_perspective_is_linear_on_four_numbers_and_not_affine_on_places() {
         let rows = [
             [1.0, 0.0, 0.0, 0.0],
             [0.0, 1.0, 0.0, 0.0],
@@ -256,6 +256,21 @@ mod tests {
         let sum: [f64; 4] = core::array::from_fn(|i| a[i] + b[i]);
         let image = |v: [f64; 4]| map.hpoint(v.into()).raw();
         assert_eq!(image(sum), image(a) + image(b));
+    }
+
+    #[test]
+    fn c83_non_zeros_among_p_q_r_count_the_vanishing_points() {
+        for [p, q, r, count] in
+            [[0.0, 0.0, -0.5, 1.0], [0.0, 0.2, -0.5, 2.0], [0.1, 0.2, -0.5, 3.0], [0.0; 4]]
+        {
+            let mut rows = Affine::<View, View>::IDENTITY.rows();
+            rows[3] = [p, q, r, 1.0];
+            let map = Projective::<View, Clip>::from_rows(rows);
+            assert_eq!(map.classify().finite_vanishing_points() as f64, count, "{p} {q} {r}");
+            let places =
+                map.principal_vanishing_points(0.0).map(|meaning| meaning.name() == "point");
+            assert_eq!(places, [p != 0.0, q != 0.0, r != 0.0]);
+        }
     }
 
     #[test]

@@ -70,7 +70,7 @@ impl Foreshortening {
     /// Some for every t in [0, 1]; beyond the ends `None` from where the line leaves for infinity.
     #[must_use]
     pub fn image(self, t: f64) -> Option<f64> {
-        quotient(self.end * t, self.start + t * (self.end - self.start))
+        fraction(t, self.end * t, self.start + t * (self.end - self.start))
     }
 
     /// The inverse of f: which fraction of the segment is seen at fraction `s` of its image.
@@ -78,7 +78,7 @@ impl Foreshortening {
     /// Some for every s in [0, 1]; beyond the ends `None` from the vanishing point on.
     #[must_use]
     pub fn source(self, s: f64) -> Option<f64> {
-        quotient(self.start * s, self.end + s * (self.start - self.end))
+        fraction(s, self.start * s, self.end + s * (self.start - self.end))
     }
 
     /// f'(t) = w_r w_R / (w_r + t(w_R − w_r))²: how much a short piece at `t` is stretched against the average.
@@ -96,6 +96,12 @@ impl Foreshortening {
         let t = self.source(s)?;
         Some(a * (1.0 - t) + b * t).filter(|value| value.is_finite())
     }
+}
+
+/// The quotient; where `of` is a fraction of the segment, so is the quotient, whatever rounding says.
+fn fraction(of: f64, numerator: f64, denominator: f64) -> Option<f64> {
+    let fraction = quotient(numerator, denominator)?;
+    Some(if of <= 1.0 { fraction.min(1.0) } else { fraction })
 }
 
 /// None unless the denominator is positive and the quotient finite.
@@ -121,7 +127,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exercise_11_order_is_kept() {
+    fn exercise_11_c47_order_is_kept() {
         let f = Foreshortening::new(1.0, 3.0).expect("both positive");
         assert_eq!([0.0, 0.5, 1.0].map(|t| f.image(t)), [0.0, 0.75, 1.0].map(Some));
         assert_eq!(f.derivative(0.0), Some(3.0));

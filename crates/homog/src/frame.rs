@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn changing_there_and_back_changes_nothing() {
+    fn c71_changing_there_and_back_changes_nothing() {
         let o = Point::<World>::new(1.0, 2.0, 3.0);
         let a = Frame::new(o, [Vector::Y, Vector::Z, Vector::X]).expect("independent");
         let b = Frame::new(Point::ORIGIN, [Vector::X * 2.0, Vector::Y, Vector::Z])

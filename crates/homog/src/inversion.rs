@@ -98,7 +98,7 @@ mod tests {
     type Map = Projective<View, Clip>;
 
     #[test]
-    fn a_projection_onto_a_plane_has_rank_3_and_says_so() {
+    fn c102_a_projection_onto_a_plane_has_rank_3_and_says_so() {
         let onto_a_plane = Map::from_rows([
             [1.0, 0.0, 0.0, 0.0],
             [0.0, 1.0, 0.0, 0.0],

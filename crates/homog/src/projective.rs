@@ -35,6 +35,15 @@ impl<A: Space, B: Space> Projective<A, B> {
         self.hpoint(point.into())
     }
 
+    /// Writes the images of `points` to `images`, as many as both have: the same bits as [`point`](Self::point), in one pass.
+    pub fn points_into(self, points: &[Point<A>], images: &mut [HPoint<B>]) {
+        let DMat4 { x_axis, y_axis, z_axis, w_axis } = self.raw;
+        for (point, image) in points.iter().zip(images) {
+            let p = point.raw();
+            *image = HPoint::from_raw(x_axis * p.x + y_axis * p.y + z_axis * p.z + w_axis);
+        }
+    }
+
     /// The image of a direction, that is of its point at infinity: its vanishing point (VN-1).
     #[must_use]
     pub fn direction(self, vector: Vector<A>) -> HPoint<B> {

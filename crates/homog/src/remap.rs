@@ -27,10 +27,10 @@ pub enum RemapError {
         value: f64,
     },
     /// The interval to map from has no length.
-    #[error("the {axis} interval to map from is empty: it begins and ends at {at}")]
+    #[error("the {interval} to map from is empty: it begins and ends at {at}")]
     Empty {
-        /// "x", "y" or "z"; "only" if there is but one.
-        axis: &'static str,
+        /// "interval", or of a box "x interval", "y interval" or "z interval".
+        interval: &'static str,
         /// Where it begins and ends.
         at: f64,
     },
@@ -57,18 +57,18 @@ pub enum RemapError {
 /// ```
 pub fn remap(x: f64, from: [f64; 2], to: [f64; 2]) -> Result<f64, RemapError> {
     finite("the number to map", x)?;
-    check("only", from, to)?;
+    check("interval", from, to)?;
     let y = to[0] + (x - from[0]) * ((to[1] - to[0]) / (from[1] - from[0]));
     if y.is_finite() { Ok(y) } else { Err(RemapError::OutOfRange { from, to }) }
 }
 
 /// Factor and offset: y = factor · x + offset.
 fn scale_and_offset(
-    axis: &'static str,
+    interval: &'static str,
     from: [f64; 2],
     to: [f64; 2],
 ) -> Result<(f64, f64), RemapError> {
-    check(axis, from, to)?;
+    check(interval, from, to)?;
     let length = from[1] - from[0];
     let scale = (to[1] - to[0]) / length;
     let offset = (to[0] * from[1] - to[1] * from[0]) / length;
@@ -79,13 +79,13 @@ fn scale_and_offset(
     }
 }
 
-fn check(axis: &'static str, from: [f64; 2], to: [f64; 2]) -> Result<(), RemapError> {
+fn check(interval: &'static str, from: [f64; 2], to: [f64; 2]) -> Result<(), RemapError> {
     finite("the beginning of the interval to map from", from[0])?;
     finite("the end of the interval to map from", from[1])?;
     finite("the beginning of the interval to map to", to[0])?;
     finite("the end of the interval to map to", to[1])?;
     if from[0] == from[1] {
-        return Err(RemapError::Empty { axis, at: from[0] });
+        return Err(RemapError::Empty { interval, at: from[0] });
     }
     Ok(())
 }
@@ -102,7 +102,7 @@ impl Homography {
     pub fn windowing(from: [[f64; 2]; 2], to: [[f64; 2]; 2]) -> Result<Self, RemapError> {
         let axis =
             |name, i: usize| scale_and_offset(name, [from[0][i], from[1][i]], [to[0][i], to[1][i]]);
-        let ((sx, dx), (sy, dy)) = (axis("x", 0)?, axis("y", 1)?);
+        let ((sx, dx), (sy, dy)) = (axis("x interval", 0)?, axis("y interval", 1)?);
         Ok(Self::from_rows([[sx, 0.0, dx], [0.0, sy, dy], [0.0, 0.0, 1.0]]))
     }
 }
@@ -117,7 +117,8 @@ impl<A: Space, B: Space> Affine<A, B> {
         let (from, to) = (from.map(<[f64; 3]>::from), to.map(<[f64; 3]>::from));
         let axis =
             |name, i: usize| scale_and_offset(name, [from[0][i], from[1][i]], [to[0][i], to[1][i]]);
-        let ((sx, dx), (sy, dy), (sz, dz)) = (axis("x", 0)?, axis("y", 1)?, axis("z", 2)?);
+        let ((sx, dx), (sy, dy), (sz, dz)) =
+            (axis("x interval", 0)?, axis("y interval", 1)?, axis("z interval", 2)?);
         let (x, y, z) = (Vector::X * sx, Vector::Y * sy, Vector::Z * sz);
         Ok(Self::from_frame(x, y, z, Point::new(dx, dy, dz)))
     }
@@ -129,7 +130,7 @@ mod tests {
     use crate::{Ndc, View};
 
     #[test]
-    fn misprint_m27_a_reversed_range_swaps_the_sides() {
+    fn c53_misprint_m27_a_reversed_range_swaps_the_sides() {
         let rising = [0.0, 10.0];
         assert_eq!(remap(-3.0, [-1.0, 1.0], rising), Ok(-10.0));
         assert_eq!(remap(-3.0, [-1.0, 1.0], [10.0, 0.0]), Ok(20.0), "x < a, but y above both ends");
@@ -153,7 +154,7 @@ mod tests {
     #[test]
     fn empty_and_endless_intervals_are_refused_by_name() {
         let empty = Homography::windowing([[0.0, 1.0], [2.0, 1.0]], [[0.0; 2], [1.0; 2]]);
-        assert_eq!(empty, Err(RemapError::Empty { axis: "y", at: 1.0 }));
+        assert_eq!(empty, Err(RemapError::Empty { interval: "y interval", at: 1.0 }));
         let unit = [0.0, 1.0];
         assert!(matches!(remap(f64::NAN, unit, unit), Err(RemapError::NotFinite { .. })));
         assert!(matches!(

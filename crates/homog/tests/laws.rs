@@ -78,7 +78,7 @@ proptest! {
     }
 
     #[test]
-    fn exercise_11_order_is_kept(w in [1e-3..1e3, 1e-3..1e3], s in 0.0..1.0_f64, t in 0.0..1.0_f64) {
+    fn c47_exercise_11_order_is_kept(w in [1e-3..1e3, 1e-3..1e3], s in 0.0..1.0_f64, t in 0.0..1.0_f64) {
         let f = Foreshortening::new(w[0], w[1]).expect("both positive");
         let image = |t: f64| f.image(t).expect("within the segment");
         prop_assume!((s - t).abs() > 1e-12);
@@ -110,6 +110,18 @@ proptest! {
         let normal = map.normal(Normal::from_raw(n.into()));
         let (normal_size, size) = (normal.raw().length(), map.vector(in_surface).length());
         prop_assert!(normal.dot(map.vector(in_surface)).abs() <= 1e-12 * normal_size * size);
+    }
+
+    #[test]
+    fn arrays_of_points_get_the_same_bits(map in map(), affine in affine(), points in prop::collection::vec(triple(), 0..9)) {
+        let mut images = vec![HPoint::new(0.0, 0.0, 0.0, 0.0); points.len()];
+        let seen: Vec<Point<View>> = points.iter().map(|&p| p.into()).collect();
+        map.points_into(&seen, &mut images);
+        prop_assert!(seen.iter().zip(&images).all(|(&p, &image)| map.point(p) == image));
+        let mut placed = vec![Point::ORIGIN; points.len()];
+        let models: Vec<Point<Model>> = points.iter().map(|&p| p.into()).collect();
+        affine.points_into(&models, &mut placed);
+        prop_assert!(models.iter().zip(&placed).all(|(&p, &image)| affine.point(p) == image));
     }
 
     #[test]
@@ -156,6 +168,29 @@ fn c81_parallels_meet_in_the_image_of_their_point_at_infinity() {
     }
     let names = map.principal_vanishing_points(0.0).map(|meaning| meaning.name());
     assert_eq!(names, ["direction", "direction", "point"], "one-point perspective");
+}
+
+#[test]
+fn c3_a_chain_is_the_product_of_its_factors() {
+    let model_to_world = Affine::<Model, World>::rotation_y(0.5);
+    let world_to_view = Affine::<World, View>::translation(Vector::new(0.0, 0.0, -5.0));
+    let view_to_clip = Map::from_row_major(core::array::from_fn(|i| (i * i % 7) as f64));
+    let chain = model_to_world.then(world_to_view).then_project(view_to_clip);
+    assert_eq!(chain.raw(), view_to_clip.raw() * (world_to_view.raw() * model_to_world.raw()));
+}
+
+#[test]
+fn c20_w_may_be_0_in_between() {
+    // The first map sends the plane z = 0 to infinity, the second fetches it back: nothing is divided on the way.
+    let with_bottom = |bottom: [f64; 4]| {
+        let [x, y, z, _] = Affine::<World, World>::IDENTITY.rows();
+        Projective::<World, World>::from_rows([x, y, z, bottom])
+    };
+    let away = with_bottom([0.0, 0.0, 1.0, 0.0]);
+    let back = with_bottom([0.5, 0.0, 0.0, 0.0]);
+    let p = Point::new(4.0, 6.0, 0.0);
+    assert_eq!(away.point(p).divide(), None);
+    assert_eq!(away.then(back).point(p).divide(), Some(Point::new(2.0, 3.0, 0.0)));
 }
 
 #[test]
