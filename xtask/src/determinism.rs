@@ -13,7 +13,6 @@ use std::path::{Path, PathBuf};
 /// One way to draw every scene.
 struct Way {
     name: String,
-    build: Build,
     flags: Vec<String>,
 }
 
@@ -59,11 +58,8 @@ impl Options {
 
 /// Twice plainly; then, of the release build, with each number of threads.
 fn ways(build: Build, has_threads: bool, threads: u32) -> Vec<Way> {
-    let way = |name: &str, flags: Vec<String>| Way {
-        name: format!("{}-{name}", build.name()),
-        build,
-        flags,
-    };
+    let way =
+        |name: &str, flags: Vec<String>| Way { name: format!("{}-{name}", build.name()), flags };
     let mut ways = vec![way("first", Vec::new()), way("again", Vec::new())];
     if has_threads && build == Build::Release {
         ways.extend((1..=threads).map(|count| {

@@ -3,6 +3,7 @@
 use crate::Outcome;
 use crate::program::{cargo, shown};
 use std::io::{BufRead, BufReader, Write};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -54,7 +55,7 @@ impl Step {
             Action::Own(run) => run(),
             Action::Cargo(calls) => calls.iter().try_for_each(|call| {
                 let words: Vec<&str> = call.iter().map(String::as_str).collect();
-                follow(&mut cargo(&words), &mut skipped)
+                follow(cargo(&words).envs(folders()), &mut skipped)
             }),
             Action::Documentation => {
                 let mut cargo = cargo(&["doc", "--quiet", "--workspace", "--no-deps"]);
@@ -63,6 +64,13 @@ impl Step {
         };
         Report { name: self.name.clone(), time: start.elapsed(), failure: outcome.err(), skipped }
     }
+}
+
+/// The folders that a person names for a test, from where the person stands: the test itself runs in another folder.
+fn folders() -> Vec<(&'static str, PathBuf)> {
+    let here = std::env::current_dir().unwrap_or_default();
+    let named = |name| Some((name, here.join(std::env::var_os(name)?)));
+    ["VECTORS", "ASSETS"].into_iter().filter_map(named).collect()
 }
 
 /// Runs a command, shows what it prints as it comes, and keeps the lines that begin with `SKIPPED`.

@@ -14,7 +14,7 @@ const PRINTING: [&str; 7] =
     ["todo!", "dbg!", "println!", "eprintln!", "print!", "eprint!", "unimplemented!"];
 
 /// Beginnings of paths that exist on one machine only.
-const MACHINE_PATHS: [&str; 5] = ["/home/", "/root/", "/tmp/", "/Users/", "C:\\"];
+const MACHINE_PATHS: [&str; 5] = ["/home/", "/root/", "/tmp/", "/Users/", "C:\\Users"];
 
 pub fn opening(source: &Source) -> Vec<Fault> {
     let first = source.text.lines().find(|line| !line.trim().is_empty());
