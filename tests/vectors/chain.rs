@@ -1,8 +1,8 @@
 //! The chain from the world to the screen and back: CA-1, CA-2, PL-1, UN-1, UN-2.
 
 use crate::Runner;
-use crate::numbers::{TOLERANCE, close, close_all, close_matrix, field, judge, list, matrix};
-use crate::numbers::{numbers, point, point4, text};
+use crate::numbers::{TOLERANCE, close, close_all, close_matrix, field, judge, matrix, numbers};
+use crate::numbers::{pairs, point, point4, text};
 use crate::projection::build;
 use crate::windows::whole_image;
 use camera::{Camera, CameraError};
@@ -102,7 +102,7 @@ fn points_through(chain: &Chain, case: &Value, out: &Value) -> Result<(), String
     let theirs = matrix(&out["matrix"])?;
     let size = theirs.to_cols_array().into_iter().fold(1.0, |size: f64, x| size.max(x.abs()));
     close_matrix("matrix / its size", whole.raw() * (1.0 / size), theirs * (1.0 / size), 1e-13)?;
-    for (p, theirs) in list(&case["points"])?.iter().zip(list(&out["points"])?) {
+    for (p, theirs) in pairs(&case["points"], &out["points"])? {
         one_point(chain, point(p)?.into(), theirs)?;
     }
     Ok(())
@@ -141,7 +141,7 @@ fn points_back(chain: &Chain, case: &Value, out: &Value) -> Result<(), String> {
     close_matrix("inverse", ours, matrix(&out["inverse"])?, UNPROJECTED)?;
     let by_elimination = chain.world_to_clip().inverse().ok_or("the chain is singular")?;
     let again = chain.viewport.unprojector(by_elimination);
-    for (screen, theirs) in list(&case["screen"])?.iter().zip(list(&out["world"])?) {
+    for (screen, theirs) in pairs(&case["screen"], &out["world"])? {
         let (screen, theirs) = (point(screen)?.into(), point(theirs)?);
         for (name, back) in [("closed form", back), ("elimination", again)] {
             let world = back.point(screen).ok_or("the point is at infinity")?;
@@ -157,7 +157,7 @@ fn pick_rays(case: &Value, out: &Value) -> Result<(), String> {
 
 fn rays(chain: &Chain, case: &Value, out: &Value) -> Result<(), String> {
     let back = chain.viewport.unprojector(chain.clip_to_world());
-    for (pixel, theirs) in list(&case["pixels"])?.iter().zip(list(&out["rays"])?) {
+    for (pixel, theirs) in pairs(&case["pixels"], &out["rays"])? {
         let ray = back.ray(numbers(pixel)?, chain.kind.near_far).ok_or("there is no ray")?;
         let far = ray.far.divide().ok_or("the far point is at infinity")?;
         let points = [("near_point", ray.near), ("far_point", far), ("origin", ray.origin)];

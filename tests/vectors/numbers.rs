@@ -38,6 +38,18 @@ pub fn list(value: &Value) -> Result<&[Value], String> {
     value.as_array().map(Vec::as_slice).ok_or_else(|| format!("{value} is not a list"))
 }
 
+/// The items of two lists of the same length, side by side.
+pub fn pairs<'a>(
+    ours: &'a Value,
+    theirs: &'a Value,
+) -> Result<impl Iterator<Item = (&'a Value, &'a Value)>, String> {
+    let (ours, theirs) = (list(ours)?, list(theirs)?);
+    if ours.len() != theirs.len() {
+        return Err(format!("the case has {} inputs but {} outputs", ours.len(), theirs.len()));
+    }
+    Ok(ours.iter().zip(theirs))
+}
+
 /// A list of exactly `N` numbers.
 pub fn numbers<const N: usize>(value: &Value) -> Result<[f64; N], String> {
     let numbers = list(value)?.iter().map(number).collect::<Result<Vec<_>, _>>()?;

@@ -2,8 +2,8 @@
 
 use crate::Runner;
 use crate::numbers::{
-    TOLERANCE, close, close_all, close_matrix, count, field, judge, list, matrix, numbers, point,
-    point4, text,
+    TOLERANCE, close, close_all, close_matrix, count, field, judge, list, matrix, numbers, pairs,
+    point, point4, text,
 };
 use glam::DMat3;
 use homog::{Affine, Homography, Ndc, Point, Screen, View, remap};
@@ -65,8 +65,7 @@ fn window_viewport(case: &Value, out: &Value) -> Result<(), String> {
     match text(case, "op")? {
         "window_to_viewport" => window_to_viewport(case, out),
         "screen_to_ndc" => judge(whole_image(case)?, out, |view| {
-            let theirs = list(&out["points"])?;
-            for (p, theirs) in list(&case["points"])?.iter().zip(theirs) {
+            for (p, theirs) in pairs(&case["points"], &out["points"])? {
                 let [x, y] = numbers(p)?;
                 let ndc = view.screen_to_ndc().point(Point::new(x, y, 0.0));
                 close_all("ndc", &[ndc.x(), ndc.y()], &numbers::<2>(theirs)?, TOLERANCE)?;
@@ -76,7 +75,7 @@ fn window_viewport(case: &Value, out: &Value) -> Result<(), String> {
         "grid" => {
             let size = |name| count(case, name).map(|count| count as usize);
             judge(Grid::new(size("rows")?, size("cols")?), out, |grid| {
-                for (index, theirs) in list(&case["index"])?.iter().zip(list(&out["xz"])?) {
+                for (index, theirs) in pairs(&case["index"], &out["xz"])? {
                     let [row, column] = numbers::<2>(index)?.map(|index| index as usize);
                     let xz = grid.xz(row, column).ok_or("the index is beyond the last")?;
                     close_all("xz", &xz, &numbers::<2>(theirs)?, TOLERANCE)?;
@@ -113,7 +112,7 @@ pub fn window_map(case: &Value) -> Result<Result<WindowToViewport, ViewportError
 fn window_to_viewport(case: &Value, out: &Value) -> Result<(), String> {
     judge(window_map(case)?, out, |map| {
         close_matrix3("matrix", map.matrix(), &out["matrix"])?;
-        for (p, theirs) in list(&case["points"])?.iter().zip(list(&out["points"])?) {
+        for (p, theirs) in pairs(&case["points"], &out["points"])? {
             let (p, theirs) = (numbers(p)?, numbers::<2>(theirs)?);
             close_all("by ratio", &map.by_ratio(p), &theirs, TOLERANCE)?;
             close_all("by chain", &map.by_chain(p), &theirs, TOLERANCE)?;

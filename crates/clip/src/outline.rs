@@ -1,0 +1,158 @@
+//! Outlines: the edges of a section cut joined into closed loops.
+
+use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
+use homog::{Point, Space};
+
+/// The outline of a cut face.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Outline<S: Space> {
+    /// Closed loops; the last point is joined to the first. Seen from the positive side of the plane the outer ones run
+    /// counter-clockwise and holes clockwise, if the triangles of the surface run counter-clockwise seen from outside.
+    pub loops: Vec<Vec<Point<S>>>,
+    /// What does not close, because the surface has a border itself. Empty for closed surfaces.
+    pub open: Vec<Vec<Point<S>>>,
+}
+
+impl<S: Space> Outline<S> {
+    /// Joins edges whose ends are the same numbers, as those of [`crate::CutTriangle::edge`] are.
+    ///
+    /// Edges are joined end to start where possible. Where the surface is wound inconsistently they are turned round.
+    ///
+    /// ```
+    /// use clip::{Outline, cut_triangle};
+    /// use homog::{Normal, Plane, Point, World};
+    /// let tip = Point::<World>::new(0.0, 2.0, 0.0);
+    /// let base = [(1.0, 0.0), (0.0, -1.0), (-1.0, 0.0), (0.0, 1.0)].map(|(x, z)| Point::new(x, 0.0, z));
+    /// let sides = (0..4).map(|i| [base[i], base[(i + 1) % 4], tip]);
+    /// let half_way = Plane::through(Point::new(0.0, 1.0, 0.0), Normal::new(0.0, -1.0, 0.0));
+    /// let edges: Vec<_> = sides.filter_map(|side| cut_triangle(side, half_way).edge()).collect();
+    /// let outline = Outline::of_edges(&edges);
+    /// assert_eq!((outline.loops.len(), outline.loops[0].len(), outline.open.len()), (1, 4, 0));
+    /// ```
+    #[must_use]
+    pub fn of_edges(edges: &[[Point<S>; 2]]) -> Self {
+        let mut chains = Chains::new(edges);
+        let mut outline = Self { loops: Vec::new(), open: Vec::new() };
+        for first in 0..edges.len() {
+            if chains.used[first] {
+                continue;
+            }
+            let chain = chains.take_from(first);
+            match chain.as_slice() {
+                [start, .., end] if start == end => {
+                    if chain.len() > 3 {
+                        outline.loops.push(chain[1..].to_vec());
+                    }
+                }
+                _ => outline.open.push(chain),
+            }
+        }
+        outline
+    }
+
+    /// True if every edge is part of a loop.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        self.open.is_empty()
+    }
+}
+
+/// The exact coordinates of a point, with one zero only.
+type Key = [u64; 3];
+
+fn key<S: Space>(point: Point<S>) -> Key {
+    point.raw().to_array().map(|x| (x + 0.0).to_bits())
+}
+
+struct Chains<'a, S: Space> {
+    edges: &'a [[Point<S>; 2]],
+    /// The edges at a point, those that start there first.
+    at: BTreeMap<Key, Vec<usize>>,
+    used: Vec<bool>,
+}
+
+impl<'a, S: Space> Chains<'a, S> {
+    fn new(edges: &'a [[Point<S>; 2]]) -> Self {
+        let mut at: BTreeMap<Key, Vec<usize>> = BTreeMap::new();
+        for end in 0..2 {
+            for (i, edge) in edges.iter().enumerate() {
+                at.entry(key(edge[end])).or_default().push(i);
+            }
+        }
+        Self { edges, at, used: edges.iter().map(|[a, b]| a == b).collect() }
+    }
+
+    /// The longest chain with this edge in it, up to where it closes.
+    fn take_from(&mut self, first: usize) -> Vec<Point<S>> {
+        self.used[first] = true;
+        let mut chain = self.edges[first].to_vec();
+        self.extend(&mut chain);
+        if chain.first() != chain.last() {
+            // It did not close, so it may go on at its other end.
+            chain.reverse();
+            self.extend(&mut chain);
+            chain.reverse();
+        }
+        chain
+    }
+
+    fn extend(&mut self, chain: &mut Vec<Point<S>>) {
+        while let [start, .., end] = chain.as_slice()
+            && start != end
+            && let Some(next) = self.take_next(*end)
+        {
+            chain.push(next);
+        }
+    }
+
+    /// The other end of an unused edge at this point.
+    fn take_next(&mut self, point: Point<S>) -> Option<Point<S>> {
+        let edges = self.at.get(&key(point))?;
+        let next = *edges.iter().find(|&&edge| !self.used[edge])?;
+        self.used[next] = true;
+        let [start, end] = self.edges[next];
+        Some(if start == point { end } else { start })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use homog::World;
+
+    fn edges(pairs: &[(u8, u8)]) -> Vec<[Point<World>; 2]> {
+        let place = |i: u8| Point::new(f64::from(i % 4), f64::from(i / 4), 0.0);
+        pairs.iter().map(|&(a, b)| [place(a), place(b)]).collect()
+    }
+
+    #[test]
+    fn scattered_edges_find_together() {
+        let two_squares =
+            edges(&[(0, 1), (10, 14), (5, 4), (14, 15), (1, 5), (11, 10), (4, 0), (15, 11)]);
+        let outline = Outline::of_edges(&two_squares);
+        assert!(outline.is_closed());
+        assert_eq!(outline.loops.iter().map(Vec::len).collect::<Vec<_>>(), [4, 4]);
+    }
+
+    #[test]
+    fn edges_that_run_the_wrong_way_are_turned() {
+        let outline = Outline::of_edges(&edges(&[(0, 1), (5, 1), (4, 5), (0, 4)]));
+        assert_eq!((outline.loops.len(), outline.open.len()), (1, 0));
+    }
+
+    #[test]
+    fn open_surfaces_have_open_outlines() {
+        let outline = Outline::of_edges(&edges(&[(1, 2), (0, 1), (2, 6), (8, 8)]));
+        assert!(outline.loops.is_empty() && !outline.is_closed());
+        assert_eq!(outline.open[0].len(), 4);
+        assert_eq!(outline.open[0][0], Point::ORIGIN);
+        assert!(Outline::<World>::of_edges(&[]).is_closed());
+    }
+
+    #[test]
+    fn there_and_back_again_is_no_loop() {
+        let outline = Outline::of_edges(&edges(&[(0, 1), (1, 0)]));
+        assert_eq!(outline, Outline { loops: Vec::new(), open: Vec::new() });
+    }
+}
