@@ -1,4 +1,5 @@
-//! A photographer's round: walks about a house, keeps all of it in the picture, and ends with a stereo pair.
+//! A photographer's round: walks about a house, keeps all of it in the picture, and ends with a
+//! stereo pair.
 //!
 //! Run it with `cargo run -p camera --example photographer`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]

@@ -1,14 +1,16 @@
 //! Orientation by yaw, pitch and roll, as of an aircraft or of a head.
 //!
 //! ```text
-//!   [ u v w ] = R_y(yaw) · R_x(pitch) · R_z(roll)
+//! [ u v w ] = R_y(yaw) · R_x(pitch) · R_z(roll)
 //!
-//!   yaw    about the world's +y: positive turns the gaze to the left
-//!   pitch  about the camera's own right axis: positive lifts the gaze
-//!   roll   about the camera's own w: positive tips its head to the left, so that the picture turns clockwise
+//! yaw    about the world's +y: positive turns the gaze to the left
+//! pitch  about the camera's own right axis: positive lifts the gaze
+//! roll   about the camera's own w: positive tips its head to the left, and the picture
+//!        turns clockwise
 //! ```
 //!
-//! All three are 0 for a camera that looks along −z with y up. Positive angles follow the right-hand rule.
+//! All three are 0 for a camera that looks along −z with y up. Positive angles follow the
+//! right-hand rule.
 
 use crate::window::check_finite;
 use crate::{Basis, CameraError};
@@ -29,7 +31,8 @@ pub struct Attitude {
     pub yaw: f64,
     /// About the right axis; positive looks up.
     pub pitch: f64,
-    /// About the axis out of the picture; positive tips the camera anticlockwise, as its holder sees it.
+    /// About the axis out of the picture; positive tips the camera anticlockwise, as its holder
+    /// sees it.
     pub roll: f64,
 }
 
@@ -46,7 +49,8 @@ impl Attitude {
 
     /// The angles of an orientation: yaw and roll in (−π, π], pitch in [−π/2, π/2].
     ///
-    /// Looking straight up or down only the sum or difference of yaw and roll is known; roll is 0 then.
+    /// Looking straight up or down only the sum or difference of yaw and roll is known; roll is 0
+    /// then.
     #[must_use]
     pub fn of(basis: Basis) -> Self {
         let (u, v, w) = (basis.u(), basis.v(), basis.w());
@@ -63,8 +67,8 @@ impl Attitude {
 }
 
 impl Basis {
-    /// This orientation turned about its own w by `angle` radians: positive tips the camera anticlockwise as its holder sees
-    /// it, so that the picture turns clockwise.
+    /// This orientation turned about its own w by `angle` radians: positive tips the camera
+    /// anticlockwise as its holder sees it, so that the picture turns clockwise.
     ///
     /// # Errors
     /// An angle that is not finite.

@@ -15,10 +15,12 @@
 use crate::{CameraError, exact};
 use homog::{Affine, Point, Vector, View, World};
 
-/// ‖t × g‖ ≤ this · ‖t‖ ‖g‖ counts as parallel. Directions a millionth of a radian apart are far from it.
+/// ‖t × g‖ ≤ this · ‖t‖ ‖g‖ counts as parallel. Directions a millionth of a radian apart are far
+/// from it.
 const PARALLEL: f64 = 1e-12;
 
-/// The orientation of a camera: right-handed orthonormal axes u (right), v (up), w (backwards) in world space.
+/// The orientation of a camera: right-handed orthonormal axes u (right), v (up), w (backwards) in
+/// world space.
 ///
 /// ```
 /// use camera::Basis;
@@ -40,11 +42,12 @@ impl Basis {
     /// The axes of the world: looking along −z with y up.
     pub const WORLD: Self = Self { u: Vector::X, v: Vector::Y, w: Vector::Z };
 
-    /// The basis that looks along `gaze` with the side of `up` upwards (CA-1). Lengths do not matter.
+    /// The basis that looks along `gaze` with the side of `up` upwards (CA-1). Lengths do not
+    /// matter.
     ///
     /// # Errors
-    /// A zero or non-finite vector; an `up` parallel to the gaze, that is with a sine of the angle between them of
-    /// at most 10⁻¹².
+    /// A zero or non-finite vector; an `up` parallel to the gaze, that is with a sine of the angle
+    /// between them of at most 10⁻¹².
     pub fn from_gaze(gaze: Vector<World>, up: Vector<World>) -> Result<Self, CameraError> {
         let backwards = -unit(gaze, "gaze", CameraError::ZeroGaze)?;
         unit(up, "view-up", CameraError::ZeroUp)?;
@@ -57,8 +60,8 @@ impl Basis {
         Ok(Self::from_right(Vector::from_raw(right), backwards))
     }
 
-    /// As [`from_gaze`](Self::from_gaze), but an `up` that is zero or parallel to the gaze is replaced by
-    /// [`fallback_up`](Self::fallback_up) instead of being refused.
+    /// As [`from_gaze`](Self::from_gaze), but an `up` that is zero or parallel to the gaze is
+    /// replaced by [`fallback_up`](Self::fallback_up) instead of being refused.
     ///
     /// # Errors
     /// A gaze that is zero, or any vector that is not finite.
@@ -74,8 +77,9 @@ impl Basis {
         })
     }
 
-    /// The view-up to take where the wanted one is of no use: −z when looking mostly down (as a map has north
-    /// at the top), +z when looking mostly up, +y otherwise. Never nearer to the gaze than 45°.
+    /// The view-up to take where the wanted one is of no use: −z when looking mostly down (as a map
+    /// has north at the top), +z when looking mostly up, +y otherwise. Never nearer to the gaze
+    /// than 45°.
     #[must_use]
     pub fn fallback_up(gaze: Vector<World>) -> Vector<World> {
         let [x, y, z] = gaze.raw().abs().to_array();
@@ -130,7 +134,8 @@ impl Basis {
         -self.w
     }
 
-    /// The rotation that turns u, v, w into the axes x, y, z of view space: the left factor of M_cam (CA-2).
+    /// The rotation that turns u, v, w into the axes x, y, z of view space: the left factor of
+    /// M_cam (CA-2).
     #[must_use]
     pub fn world_to_view_rotation(self) -> Affine<World, View> {
         let [u, v, w] = [self.u, self.v, self.w];

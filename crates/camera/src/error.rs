@@ -94,7 +94,8 @@ pub enum CameraError {
         /// Pixels from top to bottom.
         ny: u32,
     },
-    /// The projectors run along the view plane and never meet it, or towards the viewer, or are not finite.
+    /// The projectors run along the view plane and never meet it, or towards the viewer, or are not
+    /// finite.
     #[error("the projectors run along {direction} in view space: z must be negative")]
     Projectors {
         /// Their direction as given.
@@ -170,7 +171,8 @@ pub enum FramingError {
         /// The padding as given.
         padding: f64,
     },
-    /// The projectors run along the view plane and never meet it, or towards the viewer, or are not finite.
+    /// The projectors run along the view plane and never meet it, or towards the viewer, or are not
+    /// finite.
     #[error("the projectors run along {direction} in view space: z must be negative")]
     Projectors {
         /// Their direction as given.

@@ -1,15 +1,16 @@
 //! A vector product that keeps its digits when the vectors are nearly parallel.
 //!
-//! Each coordinate of t × g is a difference a b − c d. For directions 10⁻⁶ rad apart the two products agree in six
-//! digits, so that rounding them first would leave the camera's right axis with ten. Here the rounding
-//! errors of the products are computed and put back (Dekker 1971, with Veltkamp's splitting), which makes u right to
-//! the last digits for any view-up that is accepted.
+//! Each coordinate of t × g is a difference a b − c d. For directions 10⁻⁶ rad apart the two
+//! products agree in six digits, so that rounding them first would leave the camera's right axis
+//! with ten. Here the rounding errors of the products are computed and put back (Dekker 1971, with
+//! Veltkamp's splitting), which makes u right to the last digits for any view-up that is accepted.
 
 use glam::DVec3;
 
 /// `a × b` up to a positive factor, or zero. Both must be finite and not zero.
 ///
-/// The vectors are first scaled by powers of two, which costs no digit, so that huge and tiny ones work.
+/// The vectors are first scaled by powers of two, which costs no digit, so that huge and tiny ones
+/// work.
 pub(crate) fn cross(a: DVec3, b: DVec3) -> DVec3 {
     let (a, b) = (near_one(a), near_one(b));
     DVec3::new(

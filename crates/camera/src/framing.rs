@@ -1,18 +1,23 @@
 //! Framing in perspective: where the eye must stand so that some points just fill the picture.
 //!
 //! ```text
-//!  v │              ______ upper side of the frame, slope t
-//!    │         ____/  ●
-//!    │    ____/ ●        ●        Each side of the pyramid is pushed inwards, at its own slope, until it
-//!   eye ⟨___      ●    ●          touches a point. In coordinates along u, v, w a point (x, y, z) is left of the right
-//!    │      \____    ●            side, slope r, if  x − ex ≤ r (ez − z),  that is  ex + r ez ≥ x + r z:
-//!    │           \____            one number per side and point, and only the greatest counts.
-//!    └───────────────\───────► −w
+//!  v
+//!  │                ___──── upper side of the frame, of slope t
+//!  │         ___─── ●
+//!  │   ___───    ●      ●
+//! eye ───────────────────────────► −w
+//!  │   ‾‾‾───   ●     ●
+//!  │         ‾‾‾─── ●
+//!                   ‾‾‾──── lower side, of slope b
 //! ```
 //!
-//! The right and left sides give ex + r ez ≥ R and ex + l ez ≤ L, hence ez ≥ (R − L)/(r − l): the least distance
-//! at which the width fits. The height gives another; the greater one counts, and in the other direction the picture
-//! is centred. No search, no sphere around the points, no point cropped.
+//! Each side of the pyramid is pushed inwards, at its own slope, until it touches a point. In
+//! coordinates along u, v, w a point (x, y, z) is left of the right side, of slope r, if
+//! x − ex ≤ r (ez − z), that is if ex + r ez ≥ x + r z: one number per side and point, and of these
+//! only the greatest, R, counts. With the least, L, for the left side we have ex + r ez ≥ R and
+//! ex + l ez ≤ L, hence ez ≥ (R − L)/(r − l): the least distance at which the width fits. The height
+//! gives another; the greater one counts, and in the other direction the picture is centred. There
+//! is no sphere around the points, no trial and no margin, and no point is cropped.
 
 use crate::points::Coordinates;
 use crate::{Basis, Camera, FramingError};
@@ -20,13 +25,15 @@ use homog::{Point, Vector, World};
 
 /// The nearest point stands at least this part of the points' diagonal in front of the eye.
 ///
-/// Otherwise a needle that points at the viewer, narrower than the pyramid, would be framed from its very tip.
+/// Otherwise a needle that points at the viewer, narrower than the pyramid, would be framed from
+/// its very tip.
 const CLEARANCE: f64 = 1.0 / 64.0;
 
 /// The frame as the slopes of its four sides: the window at distance 1 in front of the eye.
 ///
-/// A symmetric frame with a vertical opening angle θ has `top` = −`bottom` = tan(θ/2) and `right` = −`left` =
-/// `top` × width/height. Frames off the axis, of a shifted lens or a stereo eye, are as welcome.
+/// A symmetric frame with a vertical opening angle θ has `top` = −`bottom` = tan(θ/2) and `right` =
+/// −`left` = `top` × width/height. Frames off the axis, of a shifted lens or a stereo eye, are as
+/// welcome.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Slopes {
     /// Left side: x at distance 1, less than `right`.
@@ -40,12 +47,12 @@ pub struct Slopes {
 }
 
 impl Slopes {
-    /// The symmetric frame with a vertical opening angle in radians, in (0, π), and an aspect ratio width/height
-    /// (FOV-1).
+    /// The symmetric frame with a vertical opening angle in radians, in (0, π), and an aspect ratio
+    /// width/height (FOV-1).
     ///
     /// # Errors
-    /// An angle out of its range, an aspect that is not positive and finite, or both so extreme that the frame is
-    /// no longer a pair of numbers.
+    /// An angle out of its range, an aspect that is not positive and finite, or both so extreme
+    /// that the frame is no longer a pair of numbers.
     pub fn vertical_angle(radians: f64, aspect: f64) -> Result<Self, FramingError> {
         if !(radians > 0.0 && radians < core::f64::consts::PI) {
             return Err(FramingError::Angle { radians });
@@ -57,7 +64,8 @@ impl Slopes {
         slopes.padded(0.0)
     }
 
-    /// The frame less `padding` of its width at the left and right, and of its height below and above.
+    /// The frame less `padding` of its width at the left and right, and of its height below and
+    /// above.
     ///
     /// # Errors
     /// A window that is empty, mirrored or not finite; a padding outside [0, ½).
@@ -80,7 +88,8 @@ pub enum Fit {
     Width,
     /// The points touch the lower and upper sides of the padded frame, and fit within its width.
     Height,
-    /// The points touch no side: their image would have no size, or the eye would stand in the nearest of them.
+    /// The points touch no side: their image would have no size, or the eye would stand in the
+    /// nearest of them.
     Loose,
 }
 
@@ -91,7 +100,8 @@ pub struct Framing {
     pub camera: Camera,
     /// Distance of the nearest point along the gaze, greater than 0. Not padded.
     pub near: f64,
-    /// Distance of the farthest point along the gaze. Not padded: equal to `near` if the points lie in one plane.
+    /// Distance of the farthest point along the gaze. Not padded: equal to `near` if the points lie
+    /// in one plane.
     pub far: f64,
     /// What the distance was decided by.
     pub fit: Fit,
@@ -99,16 +109,19 @@ pub struct Framing {
 
 /// Places a camera of the given orientation so that the image of `points` just fills the frame.
 ///
-/// In the direction that [`Fit`] names the image touches both sides of the padded frame; in the other it is centred, with
-/// the same margin on both sides. `padding` is the part of the frame's width and height to be left free
-/// on every side: 0.05 is 5 per cent. For bounds pass [`homog::Bounds::corners`]; the points themselves give a closer fit.
+/// In the direction that [`Fit`] names the image touches both sides of the padded frame; in the
+/// other it is centred, with the same margin on both sides. `padding` is the part of the frame's
+/// width and height to be left free on every side: 0.05 is 5 per cent. For bounds pass
+/// [`homog::Bounds::corners`]; the points themselves give a closer fit.
 ///
-/// A single point is framed as a cube of side 1 around it (or of a millionth of its distance from the origin, if that
-/// is more); so are points that lie closer together than 10⁻¹² of that distance. The eye keeps off the nearest point by at least 1/64 of the points' diagonal.
+/// A single point is framed as a cube of side 1 around it (or of a millionth of its distance from
+/// the origin, if that is more); so are points that lie closer together than 10⁻¹² of that
+/// distance. The eye keeps off the nearest point by at least 1/64 of the points' diagonal.
 ///
 /// # Errors
-/// No points; a point that is not finite; an empty or mirrored window; a padding outside [0, ½); points so
-/// far out, or a frame so narrow or so far off the axis, that f64 has no place for the eye.
+/// No points; a point that is not finite; an empty or mirrored window; a padding outside [0, ½);
+/// points so far out, or a frame so narrow or so far off the axis, that f64 has no place for the
+/// eye.
 ///
 /// ```
 /// use camera::{NamedView, Slopes, frame_perspective};
@@ -189,11 +202,13 @@ impl Sides {
 }
 
 impl<I: Iterator<Item = Point<World>> + Clone> Coordinates<I> {
-    /// The eye's coordinate within `range` for which the outermost slopes add up to `sum`, so that the margins on both
-    /// sides are alike. `along` picks x or y of a point; the eye is at height `z`.
+    /// The eye's coordinate within `range` for which the outermost slopes add up to `sum`, so that
+    /// the margins on both sides are alike. `along` picks x or y of a point; the eye is at height
+    /// `z`.
     ///
-    /// Each point's slope (x − e)/D falls linearly with e, so that the sum of the greatest and the least falls too, piece by
-    /// piece. On the right piece one linear equation gives the answer; the loop finds the piece.
+    /// Each point's slope (x − e)/D falls linearly with e, so that the sum of the greatest and the
+    /// least falls too, piece by piece. On the right piece one linear equation gives the answer;
+    /// the loop finds the piece.
     fn centered(
         &self,
         z: f64,
@@ -219,7 +234,8 @@ impl<I: Iterator<Item = Point<World>> + Clone> Coordinates<I> {
         eye
     }
 
-    /// Coordinate and distance of the points with the greatest and the least slope as seen from `eye`.
+    /// Coordinate and distance of the points with the greatest and the least slope as seen from
+    /// `eye`.
     fn outermost(&self, z: f64, eye: f64, along: impl Fn(glam::DVec3) -> f64) -> [(f64, f64); 2] {
         let (mut greatest, mut least) = (-f64::INFINITY, f64::INFINITY);
         let mut ends = [(eye, 1.0); 2];

@@ -1,18 +1,19 @@
 //! Cameras that never yield NaN: look-at with typed failure, named views and exact framing.
 //!
 //! ```text
-//!      v  up in the picture                      ● target
-//!      │                                    ╱
-//!      │                        gaze g ╱                 w = −g/‖g‖
-//!      │                          ╱                      u = (t × w)/‖t × w‖     (CA-1)
-//!     eye ───── u  right     ╱                           v = w × u
-//!    ╱
-//!   w  backwards                              world_to_view = rotation · translation   (CA-2)
+//!              v  up in the picture
+//!              │   ╱ view-up t
+//!              │  ╱                          w = −g/‖g‖
+//!              │ ╱                           u = (t × w)/‖t × w‖                   (CA-1)
+//!  w ◄──────── eye ────────► gaze g          v = w × u
+//!  backwards    ╲
+//!                ╲                           world_to_view = rotation · translation (CA-2)
+//!                 u  right
 //! ```
 //!
-//! A [`Camera`] is an eye and an orientation ([`Basis`]) in world space. View space is right-handed with the eye at the
-//! origin, x right, y up and the camera looking along −z. Any unit of length, angles in radians. A camera knows no
-//! lens: projections are a matter of their own.
+//! A [`Camera`] is an eye and an orientation ([`Basis`]) in world space. View space is right-handed
+//! with the eye at the origin, x right, y up and the camera looking along −z. Any unit of length,
+//! angles in radians. A camera knows no lens: projections are a matter of their own.
 //!
 //! ```
 //! use camera::{Camera, NamedView, Slopes, frame_perspective};
@@ -34,9 +35,10 @@
 //!
 //! | to say where a camera stands | take |
 //! | --- | --- |
-//! | eye and target, or eye and gaze | [`Camera::look_at`], [`Camera::look_to`], and `…_or_fallback` if any up will do |
+//! | eye and target, or eye and gaze | [`Camera::look_at`], [`Camera::look_to`] |
+//! | the same if any view-up will do | [`Camera::look_at_or_fallback`] |
 //! | front, top, isometric … by name | [`NamedView`] |
-//! | just so that all of it is in the picture | [`frame_perspective`], [`frame_parallel`], [`frame_oblique`] |
+//! | so that all is in the picture | [`frame_perspective`], [`frame_parallel`], [`frame_oblique`] |
 //! | round a target, or on a turntable | [`Orbit`] |
 //! | yaw, pitch and roll | [`Attitude`] |
 //! | a node of a scene | [`Camera::from_frame`] |
@@ -48,15 +50,16 @@
 //! # Conventions
 //!
 //! - Model and world: +y up, and things face +z, as in glTF. World and view space are right-handed.
-//! - A [`Window`] is four numbers in view space and the distance of their plane; [`Slopes`] are those of the plane at
-//!   distance 1. Give them to any projection.
-//! - No constructor returns a camera with NaN in it. What cannot be done is a [`CameraError`] or a [`FramingError`] that
-//!   names the values at fault and says what would do: a view-up along the gaze comes back with one that works.
+//! - A [`Window`] is four numbers in view space and the distance of their plane; [`Slopes`] are
+//!   those of the plane at distance 1. Give them to any projection.
+//! - No constructor returns a camera with NaN in it. What cannot be done is a [`CameraError`] or a
+//!   [`FramingError`] that names the values at fault and says what would do: a view-up along the
+//!   gaze comes back with one that works.
 //!
 //! `cargo run -p camera --example photographer` shows the crate at work.
 //!
-//! Sources: P. Shirley, S. Marschner and others, *Fundamentals of Computer Graphics*, chapter 8, *Viewing* (CA-1 to CA-3); R. Kooima,
-//! *Generalized Perspective Projection*, 2008, for screens.
+//! Sources: P. Shirley, S. Marschner and others, *Fundamentals of Computer Graphics*, chapter 8,
+//! *Viewing* (CA-1 to CA-3); R. Kooima, *Generalized Perspective Projection*, 2008, for screens.
 #![no_std]
 
 mod attitude;

@@ -11,10 +11,12 @@
 //!            (−y)
 //! ```
 //!
-//! Models face +z with +y up, as in glTF: the viewer of the front view stands on +z and looks along −z, with +x on the
-//! right hand. "Right" is that side, as on a drawing, and not the right hand of whoever the model shows.
+//! Models face +z with +y up, as in glTF: the viewer of the front view stands on +z and looks along
+//! −z, with +x on the right hand. "Right" is that side, as on a drawing, and not the right hand of
+//! whoever the model shows.
 //!
-//! A name is a direction and a view-up. Where the camera stands on that direction is a matter of framing.
+//! A name is a direction and a view-up. Where the camera stands on that direction is a matter of
+//! framing.
 
 use crate::Basis;
 use core::fmt;
@@ -46,12 +48,13 @@ pub enum NamedView {
     Bottom,
     /// From (1, 1, 1): all three axes equally foreshortened, by √(2/3).
     Isometric,
-    /// From (1, 1, √7): x and y foreshortened alike and z half as much again, the ratios 1 : 1 : ½ of ISO 5456-3.
-    /// The x axis runs at 7° to the horizontal and the z axis at 42°.
+    /// From (1, 1, √7): x and y foreshortened alike and z half as much again, the ratios 1 : 1 : ½
+    /// of ISO 5456-3. The x axis runs at 7° to the horizontal and the z axis at 42°.
     Dimetric,
     /// From (2, 3, 6): three different foreshortenings, √45/7, √40/7 and √13/7.
     Trimetric,
-    /// From (2, 1, 2): halfway between front and right and a little from above, as a product is photographed.
+    /// From (2, 1, 2): halfway between front and right and a little from above, as a product is
+    /// photographed.
     ThreeQuarter,
 }
 
@@ -146,15 +149,16 @@ impl fmt::Display for NamedView {
 /// The name is not that of a view.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 #[error(
-    "there is no view of that name: use front, back, left, right, top, bottom, isometric, dimetric, trimetric \
-     or three-quarter"
+    "there is no view of that name: use front, back, left, right, top, bottom, isometric, dimetric, \
+     trimetric or three-quarter"
 )]
 pub struct UnknownView;
 
 impl FromStr for NamedView {
     type Err = UnknownView;
 
-    /// Upper and lower case, hyphens, underscores and spaces do not matter; `iso` is isometric, `rear` is back.
+    /// Upper and lower case, hyphens, underscores and spaces do not matter; `iso` is isometric,
+    /// `rear` is back.
     fn from_str(text: &str) -> Result<Self, UnknownView> {
         let means = |name: &str| letters(text).eq(letters(name));
         match () {

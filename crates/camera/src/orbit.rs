@@ -10,8 +10,9 @@
 //!          +z                            eye = target + distance · w
 //! ```
 //!
-//! The axes come from the angles and not from a view-up, so that the poles are places like any other: at ε = 90° the camera
-//! looks straight down and the azimuth says which side is up. A turntable never jumps there.
+//! The axes come from the angles and not from a view-up, so that the poles are places like any
+//! other: at ε = 90° the camera looks straight down and the azimuth says which side is up. A
+//! turntable never jumps there.
 
 use crate::window::{check_finite, check_positive};
 use crate::{Basis, Camera, CameraError};
@@ -33,7 +34,8 @@ use homog::{Point, Vector, World};
 pub struct Orbit {
     /// What the camera looks at.
     pub target: Point<World>,
-    /// Radians from the front (+z) towards the right (+x): the viewer walks anticlockwise as seen from above.
+    /// Radians from the front (+z) towards the right (+x): the viewer walks anticlockwise as seen
+    /// from above.
     pub azimuth: f64,
     /// Radians above the horizon. Beyond ±π/2 the picture is upside down.
     pub elevation: f64,
@@ -56,7 +58,8 @@ impl Orbit {
         Camera::new(self.target + basis.w() * self.distance, basis)
     }
 
-    /// `frames` places, evenly spaced once round the vertical axis, starting here; the last is one step before the first.
+    /// `frames` places, evenly spaced once round the vertical axis, starting here; the last is one
+    /// step before the first.
     pub fn turntable(self, frames: u32) -> impl ExactSizeIterator<Item = Self> + Clone {
         let step = TAU / f64::from(frames.max(1));
         (0..frames).map(move |i| {
@@ -65,9 +68,11 @@ impl Orbit {
         })
     }
 
-    /// The place of `camera` on the sphere around `target`; `None` if it does not look at the target, or is rolled.
+    /// The place of `camera` on the sphere around `target`; `None` if it does not look at the
+    /// target, or is rolled.
     ///
-    /// The inverse of [`camera`](Self::camera), with the azimuth in (−π, π] and the elevation in [−π/2, π/2].
+    /// The inverse of [`camera`](Self::camera), with the azimuth in (−π, π] and the elevation in
+    /// [−π/2, π/2].
     #[must_use]
     pub fn of(camera: Camera, target: Point<World>) -> Option<Self> {
         let offset = camera.eye() - target;
@@ -82,7 +87,8 @@ impl Orbit {
 }
 
 impl Basis {
-    /// The orientation of a camera that stands at the given azimuth and elevation and looks at the middle (see [`Orbit`]).
+    /// The orientation of a camera that stands at the given azimuth and elevation and looks at the
+    /// middle (see [`Orbit`]).
     ///
     /// # Errors
     /// An angle that is not finite.

@@ -1,13 +1,17 @@
 //! Framing in parallel projection: the smallest window that holds the image of some points.
 //!
 //! ```text
-//!        window                   The projectors run along the gaze (orthographic) or along any direction d that
-//!    top ┌────────┐               leads away from the viewer (oblique). A point at (x, y, z) in view space meets the plane of
-//!        │ ●    ● │  ◄── d        the eye, z = 0, at x − z dx/dz, y − z dy/dz (OB-1, VV-1), and the
-//!        │   ●    │               window is the box around these images, in the wanted aspect.
+//!        window
+//!    top ┌────────┐
+//!        │ ●    ● │ ◄── d      The box around the images of the points,
+//!        │    ●   │            in the wanted aspect.
 //! bottom └────────┘
 //!       left    right
 //! ```
+//!
+//! The projectors run along the gaze (orthographic) or along any direction d that leads away from the
+//! viewer (oblique). A point (x, y, z) of view space has its image in the plane of the eye, z = 0, at
+//! (x − z dx/dz, y − z dy/dz). Sources: OB-1, VV-1.
 
 use crate::framing::{check_aspect, check_padding};
 use crate::points::Coordinates;
@@ -18,8 +22,8 @@ use homog::{Point, Vector, View, World};
 /// A camera, a window and a depth range for a parallel projection.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ParallelFraming {
-    /// The camera. Its eye lies on the projector through the middle of the picture, before the nearest point by one
-    /// diagonal of the points.
+    /// The camera. Its eye lies on the projector through the middle of the picture, before the
+    /// nearest point by one diagonal of the points.
     pub camera: Camera,
     /// Left side of the window in view space, in the plane z = 0 of the eye: −`right`.
     pub left: f64,
@@ -31,22 +35,26 @@ pub struct ParallelFraming {
     pub top: f64,
     /// Distance of the nearest point along the gaze, greater than 0. Not padded.
     pub near: f64,
-    /// Distance of the farthest point along the gaze. Not padded: equal to `near` if the points lie in one plane.
+    /// Distance of the farthest point along the gaze. Not padded: equal to `near` if the points lie
+    /// in one plane.
     pub far: f64,
     /// Which dimension of the picture the size was decided by.
     pub fit: Fit,
 }
 
-/// Chooses camera and window of an orthographic projection so that the image of `points` just fills the frame.
+/// Chooses camera and window of an orthographic projection so that the image of `points` just fills
+/// the frame.
 ///
-/// The image touches two opposite sides of the padded frame and is centred between the other two. `aspect` is
-/// width/height of the frame; `padding` the part of it to be left free on every side: 0.05 is 5 per cent. Points whose
-/// images are all one, on a line along the projectors, get a frame of the height of their diagonal. A single point is framed
-/// as a cube of side 1 around it (or of a millionth of its distance from the origin, if that is more).
+/// The image touches two opposite sides of the padded frame and is centred between the other two.
+/// `aspect` is width/height of the frame; `padding` the part of it to be left free on every side:
+/// 0.05 is 5 per cent. Points whose images are all one, on a line along the projectors, get a frame
+/// of the height of their diagonal. A single point is framed as a cube of side 1 around it (or of a
+/// millionth of its distance from the origin, if that is more).
 ///
 /// # Errors
-/// No points; a point that is not finite; an aspect that is not positive and finite; a padding outside [0, ½);
-/// points so far out, or an aspect or projectors so extreme, that f64 has no place for the eye.
+/// No points; a point that is not finite; an aspect that is not positive and finite; a padding
+/// outside [0, ½); points so far out, or an aspect or projectors so extreme, that f64 has no place
+/// for the eye.
 ///
 /// ```
 /// use camera::{NamedView, frame_parallel};
@@ -71,8 +79,9 @@ where
     frame_oblique(points, orientation, -Vector::Z, aspect, padding)
 }
 
-/// As [`frame_parallel`], with projectors along `projectors`: a direction in view space that leads away from the viewer,
-/// that is with z < 0. Its length does not matter; (0, 0, −1) is the orthographic projection.
+/// As [`frame_parallel`], with projectors along `projectors`: a direction in view space that leads
+/// away from the viewer, that is with z < 0. Its length does not matter; (0, 0, −1) is the
+/// orthographic projection.
 ///
 /// The window lies in the plane of the eye, z = 0: a point (x, y, z) of view space has its image at
 /// (x − z a/c, y − z b/c) for projectors (a, b, c).
@@ -97,7 +106,8 @@ where
     let image = Image::of(&points, shear);
     let (half_width, half_height, fit) = image.window(&points, aspect, padding);
 
-    // From the middle of the image, in the plane z = 0 of the points' middle, along the projector to the eye.
+    // From the middle of the image, in the plane z = 0 of the points' middle, along the projector
+    // to the eye.
     let near = points.extent.diagonal();
     let z = points.extent.max.z + near;
     let middle = image.middle();

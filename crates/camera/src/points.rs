@@ -1,7 +1,9 @@
-//! The points to be framed, in coordinates along a camera's axes, counted from the middle of their bounds.
+//! The points to be framed, in coordinates along a camera's axes, counted from the middle of their
+//! bounds.
 //!
-//! Counting from the middle keeps the digits of small things far from the origin. Things so small and so far that the
-//! coordinates of an eye could not tell their parts apart count as one point, and one point is framed as a cube.
+//! Counting from the middle keeps the digits of small things far from the origin. Things so small
+//! and so far that the coordinates of an eye could not tell their parts apart count as one point,
+//! and one point is framed as a cube.
 
 use crate::{Basis, Camera, FramingError};
 use glam::DVec3;
@@ -13,7 +15,8 @@ const FARTHEST: f64 = 1e300;
 const ONE_POINT: f64 = 1e-12;
 /// An eye's coordinates are rounded by less than this part of them.
 const EYE_PRECISION: f64 = 1e-14;
-/// The side of the cube a lone point is framed as, where numbers are small enough to have such a cube.
+/// The side of the cube a lone point is framed as, where numbers are small enough to have such a
+/// cube.
 const LONE_SIDE: f64 = 1.0;
 /// Its least side as a part of the point's distance from the origin.
 const LONE_PART: f64 = 1e-6;
@@ -83,8 +86,8 @@ impl<I: Iterator<Item = Point<World>> + Clone> Coordinates<I> {
         }
     }
 
-    /// The camera whose eye has the given coordinates. `smallest` is the least length that the place of the eye must
-    /// get right: so far out that it cannot, there is no camera.
+    /// The camera whose eye has the given coordinates. `smallest` is the least length that the
+    /// place of the eye must get right: so far out that it cannot, there is no camera.
     pub(crate) fn camera(&self, eye: Vector<View>, smallest: f64) -> Result<Camera, FramingError> {
         let eye = self.center + self.basis.to_world(eye);
         self.check(eye.is_finite())?;

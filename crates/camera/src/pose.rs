@@ -1,4 +1,5 @@
-//! The camera: an eye and an orientation, and the rigid map M_cam between world and view space (CA-2).
+//! The camera: an eye and an orientation, and the rigid map M_cam between world and view space
+//! (CA-2).
 //!
 //! ```text
 //!         [ xu yu zu 0 ] [ 1 0 0 -xe ]
@@ -7,8 +8,8 @@
 //!         [ 0  0  0  1 ] [ 0 0 0  1  ]
 //! ```
 //!
-//! Source: chapter §8.1.3, formula CA-2. (One set of notes prints the third row of the translation as
-//! 0 0 0 −ze, misprint M11: that matrix is singular and puts every point at one depth.)
+//! Source: chapter §8.1.3, formula CA-2. (One set of notes prints the third row of the translation
+//! as 0 0 0 −ze, misprint M11: that matrix is singular and puts every point at one depth.)
 
 use crate::{Basis, CameraError};
 use homog::{Affine, Point, Space, Vector, View, World};
@@ -16,7 +17,8 @@ use homog::{Affine, Point, Space, Vector, View, World};
 /// The greatest coordinate of an eye: with it u · e still is a finite number.
 const EYE_LIMIT: f64 = f64::MAX / 4.0;
 
-/// Where a camera stands and how it is turned. It knows nothing of lenses: that is a projection's business.
+/// Where a camera stands and how it is turned. It knows nothing of lenses: that is a projection's
+/// business.
 ///
 /// A `Camera` is always usable: every constructor refuses what would give NaN.
 ///
@@ -47,7 +49,8 @@ impl Camera {
         Ok(Self { eye, basis })
     }
 
-    /// The camera at `eye` that has `target` in the middle of the picture and the side of `up` upwards.
+    /// The camera at `eye` that has `target` in the middle of the picture and the side of `up`
+    /// upwards.
     ///
     /// # Errors
     /// Eye and target the same; `up` zero or parallel to the gaze; any coordinate not finite.
@@ -59,7 +62,8 @@ impl Camera {
         Self::new(eye, Basis::from_gaze(gaze_between(eye, target)?, up)?)
     }
 
-    /// The camera at `eye` that looks along `gaze` with the side of `up` upwards. Lengths do not matter.
+    /// The camera at `eye` that looks along `gaze` with the side of `up` upwards. Lengths do not
+    /// matter.
     ///
     /// # Errors
     /// Gaze or `up` zero, or parallel to each other; any coordinate not finite.
@@ -71,8 +75,8 @@ impl Camera {
         Self::new(eye, Basis::from_gaze(gaze, up)?)
     }
 
-    /// As [`look_at`](Self::look_at), with [`Basis::fallback_up`] in place of an `up` that is zero or parallel to
-    /// the gaze: −z looking down, +z looking up, +y otherwise.
+    /// As [`look_at`](Self::look_at), with [`Basis::fallback_up`] in place of an `up` that is zero
+    /// or parallel to the gaze: −z looking down, +z looking up, +y otherwise.
     ///
     /// # Errors
     /// Eye and target the same, or any coordinate not finite.
@@ -84,8 +88,8 @@ impl Camera {
         Self::new(eye, Basis::from_gaze_or_fallback(gaze_between(eye, target)?, up)?)
     }
 
-    /// As [`look_to`](Self::look_to), with [`Basis::fallback_up`] in place of an `up` that is zero or parallel to
-    /// the gaze: −z looking down, +z looking up, +y otherwise.
+    /// As [`look_to`](Self::look_to), with [`Basis::fallback_up`] in place of an `up` that is zero
+    /// or parallel to the gaze: −z looking down, +z looking up, +y otherwise.
     ///
     /// # Errors
     /// A gaze that is zero, or any coordinate not finite.
@@ -97,8 +101,8 @@ impl Camera {
         Self::new(eye, Basis::from_gaze_or_fallback(gaze, up)?)
     }
 
-    /// The camera at the origin of a frame, looking along its −z with its +y up, as the camera nodes of glTF do. The
-    /// frame may be scaled, sheared or mirrored; the camera is not.
+    /// The camera at the origin of a frame, looking along its −z with its +y up, as the camera
+    /// nodes of glTF do. The frame may be scaled, sheared or mirrored; the camera is not.
     ///
     /// # Errors
     /// A frame whose z axis is zero or parallel to its y axis, or that is not finite.
@@ -190,7 +194,8 @@ fn gaze_between(eye: Point<World>, target: Point<World>) -> Result<Vector<World>
     if gaze == Vector::ZERO {
         return Err(CameraError::TargetIsEye { eye });
     }
-    // Two points at opposite ends of the numbers are farther apart than a number can say; half of it can.
+    // Two points at opposite ends of the numbers are farther apart than a number can say; half of
+    // it can.
     let half = || Vector::from_raw(target.raw() * 0.5 - eye.raw() * 0.5);
     Ok(if gaze.is_finite() { gaze } else { half() })
 }

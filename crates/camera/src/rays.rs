@@ -1,13 +1,15 @@
 //! Viewing rays: the line of sight of any pixel (CA-3).
 //!
 //! ```text
-//!  perspective: all from the eye               parallel: all in one direction, from the window's plane
-//!     ╱ ● (us, vs, −d)                           ● (us, vs, −d) ──►
-//!  e ──── window at distance d                   ●              ──►
-//!     ╲                                          ●              ──►
+//!  perspective: all from the eye           parallel: all in one direction,
+//!                                          from the window's plane
+//!     ╱│  (us, vs, −d)                       │──►  (us, vs, −d)
+//!  e ──┼───────────────►                     │──►
+//!     ╲│  window at distance d               │──►
 //!
-//!  us = left + (right − left) · (x − x₀)/nx      x₀ = −½ if pixel centres are integers, 0 if they are halves
-//!  vs = bottom + (top − bottom) · (y − y₀)/ny    from the upper side down if y runs down
+//!  us = left + (right − left) · (x − x₀)/nx
+//!  vs = bottom + (top − bottom) · (y − y₀)/ny     from the top down if y runs down
+//!  x₀ = y₀ = −½ if pixel centres are integers, 0 if they are halves
 //! ```
 //!
 //! This is the inverse of the viewing pipeline, for those who go from the picture to the world.
@@ -20,7 +22,8 @@ use homog::{Point, Vector, View, World};
 pub enum PixelCenters {
     /// At (i, j), as in the chapter: the picture reaches from −½ to n − ½.
     Integers,
-    /// At (i + ½, j + ½), as in OpenGL, Vulkan and Direct3D since version 10: the picture reaches from 0 to n.
+    /// At (i + ½, j + ½), as in OpenGL, Vulkan and Direct3D since version 10: the picture reaches
+    /// from 0 to n.
     Halves,
 }
 
@@ -59,7 +62,8 @@ impl PixelGrid {
         Self { nx, ny, centers: PixelCenters::Halves, y: VerticalAxis::Down }
     }
 
-    /// The place (x, y) of the picture as parts of its width, from the left, and of its height, from below.
+    /// The place (x, y) of the picture as parts of its width, from the left, and of its height,
+    /// from below.
     fn parts(self, x: f64, y: f64) -> [f64; 2] {
         let shift = if self.centers == PixelCenters::Integers { 0.5 } else { 0.0 };
         let (across, along) = ((x + shift) / f64::from(self.nx), (y + shift) / f64::from(self.ny));
@@ -123,7 +127,8 @@ impl Rays {
         Ok(Self { camera, window, grid, projectors: None })
     }
 
-    /// Rays along the gaze, beginning on the window's plane; at distance 0 that is the plane of the eye.
+    /// Rays along the gaze, beginning on the window's plane; at distance 0 that is the plane of the
+    /// eye.
     ///
     /// # Errors
     /// A window that is empty or not finite; a grid without pixels.
@@ -131,7 +136,8 @@ impl Rays {
         Self::oblique(camera, window, grid, -Vector::Z)
     }
 
-    /// Rays along `projectors`, a direction in view space with z < 0, beginning on the window's plane.
+    /// Rays along `projectors`, a direction in view space with z < 0, beginning on the window's
+    /// plane.
     ///
     /// # Errors
     /// As [`parallel`](Self::parallel); projectors that are not finite, or with z ≥ 0.
@@ -158,8 +164,8 @@ impl Rays {
         self.through(f64::from(i) + half, f64::from(j) + half)
     }
 
-    /// The ray through the place (x, y) of the picture, in the grid's own coordinates; `None` if they are not finite, or so
-    /// far outside that the ray is not.
+    /// The ray through the place (x, y) of the picture, in the grid's own coordinates; `None` if
+    /// they are not finite, or so far outside that the ray is not.
     #[must_use]
     pub fn at(&self, x: f64, y: f64) -> Option<Ray> {
         let ray = self.through(x, y);

@@ -2,15 +2,17 @@
 //!
 //! ```text
 //!  upper left c ┌──────────┐
-//!               │          │          u = b − a, v = c − a, w = u × v towards the viewer (unit vectors)
-//!               │    d     │            d = w · (e − a)   distance of the eye from the screen's plane
-//!  lower left a └──────────┘ b lower right
-//!                  ╲                    left = u · (a − e), right = u · (b − e)
-//!                    ● eye e            bottom = v · (a − e), top = v · (c − e)
+//!               │          │               u = b − a, v = c − a, w = u × v (unit vectors)
+//!               │          │
+//!  lower left a └──────────┘ b             d = w · (e − a): the eye's distance from the plane
+//!                    ╲    lower right
+//!                     ● eye e              left = u · (a − e), right = u · (b − e)
+//!                                          bottom = v · (a − e), top = v · (c − e)
 //! ```
 //!
-//! The picture is right for this eye wherever it is: the screen becomes a hole in the wall. The gaze is perpendicular to the
-//! screen, not towards its middle; the window is off the axis as far as the eye is.
+//! The picture is right for this eye wherever it is: the screen becomes a hole in the wall. The
+//! gaze is perpendicular to the screen, not towards its middle; the window is off the axis as far
+//! as the eye is.
 //!
 //! Source: R. Kooima, *Generalized Perspective Projection*, 2008.
 
@@ -32,13 +34,14 @@ pub struct ScreenCorners {
 }
 
 impl ScreenCorners {
-    /// The camera at `eye` and the window, on the screen's plane, through which it sees the world in the right places.
+    /// The camera at `eye` and the window, on the screen's plane, through which it sees the world
+    /// in the right places.
     ///
     /// [`Window::at`] brings the window to the near plane wanted.
     ///
     /// # Errors
-    /// Corners or an eye that are not finite; a side of no length; sides that are not at right angles; an eye
-    /// in the screen's plane or behind it.
+    /// Corners or an eye that are not finite; a side of no length; sides that are not at right
+    /// angles; an eye in the screen's plane or behind it.
     ///
     /// ```
     /// use camera::ScreenCorners;

@@ -1,17 +1,23 @@
 //! Stereo: two eyes side by side, and the window each of them must have.
 //!
 //! ```text
-//!   ──●───────────────●──   picture: the plane of zero parallax, one and the same rectangle for both eyes
-//!      ╲ ╲         ╱ ╱      Both look the same way; turning them inwards (toe-in) would give vertical parallax.
-//!       ╲   ╲   ╱   ╱       The windows are off the axis instead: for an eye e to the right of the
-//!        ╲    ╳    ╱        middle, each side at  l − e · near/zero_parallax.
-//!         ● ╱   ╲ ●
-//!       left eye  right eye    what is nearer than the plane stands out of it, what is farther lies behind
+//!  ●━━━━━━━━━━━━━━━━━━━●    the plane of zero parallax: the same rectangle for both eyes
+//!   ╲ ╲             ╱ ╱
+//!    ╲   ╲       ╱   ╱      what is nearer stands out of the picture,
+//!     ╲     ╲ ╱     ╱       what is farther lies behind it
+//!      ╲   ╱   ╲   ╱
+//!       ╲╱       ╲╱
+//!    left eye  right eye    interocular distance apart along u
 //! ```
 //!
-//! [`apex_moved`] is what one lesson's `createFrustum` does with an off-axis window instead (LW-1, misprint M12): it moves the
-//! eye to the window's middle and keeps the frustum symmetric. The two agree on the window's plane and nowhere else, and
-//! a stereo pair made so has no plane of zero parallax where it was asked for. It is here to be compared.
+//! Both eyes look the same way; turning them inwards (toe-in) would shift things vertically. Their
+//! windows are off the axis instead: for an eye that is e to the right of the middle, each side is at
+//! l − e · distance/zero_parallax on the plane at that distance.
+//!
+//! [`apex_moved`] is what one lesson's `createFrustum` does with an off-axis window instead (LW-1,
+//! misprint M12): it moves the eye to the window's middle and keeps the frustum symmetric. The two
+//! agree on the window's plane and nowhere else, and a stereo pair made so has no plane of zero
+//! parallax where it was asked for. It is here to be compared.
 
 use crate::window::{check_finite, check_positive};
 use crate::{Camera, CameraError, Window};
@@ -21,7 +27,8 @@ use crate::{Camera, CameraError, Window};
 pub struct StereoRig {
     /// Between the two eyes, in units of the world, greater than 0. People have about 0.064 m.
     pub interocular: f64,
-    /// Distance along the gaze of the plane whose points both eyes see at the same place of the picture, greater than 0.
+    /// Distance along the gaze of the plane whose points both eyes see at the same place of the
+    /// picture, greater than 0.
     pub zero_parallax: f64,
 }
 
@@ -44,12 +51,12 @@ pub struct StereoPair {
 }
 
 impl StereoRig {
-    /// The true off-axis pair around a middle camera with the given window: same gaze, eyes apart along u, windows shifted so
-    /// that both see the same rectangle in the plane of zero parallax.
+    /// The true off-axis pair around a middle camera with the given window: same gaze, eyes apart
+    /// along u, windows shifted so that both see the same rectangle in the plane of zero parallax.
     ///
     /// # Errors
-    /// Distances of the rig that are not positive and finite; a window that is empty, not finite or not in front
-    /// of the eye; eyes too far out.
+    /// Distances of the rig that are not positive and finite; a window that is empty, not finite or
+    /// not in front of the eye; eyes too far out.
     ///
     /// ```
     /// use camera::{Basis, Camera, StereoRig, Window};
@@ -71,9 +78,11 @@ impl StereoRig {
         })
     }
 
-    /// The pair of [`pair`](Self::pair) with each frustum's apex moved to the middle of its window (LW-1).
+    /// The pair of [`pair`](Self::pair) with each frustum's apex moved to the middle of its window
+    /// (LW-1).
     ///
-    /// For comparison only: the eyes then are closer together than asked for, and their pictures meet elsewhere.
+    /// For comparison only: the eyes then are closer together than asked for, and their pictures
+    /// meet elsewhere.
     ///
     /// # Errors
     /// As [`pair`](Self::pair).
@@ -87,8 +96,9 @@ impl StereoRig {
         Ok(StereoPair { left: moved(left)?, right: moved(right)? })
     }
 
-    /// How far the right eye's image of a point at `distance` lies to the right of the left eye's, measured on the plane of
-    /// zero parallax: negative in front of it, the interocular distance at infinity.
+    /// How far the right eye's image of a point at `distance` lies to the right of the left eye's,
+    /// measured on the plane of zero parallax: negative in front of it, the interocular distance at
+    /// infinity.
     ///
     /// # Errors
     /// Any distance that is not positive and finite.
@@ -109,8 +119,9 @@ impl StereoRig {
     }
 }
 
-/// The camera and window that LW-1 makes of an off-axis window: the eye moves, parallel to the window, to opposite its
-/// middle, and the window becomes symmetric. The same picture on the window's plane, another everywhere else.
+/// The camera and window that LW-1 makes of an off-axis window: the eye moves, parallel to the
+/// window, to opposite its middle, and the window becomes symmetric. The same picture on the
+/// window's plane, another everywhere else.
 ///
 /// # Errors
 /// A window that is empty, not finite or not in front of the eye; an eye too far out.

@@ -1,13 +1,13 @@
 //! The window: the rectangle in front of the eye through which the world is seen.
 //!
 //! ```text
-//!          eye ●
-//!             ╱ ╲          plane at `distance` along the gaze; x to the right and y up, counted from where
-//!   left ────┼───┼──── right         the gaze meets the plane
+//!             eye ●
+//!                ╱ ╲             a plane across the gaze, `distance` ahead of the eye;
+//!  left ────────┼───┼──── right  x to the right and y up from where the gaze meets it
 //! ```
 //!
-//! It is plain numbers, for a camera knows no projection: hand them to a frustum or an orthographic box whose near distance is
-//! `distance`.
+//! It is plain numbers, for a camera knows no projection: hand them to a frustum or an orthographic
+//! box whose near distance is `distance`.
 
 use crate::{CameraError, Slopes};
 
@@ -33,7 +33,8 @@ impl Window {
     /// The window on the plane at another distance that is seen under the same angles.
     ///
     /// # Errors
-    /// A distance, old or new, that is not positive and finite; a window that is empty or not finite, then or before.
+    /// A distance, old or new, that is not positive and finite; a window that is empty or not
+    /// finite, then or before.
     ///
     /// ```
     /// use camera::Window;

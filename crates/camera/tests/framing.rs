@@ -26,7 +26,8 @@ fn slopes() -> impl Strategy<Value = Slopes> {
     })
 }
 
-/// Least and greatest of some numbers, as parts of the window: −1 at its lower, +1 at its upper end.
+/// Least and greatest of some numbers, as parts of the window: −1 at its lower, +1 at its upper
+/// end.
 fn reach(numbers: impl Iterator<Item = f64>, low: f64, high: f64) -> [f64; 2] {
     let mut ends = [f64::INFINITY, -f64::INFINITY];
     for x in numbers.map(|x| (2.0 * x - low - high) / (high - low)) {

@@ -4,10 +4,11 @@ use crate::{Normal, Plane, Point, Projective, Space, Vector};
 use core::marker::PhantomData;
 use glam::{DMat3, DMat4, DVec3, DVec4};
 
-/// An affine map from space `A` to space `B`: a 4×4 matrix with bottom row (0, 0, 0, 1), column vectors.
+/// An affine map from space `A` to space `B`: a 4×4 matrix with bottom row (0, 0, 0, 1), column
+/// vectors.
 ///
-/// Parallel lines stay parallel and w stays 1. Maps are chained by [`then`](Self::then), read in the order in
-/// which a point passes through them.
+/// Parallel lines stay parallel and w stays 1. Maps are chained by [`then`](Self::then), read in
+/// the order in which a point passes through them.
 ///
 /// ```
 /// use homog::{Affine, Model, Point, Vector, World};
@@ -59,8 +60,8 @@ impl<A: Space, B: Space> Affine<A, B> {
         Self::tagged(DMat4::from_scale(DVec3::new(x, y, z)))
     }
 
-    /// Turns about `axis` by `angle` radians, by the right-hand rule: seen with the axis pointing at the viewer, anticlockwise.
-    /// `None` if the axis is zero or not finite.
+    /// Turns about `axis` by `angle` radians, by the right-hand rule: seen with the axis pointing
+    /// at the viewer, anticlockwise. `None` if the axis is zero or not finite.
     #[must_use]
     pub fn rotation(axis: Vector<B>, angle: f64) -> Option<Self> {
         let [x, y, z] = axis.normalized()?.raw().to_array();
@@ -89,7 +90,8 @@ impl<A: Space, B: Space> Affine<A, B> {
         Self::from_linear(DVec3::new(c, s, 0.0), DVec3::new(-s, c, 0.0), DVec3::Z)
     }
 
-    /// The rotation of the quaternion (x, y, z, w), which need not have length 1; `None` if it is zero or not finite.
+    /// The rotation of the quaternion (x, y, z, w), which need not have length 1; `None` if it is
+    /// zero or not finite.
     #[must_use]
     pub fn from_quaternion([x, y, z, w]: [f64; 4]) -> Option<Self> {
         let largest = x.abs().max(y.abs()).max(z.abs()).max(w.abs());
@@ -123,7 +125,8 @@ impl<A: Space, B: Space> Affine<A, B> {
         Point::from_raw(self.raw.transform_point3(point.raw()))
     }
 
-    /// Writes the images of `points` to `images`, as many as both have: the same bits as [`point`](Self::point), in one pass.
+    /// Writes the images of `points` to `images`, as many as both have: the same bits as
+    /// [`point`](Self::point), in one pass.
     pub fn points_into(self, points: &[Point<A>], images: &mut [Point<B>]) {
         for (point, image) in points.iter().zip(images) {
             *image = self.point(*point);
@@ -136,8 +139,9 @@ impl<A: Space, B: Space> Affine<A, B> {
         Vector::from_raw(self.raw.transform_vector3(vector.raw()))
     }
 
-    /// The image of a normal, by the cofactors of the linear part: they are its transposed inverse times its
-    /// determinant, so that this works for flattening maps too and the normal of a mirrored surface keeps its side.
+    /// The image of a normal, by the cofactors of the linear part: they are its transposed inverse
+    /// times its determinant, so that this works for flattening maps too and the normal of a
+    /// mirrored surface keeps its side.
     #[must_use]
     pub fn normal(self, normal: Normal<A>) -> Normal<B> {
         let [x, y, z] = self.linear();
@@ -159,7 +163,8 @@ impl<A: Space, B: Space> Affine<A, B> {
         [m.x_axis.truncate(), m.y_axis.truncate(), m.z_axis.truncate()]
     }
 
-    /// The determinant of the linear part: the factor of volumes, negative if the map mirrors, 0 if it flattens.
+    /// The determinant of the linear part: the factor of volumes, negative if the map mirrors, 0 if
+    /// it flattens.
     #[must_use]
     pub fn determinant(self) -> f64 {
         let [x, y, z] = self.linear();
@@ -181,7 +186,8 @@ impl<A: Space, B: Space> Affine<A, B> {
     /// The map that undoes this one; `None` if it flattens space or is not finite.
     #[must_use]
     pub fn inverse(self) -> Option<Affine<B, A>> {
-        // Columns near length 1 keep the determinant from over- or underflowing; powers of two cost no digit.
+        // Columns near length 1 keep the determinant from over- or underflowing; powers of two cost
+        // no digit.
         let columns = self.linear();
         let exponents = columns.map(|column| match column.abs().max_element() {
             0.0 => 0,

@@ -1,8 +1,9 @@
 //! Matrices as plain arrays, by rows and by columns, always named.
 //!
-//! Our points are columns and stand on the right: `v' = M v`. Row-major arrays read as a book prints the matrix, column-major
-//! ones are what OpenGL, Vulkan and glTF store. A library with row vectors, `v' = v M`, wants the transposed matrix: its
-//! row-major array is our column-major one, number by number.
+//! Our points are columns and stand on the right: `v' = M v`. Row-major arrays read as a book
+//! prints the matrix, column-major ones are what OpenGL, Vulkan and glTF store. A library with row
+//! vectors, `v' = v M`, wants the transposed matrix: its row-major array is our column-major one,
+//! number by number.
 
 use crate::{Affine, Homography, Projective, Space};
 use glam::{DMat3, DMat4};
@@ -82,7 +83,8 @@ impl<A: Space, B: Space> Affine<A, B> {
         flat4(self.rows())
     }
 
-    /// The map of sixteen numbers, column after column as in glTF; `None` unless every fourth is 0, 0, 0, 1.
+    /// The map of sixteen numbers, column after column as in glTF; `None` unless every fourth is 0,
+    /// 0, 0, 1.
     #[must_use]
     pub fn from_column_major(entries: [f64; 16]) -> Option<Self> {
         Self::from_raw(DMat4::from_cols_array(&entries))

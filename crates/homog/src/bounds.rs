@@ -2,9 +2,11 @@
 
 use crate::{Affine, Point, Space, Vector};
 
-/// A closed box along the axes of space `S`, never empty: `min ≤ max` in every coordinate, all of them finite.
+/// A closed box along the axes of space `S`, never empty: `min ≤ max` in every coordinate, all of
+/// them finite.
 ///
-/// One point has bounds of size zero; no points have none, which is why [`Bounds::of`] returns an `Option`.
+/// One point has bounds of size zero; no points have none, which is why [`Bounds::of`] returns an
+/// `Option`.
 ///
 /// ```
 /// use homog::{Bounds, Point, World};
@@ -20,7 +22,8 @@ pub struct Bounds<S: Space> {
 }
 
 impl<S: Space> Bounds<S> {
-    /// The smallest box that holds all `points`; `None` if there are none or one of them is not finite.
+    /// The smallest box that holds all `points`; `None` if there are none or one of them is not
+    /// finite.
     #[must_use]
     pub fn of(points: impl IntoIterator<Item = Point<S>>) -> Option<Self> {
         let mut points = points.into_iter();
@@ -56,7 +59,8 @@ impl<S: Space> Bounds<S> {
         }
     }
 
-    /// The eight corners: bit 0 of the index chooses the greatest x, bit 1 the greatest y, bit 2 the greatest z.
+    /// The eight corners: bit 0 of the index chooses the greatest x, bit 1 the greatest y, bit 2
+    /// the greatest z.
     #[must_use]
     pub fn corners(self) -> [Point<S>; 8] {
         let ends = [self.min.raw(), self.max.raw()];
@@ -69,7 +73,8 @@ impl<S: Space> Bounds<S> {
         Point::from_raw(self.min.raw() * 0.5 + self.max.raw() * 0.5)
     }
 
-    /// From the least corner to the greatest: the three edge lengths. Infinite where the numbers do not reach.
+    /// From the least corner to the greatest: the three edge lengths. Infinite where the numbers do
+    /// not reach.
     #[must_use]
     pub fn size(self) -> Vector<S> {
         self.max - self.min
@@ -87,8 +92,8 @@ impl<S: Space> Bounds<S> {
         self.min.raw().cmple(point.raw()).all() && self.max.raw().cmpge(point.raw()).all()
     }
 
-    /// The bounds of the image of this box, in general larger than the bounds of what is in the box; `None` if
-    /// a corner leaves the finite numbers.
+    /// The bounds of the image of this box, in general larger than the bounds of what is in the
+    /// box; `None` if a corner leaves the finite numbers.
     #[must_use]
     pub fn transformed<T: Space>(self, map: Affine<S, T>) -> Option<Bounds<T>> {
         Bounds::of(self.corners().map(|corner| map.point(corner)))

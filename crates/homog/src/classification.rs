@@ -3,13 +3,13 @@
 //! ```text
 //!   [ a a a t ]     linear      t = 0, bottom row (0, 0, 0, 1): the origin stays
 //!   [ a a a t ]     affine      bottom row (0, 0, 0, 1): parallel lines stay parallel, w stays 1
-//!   [ a a a t ]     projective  anything else: w varies, and where p x + q y + r z + h = 0 points go to infinity
-//!   [ p q r h ]
+//!   [ a a a t ]     projective  anything else: w = p x + q y + r z + h varies, and where it is 0
+//!   [ p q r h ]                 points go to infinity
 //! ```
 //!
-//! Each kind contains the one above it. All is up to a factor: the bottom row (0, 0, 0, 5) is as good as (0, 0, 0, 1). A perspective
-//! is called "non-linear" in one source (misprint M27): on homogeneous points it is linear, on places it is
-//! projective and not affine.
+//! Each kind contains the one above it. All is up to a factor: the bottom row (0, 0, 0, 5) is as
+//! good as (0, 0, 0, 1). A perspective is called "non-linear" in one source (misprint M27): on
+//! homogeneous points it is linear, on places it is projective and not affine.
 
 use crate::{Affine, Homography, Projective, Space};
 use core::fmt;
@@ -90,8 +90,9 @@ impl Classification {
         self.rank == 4
     }
 
-    /// How many of the x, y and z axes have a vanishing point that is a place: the number of non-zeros among p, q
-    /// and r. One, two or three make a one-, two- or three-point perspective; 0 a parallel projection.
+    /// How many of the x, y and z axes have a vanishing point that is a place: the number of
+    /// non-zeros among p, q and r. One, two or three make a one-, two- or three-point perspective;
+    /// 0 a parallel projection.
     #[must_use]
     pub fn finite_vanishing_points(&self) -> usize {
         match self.reason {
@@ -170,8 +171,9 @@ impl<A: Space, B: Space> Projective<A, B> {
         self.classify_within(0.0)
     }
 
-    /// What kind of map this is, where entries of the bottom row of up to `relative` times h count as 0, and likewise those of the
-    /// translation against the linear part: for matrices that were computed.
+    /// What kind of map this is, where entries of the bottom row of up to `relative` times h count
+    /// as 0, and likewise those of the translation against the linear part: for matrices that were
+    /// computed.
     #[must_use]
     pub fn classify_within(self, relative: f64) -> Classification {
         Classification::new(self.rows(), self.rank(), relative)

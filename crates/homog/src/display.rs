@@ -1,7 +1,7 @@
 //! Points, vectors, normals and homogeneous points as people write them: `(1, 0.5, -2)`.
 //!
-//! A precision is handed on to each coordinate: `{:.2}` writes `(1.00, 0.50, -2.00)`. A homogeneous point has
-//! four coordinates. Negative zero is written as 0.
+//! A precision is handed on to each coordinate: `{:.2}` writes `(1.00, 0.50, -2.00)`. A homogeneous
+//! point has four coordinates. Negative zero is written as 0.
 
 use crate::{HPoint, Normal, Point, Space, Vector};
 use core::fmt::{Display, Formatter, Result};

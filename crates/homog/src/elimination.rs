@@ -1,8 +1,9 @@
 //! Gauss–Jordan elimination of a small square matrix: its inverse and its rank.
 //!
-//! Rows and columns are first scaled by powers of two, which is exact, so that each has a greatest entry near 1. A matrix
-//! whose units differ wildly (a near plane of 10⁻¹² beside a far plane of 10⁶) is then judged by its shape
-//! and not by its units: a pivot that is only rounding noise means singular, a small unit does not.
+//! Rows and columns are first scaled by powers of two, which is exact, so that each has a greatest
+//! entry near 1. A matrix whose units differ wildly (a near plane of 10⁻¹² beside a far plane of
+//! 10⁶) is then judged by its shape and not by its units: a pivot that is only rounding noise means
+//! singular, a small unit does not.
 
 /// A pivot of a balanced matrix up to this size is rounding noise.
 const NOISE: f64 = 4.0 * f64::EPSILON;
@@ -96,8 +97,8 @@ fn clear_column<const N: usize>(
     }
 }
 
-/// Puts the rows of the balanced inverse where they belong and takes the scaling back: the inverse of R A C is
-/// C⁻¹ A⁻¹ R⁻¹, hence A⁻¹ = C (R A C)⁻¹ R.
+/// Puts the rows of the balanced inverse where they belong and takes the scaling back: the inverse
+/// of R A C is C⁻¹ A⁻¹ R⁻¹, hence A⁻¹ = C (R A C)⁻¹ R.
 fn unbalance<const N: usize>(
     right: [[f64; N]; N],
     column_of: [usize; N],

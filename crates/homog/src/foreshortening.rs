@@ -1,13 +1,14 @@
-//! How a perspective moves the points of a segment along their line: f(t), its inverse and derivative (IN-1, IN-2).
+//! How a perspective moves the points of a segment along their line: f(t), its inverse and
+//! derivative (IN-1, IN-2).
 //!
 //! ```text
 //!  in space  r ──────────────● t = ½ ─────────────── R         w_r = 1, w_R = 3
 //!  image     r/w_r ───────────────────── ● f = ¾ ── R/w_R      the far half is squeezed
 //! ```
 //!
-//! The point r + t(R − r) has its image at fraction f(t) = w_R t / (w_r + t(w_R − w_r)) between the images of the ends.
-//! With both w on the same side of 0 the denominator is a blend of the two and never 0; f rises from 0 to 1, so that
-//! segments go to segments and the order on them is kept.
+//! The point r + t(R − r) has its image at fraction f(t) = w_R t / (w_r + t(w_R − w_r)) between the
+//! images of the ends. With both w on the same side of 0 the denominator is a blend of the two and
+//! never 0; f rises from 0 to 1, so that segments go to segments and the order on them is kept.
 //!
 //! Source: chapter §8.4 and its exercise 11; IN-1, IN-2.
 
@@ -16,7 +17,8 @@ use crate::{HPoint, Space};
 /// The w of an end does not allow f(t).
 #[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
 #[error(
-    "a segment with w from {start} to {end} has no image in one piece: both must be finite, not 0 and of one sign"
+    "a segment with w from {start} to {end} has no image in one piece: both must be finite, not 0 \
+     and of one sign"
 )]
 pub struct SegmentTorn {
     /// w at the start.
@@ -65,7 +67,8 @@ impl Foreshortening {
         Self::new(start.w(), end.w())
     }
 
-    /// f(t): where the point at fraction `t` of the segment has its image, as a fraction of the image.
+    /// f(t): where the point at fraction `t` of the segment has its image, as a fraction of the
+    /// image.
     ///
     /// Some for every t in [0, 1]; beyond the ends `None` from where the line leaves for infinity.
     #[must_use]
@@ -81,7 +84,8 @@ impl Foreshortening {
         fraction(s, self.start * s, self.end + s * (self.start - self.end))
     }
 
-    /// f'(t) = w_r w_R / (w_r + t(w_R − w_r))²: how much a short piece at `t` is stretched against the average.
+    /// f'(t) = w_r w_R / (w_r + t(w_R − w_r))²: how much a short piece at `t` is stretched against
+    /// the average.
     #[must_use]
     pub fn derivative(self, t: f64) -> Option<f64> {
         let w = self.start + t * (self.end - self.start);
@@ -89,8 +93,9 @@ impl Foreshortening {
         quotient(self.start / w * self.end, w)
     }
 
-    /// The value that goes from `a` to `b` along the segment, where the image has run to fraction `s` (IN-2):
-    /// [(1−s) a/w_r + s b/w_R] / [(1−s)/w_r + s/w_R]. Perspective-correct interpolation.
+    /// The value that goes from `a` to `b` along the segment, where the image has run to fraction
+    /// `s` (IN-2): [(1−s) a/w_r + s b/w_R] / [(1−s)/w_r + s/w_R]. Perspective-correct
+    /// interpolation.
     #[must_use]
     pub fn attribute(self, s: f64, a: f64, b: f64) -> Option<f64> {
         let t = self.source(s)?;
@@ -98,7 +103,8 @@ impl Foreshortening {
     }
 }
 
-/// The quotient; where `of` is a fraction of the segment, so is the quotient, whatever rounding says.
+/// The quotient; where `of` is a fraction of the segment, so is the quotient, whatever rounding
+/// says.
 fn fraction(of: f64, numerator: f64, denominator: f64) -> Option<f64> {
     let fraction = quotient(numerator, denominator)?;
     Some(if of <= 1.0 { fraction.min(1.0) } else { fraction })
@@ -110,8 +116,8 @@ fn quotient(numerator: f64, denominator: f64) -> Option<f64> {
     (denominator > 0.0 && quotient.is_finite()).then_some(quotient)
 }
 
-/// The weights of a triangle's corners in space, from those of its image and w at the corners (IN-2): λᵢ/wᵢ over
-/// their sum. They interpolate any attribute perspective-correctly.
+/// The weights of a triangle's corners in space, from those of its image and w at the corners
+/// (IN-2): λᵢ/wᵢ over their sum. They interpolate any attribute perspective-correctly.
 ///
 /// `None` if the sum is 0 or not finite, as with a w of 0.
 #[must_use]

@@ -6,8 +6,9 @@
 //!  origin●── a
 //! ```
 //!
-//! The 4×4 matrix whose columns are the axes (w = 0) and the origin (w = 1) turns coordinates in the frame into those of the
-//! space the frame stands in; its inverse does the opposite. Two of them in a row change from one frame to another.
+//! The 4×4 matrix whose columns are the axes (w = 0) and the origin (w = 1) turns coordinates in
+//! the frame into those of the space the frame stands in; its inverse does the opposite. Two of
+//! them in a row change from one frame to another.
 
 use crate::{Affine, Point, Space, Vector};
 
@@ -79,7 +80,8 @@ impl<S: Space> Frame<S> {
         self.place::<L>().inverse().unwrap_or(Affine::IDENTITY)
     }
 
-    /// From coordinates in this frame to coordinates of the same place in `other`: the change of frame.
+    /// From coordinates in this frame to coordinates of the same place in `other`: the change of
+    /// frame.
     #[must_use]
     pub fn change_to<L: Space, M: Space>(self, other: Self) -> Affine<L, M> {
         self.place::<L>().then(other.coordinates::<M>())

@@ -9,7 +9,8 @@
 //!     0─────1────── h
 //! ```
 //!
-//! Source: chapter §8.2, figure 8.10. (A translation of it has "2 vectors" for a 1-D point: it is one vector of two numbers.)
+//! Source: chapter §8.2, figure 8.10. (A translation of it has "2 vectors" for a 1-D point: it is
+//! one vector of two numbers.)
 
 use crate::Hom2;
 use crate::meaning::proportional;
@@ -37,15 +38,16 @@ impl Hom1 {
         Self { x, h }
     }
 
-    /// The number this stands for; `None` for the point at infinity, and where a number is not finite.
+    /// The number this stands for; `None` for the point at infinity, and where a number is not
+    /// finite.
     #[must_use]
     pub fn divide(self) -> Option<f64> {
         let number = self.x / self.h;
         (self.h.is_finite() && number.is_finite()).then_some(number)
     }
 
-    /// The perspective image of a point [y, z, h] of the plane on the line z = d, seen from the origin: [d y, z], by the
-    /// matrix [d 0 0; 0 1 0]. It stands for y_s = (d/z) y.
+    /// The perspective image of a point [y, z, h] of the plane on the line z = d, seen from the
+    /// origin: [d y, z], by the matrix [d 0 0; 0 1 0]. It stands for y_s = (d/z) y.
     #[must_use]
     pub fn perspective(d: f64, point: Hom2) -> Self {
         let [y, z, _] = point.raw().to_array();

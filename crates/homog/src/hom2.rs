@@ -9,9 +9,10 @@
 //!          0
 //! ```
 //!
-//! A homogeneous point is a ray through the origin of a space with one dimension more; the place it stands for is where
-//! the ray meets h = 1. Points and lines are duals: two points span a line, two lines meet in a point, by the same
-//! vector product, and parallel lines meet too, at infinity. Source: chapter §8.2, figure 8.11; HO-2.
+//! A homogeneous point is a ray through the origin of a space with one dimension more; the place it
+//! stands for is where the ray meets h = 1. Points and lines are duals: two points span a line, two
+//! lines meet in a point, by the same vector product, and parallel lines meet too, at infinity.
+//! Source: chapter §8.2, figure 8.11; HO-2.
 
 use crate::meaning::proportional;
 use glam::DVec3;

@@ -7,8 +7,9 @@
 //!   (0,0)────(1,0)        (−3,0)──────(3,0)
 //! ```
 //!
-//! Lines go to lines, but parallel ones may come to meet, and one line, the one whose points get w = 0, goes to
-//! infinity: here 2y + 1 = 0. Any multiple of M is the same map. Source: chapter §8.2, HO-3.
+//! Lines go to lines, but parallel ones may come to meet, and one line, the one whose points get w
+//! = 0, goes to infinity: here 2y + 1 = 0. Any multiple of M is the same map. Source: chapter §8.2,
+//! HO-3.
 
 use crate::elimination::eliminate;
 use crate::meaning::proportional;
@@ -51,12 +52,14 @@ impl Homography {
         self.raw
     }
 
-    /// The map that takes the corners (0,0), (1,0), (1,1), (0,1) of the unit square to the given four, in this order.
+    /// The map that takes the corners (0,0), (1,0), (1,1), (0,1) of the unit square to the given
+    /// four, in this order.
     ///
     /// `None` if three of them lie on one line, or a coordinate is not finite.
     #[must_use]
     pub fn from_unit_square(corners: [[f64; 2]; 4]) -> Option<Self> {
-        // Three corners are the images of three base points, each up to a factor; the fourth fixes the factors.
+        // Three corners are the images of three base points, each up to a factor; the fourth fixes
+        // the factors.
         let [p00, p10, p11, p01] = corners.map(|[x, y]| DVec3::new(x, y, 1.0));
         let base = Self::from_raw(DMat3::from_cols(p00, p10, p01));
         let factors = base.inverse()?.raw * p11;
@@ -78,7 +81,8 @@ impl Homography {
         Some(Line2::from_raw(self.inverse()?.raw.transpose() * line.raw()))
     }
 
-    /// The line that goes to infinity: its points get w = 0. For an affine map it is the line at infinity itself.
+    /// The line that goes to infinity: its points get w = 0. For an affine map it is the line at
+    /// infinity itself.
     #[must_use]
     pub fn horizon(self) -> Line2 {
         Line2::from_raw(self.raw.row(2))

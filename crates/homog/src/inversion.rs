@@ -1,4 +1,5 @@
-//! Inverses with a report: how many digits inverting costs, and why there is no inverse if there is none.
+//! Inverses with a report: how many digits inverting costs, and why there is no inverse if there is
+//! none.
 
 use crate::elimination::eliminate;
 use crate::{Projective, Space};
@@ -8,15 +9,16 @@ use crate::{Projective, Space};
 pub struct Inversion<A: Space, B: Space> {
     /// The inverse map.
     pub map: Projective<A, B>,
-    /// The condition number ‖M‖ ‖M⁻¹‖ in the norm of the greatest row sum: by how much relative errors may grow,
-    /// at least 1. A perspective with near and far far apart has a large one.
+    /// The condition number ‖M‖ ‖M⁻¹‖ in the norm of the greatest row sum: by how much relative
+    /// errors may grow, at least 1. A perspective with near and far far apart has a large one.
     pub condition: f64,
     /// The greatest entry of |M M⁻¹ − I|: how well the inverse undoes the map as computed.
     pub residual: f64,
 }
 
 impl<A: Space, B: Space> Inversion<A, B> {
-    /// The decimal digits that inverting may cost, of the 16 an f64 has: log₁₀ of the condition number.
+    /// The decimal digits that inverting may cost, of the 16 an f64 has: log₁₀ of the condition
+    /// number.
     #[must_use]
     pub fn digits_lost(&self) -> f64 {
         libm::log10(self.condition)
@@ -45,8 +47,8 @@ impl<A: Space, B: Space> Projective<A, B> {
     /// The map that undoes this one, with its condition.
     ///
     /// # Errors
-    /// A matrix that is singular (up to rounding, whatever the units of its rows and columns) or not finite, or an
-    /// inverse that is not finite.
+    /// A matrix that is singular (up to rounding, whatever the units of its rows and columns) or
+    /// not finite, or an inverse that is not finite.
     ///
     /// ```
     /// use homog::{Affine, Model, Projective, World};
@@ -72,8 +74,8 @@ impl<A: Space, B: Space> Projective<A, B> {
         Ok(Inversion { map, condition, residual })
     }
 
-    /// The rank of the matrix up to rounding: 4 for maps that can be undone, 3 for projections onto a plane, 0 for zero
-    /// and for matrices that are not finite.
+    /// The rank of the matrix up to rounding: 4 for maps that can be undone, 3 for projections onto
+    /// a plane, 0 for zero and for matrices that are not finite.
     #[must_use]
     pub fn rank(self) -> usize {
         eliminate(self.rows()).rank

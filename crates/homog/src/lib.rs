@@ -1,7 +1,7 @@
 //! Homogeneous coordinates with typed spaces.
 //!
-//! A picture of a three-dimensional thing is a chain of maps. Each link knows the space it starts from and the space it ends
-//! in, and the compiler refuses a chain that does not fit:
+//! A picture of a three-dimensional thing is a chain of maps. Each link knows the space it starts
+//! from and the space it ends in, and the compiler refuses a chain that does not fit:
 //!
 //! ```text
 //!  Model ──Affine──► World ──Affine──► View ──Projective──► Clip ──divide──► Ndc ──Affine──► Screen
@@ -11,8 +11,8 @@
 //! | --- | --- | --- |
 //! | [`Point`] | a place (x, y, z) | moves |
 //! | [`Vector`] | a difference of places | stays |
-//! | [`Normal`] | a direction perpendicular to a surface | stays, and goes by the transposed inverse otherwise |
-//! | [`HPoint`] | (x, y, z, w): the place (x/w, y/w, z/w), or a direction if w = 0 | moves by w times as much |
+//! | [`Normal`] | a direction perpendicular to a surface | stays |
+//! | [`HPoint`] | the place (x/w, y/w, z/w), or a direction if w = 0 | moves by w times as much |
 //! | [`Plane`], [`Bounds`], [`Frame`] | a x + b y + c z + d = 0; a box; an origin with three axes | move |
 //! | [`Affine`] | a map that keeps parallels: points to points | |
 //! | [`Projective`] | a map that keeps lines: points to homogeneous points | |
@@ -37,9 +37,10 @@
 //! assert!((seen.y() - 1.0 / 3.0).abs() < 1e-15);
 //! ```
 //!
-//! There is one divide, [`HPoint::divide`], and it returns an `Option`: no place hides a division by zero. Four numbers that
-//! cannot be divided still mean something, and [`HPoint::meaning`] says what; so the point in which railway tracks meet is
-//! the image of a direction, [`Projective::vanishing_point`].
+//! There is one divide, [`HPoint::divide`], and it returns an `Option`: no place hides a division
+//! by zero. Four numbers that cannot be divided still mean something, and [`HPoint::meaning`] says
+//! what; so the point in which railway tracks meet is the image of a direction,
+//! [`Projective::vanishing_point`].
 //!
 //! Mixing spaces does not compile:
 //!
@@ -52,18 +53,23 @@
 //!
 //! # Conventions
 //!
-//! - Points are columns and matrices stand on their left, `v' = M v`; chains are written with `then`, in the order in which
-//!   a point passes through them. [Arrays](Projective::from_rows) are named by rows and columns.
-//! - Right-handed spaces, angles in radians, f64 throughout. Sines and cosines come from `libm`, so that results have the same
-//!   bits on every machine.
-//! - Nothing there is an `Option`; bad input is an error that names the number. Nothing panics, and finite input gives no NaN.
-//! - Tags cost nothing: a `Point<World>` is a `glam::DVec3`, by [`Point::from_raw`] and [`Point::raw`].
+//! - Points are columns and matrices stand on their left, `v' = M v`; chains are written with
+//!   `then`, in the order in which a point passes through them. [Arrays](Projective::from_rows) are
+//!   named by rows and columns.
+//! - Right-handed spaces, angles in radians, f64 throughout. Sines and cosines come from `libm`, so
+//!   that results have the same bits on every machine.
+//! - Nothing there is an `Option`; bad input is an error that names the number. Nothing panics, and
+//!   finite input gives no NaN.
+//! - Tags cost nothing: a `Point<World>` is a `glam::DVec3`, by [`Point::from_raw`] and
+//!   [`Point::raw`].
 //!
-//! Beside the three-dimensional types stand those of the line and the plane, [`Hom1`], [`Hom2`], [`Line2`] and [`Homography`], on
-//! which the textbook explains homogeneous coordinates. `cargo run -p homog --example railway` shows the crate at work.
+//! Beside the three-dimensional types stand those of the line and the plane, [`Hom1`], [`Hom2`],
+//! [`Line2`] and [`Homography`], on which the textbook explains homogeneous coordinates.
+//! `cargo run -p homog --example railway` shows the crate at work.
 //!
-//! Source: P. Shirley, S. Marschner and others, *Fundamentals of Computer Graphics*, chapter 8, *Viewing*. Formula ids such as HO-2
-//! or IN-1 in the documentation name entries of the project's list of formulas.
+//! Source: P. Shirley, S. Marschner and others, *Fundamentals of Computer Graphics*, chapter 8,
+//! *Viewing*. Formula ids such as HO-2 or IN-1 in the documentation name entries of the project's
+//! list of formulas.
 #![no_std]
 
 mod affine;

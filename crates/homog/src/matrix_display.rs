@@ -6,9 +6,9 @@
 //! [ 0  2/3  1/3 ]
 //! ```
 //!
-//! A number with at most three decimals is written as it is. Another is written as a fraction p/q with q < 1000 if that
-//! fraction, divided out, is this very f64; so 2/3 is, and π is not. What is left is cut to six digits. With a precision,
-//! `{:.4}`, all are written with that many decimals.
+//! A number with at most three decimals is written as it is. Another is written as a fraction p/q
+//! with q < 1000 if that fraction, divided out, is this very f64; so 2/3 is, and π is not. What is
+//! left is cut to six digits. With a precision, `{:.4}`, all are written with that many decimals.
 
 use crate::{Affine, Homography, Projective, Space};
 use core::fmt::{self, Write};

@@ -57,8 +57,8 @@ impl<S: Space> HPoint<S> {
         self.meaning_within(0.0)
     }
 
-    /// What this stands for if w may be off by `relative` times the greatest coordinate: rounding leaves 10⁻¹⁷ where a
-    /// turned camera ought to give 0.
+    /// What this stands for if w may be off by `relative` times the greatest coordinate: rounding
+    /// leaves 10⁻¹⁷ where a turned camera ought to give 0.
     #[must_use]
     pub fn meaning_within(self, relative: f64) -> Meaning<S> {
         let largest = self.raw().abs().max_element();
@@ -71,7 +71,8 @@ impl<S: Space> HPoint<S> {
         self.divide().map_or(Meaning::Nothing, Meaning::Place)
     }
 
-    /// True if both stand for the same place or direction, that is if one is a multiple of the other (HO-2):
+    /// True if both stand for the same place or direction, that is if one is a multiple of the
+    /// other (HO-2):
     /// |aᵢ bⱼ − aⱼ bᵢ| ≤ `relative` · ‖a‖ ‖b‖ for all i, j. 10⁻¹² is a good `relative` for computed points.
     ///
     /// `None` if one of them stands for nothing, being zero or not finite.
@@ -99,7 +100,8 @@ pub(crate) fn proportional(a: &[f64], b: &[f64], relative: f64) -> Option<bool> 
     Some(pairs.all(|(i, j)| minor(i, j).abs() <= relative * a_length * b_length))
 }
 
-/// The power of two that brings the largest number near 1; `None` if all are 0 or one is not finite.
+/// The power of two that brings the largest number near 1; `None` if all are 0 or one is not
+/// finite.
 fn unit(numbers: &[f64]) -> Option<f64> {
     let largest = numbers.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     let finite = numbers.iter().all(|x| x.is_finite());
@@ -111,11 +113,11 @@ fn length(numbers: &[f64], unit: f64) -> f64 {
 }
 
 impl<A: Space, B: Space> Projective<A, B> {
-    /// Where the images of all lines along `direction` meet (VN-1): the image of their point at infinity, as a place, or
-    /// as a direction if the images stay parallel.
+    /// Where the images of all lines along `direction` meet (VN-1): the image of their point at
+    /// infinity, as a place, or as a direction if the images stay parallel.
     ///
-    /// `relative` is how far from 0 a w may be that counts as 0, as in [`HPoint::meaning_within`]: 10⁻¹² says yes to lines
-    /// across the gaze of a turned camera.
+    /// `relative` is how far from 0 a w may be that counts as 0, as in [`HPoint::meaning_within`]:
+    /// 10⁻¹² says yes to lines across the gaze of a turned camera.
     ///
     /// ```
     /// use homog::{Meaning, Ndc, Point, Projective, Clip, Vector, View};
@@ -132,14 +134,15 @@ impl<A: Space, B: Space> Projective<A, B> {
         self.direction(direction).meaning_within(relative)
     }
 
-    /// The vanishing points of the x, y and z axes. The number of places among them makes the picture a one-, two- or
-    /// three-point perspective.
+    /// The vanishing points of the x, y and z axes. The number of places among them makes the
+    /// picture a one-, two- or three-point perspective.
     #[must_use]
     pub fn principal_vanishing_points(self, relative: f64) -> [Meaning<B>; 3] {
         [Vector::X, Vector::Y, Vector::Z].map(|axis| self.vanishing_point(axis, relative))
     }
 
-    /// True if both are the same map of points, that is if one matrix is a multiple of the other (HO-2).
+    /// True if both are the same map of points, that is if one matrix is a multiple of the other
+    /// (HO-2).
     ///
     /// `None` if one of them is zero or not finite.
     #[must_use]

@@ -7,9 +7,10 @@ use glam::DMat4;
 
 /// A projective map from space `A` to space `B`: any 4×4 matrix, column vectors (HO-3).
 ///
-/// It takes points to *homogeneous* points; the divide is a step of its own, [`HPoint::divide`], after clipping.
-/// Lines go to lines and planes to planes. A non-zero multiple of the matrix is the same map, but a negative one
-/// turns the sign of w, which matters to clipping: use the form with w > 0 in front of the eye (PE-3).
+/// It takes points to *homogeneous* points; the divide is a step of its own, [`HPoint::divide`],
+/// after clipping. Lines go to lines and planes to planes. A non-zero multiple of the matrix is the
+/// same map, but a negative one turns the sign of w, which matters to clipping: use the form with w
+/// > 0 in front of the eye (PE-3).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Projective<A: Space, B: Space> {
     raw: DMat4,
@@ -35,7 +36,8 @@ impl<A: Space, B: Space> Projective<A, B> {
         self.hpoint(point.into())
     }
 
-    /// Writes the images of `points` to `images`, as many as both have: the same bits as [`point`](Self::point), in one pass.
+    /// Writes the images of `points` to `images`, as many as both have: the same bits as
+    /// [`point`](Self::point), in one pass.
     pub fn points_into(self, points: &[Point<A>], images: &mut [HPoint<B>]) {
         let DMat4 { x_axis, y_axis, z_axis, w_axis } = self.raw;
         for (point, image) in points.iter().zip(images) {

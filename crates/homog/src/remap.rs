@@ -6,9 +6,9 @@
 //!   c ────────── y ──── d            y = c + (x − a)(d − c)/(b − a)
 //! ```
 //!
-//! Nothing stops at the ends: x before a or beyond b goes to y outside [c, d]. If c > d the interval is turned round, so
-//! that x > b gives y < d. (One source has it as x < a or x > b gives y < c or y > d, the comparison signs lost in print: that
-//! is so only for c < d, misprint M27.)
+//! Nothing stops at the ends: x before a or beyond b goes to y outside [c, d]. If c > d the
+//! interval is turned round, so that x > b gives y < d. (One source has it as x < a or x > b gives
+//! y < c or y > d, the comparison signs lost in print: that is so only for c < d, misprint M27.)
 //!
 //! Sources: LI-1; WI-2 and WI-3, which the chapter names as windowing transformations.
 
@@ -44,7 +44,8 @@ pub enum RemapError {
     },
 }
 
-/// The number that lies in `to` as `x` lies in `from` (LI-1). Extrapolates; either interval may run backwards.
+/// The number that lies in `to` as `x` lies in `from` (LI-1). Extrapolates; either interval may run
+/// backwards.
 ///
 /// # Errors
 /// A number that is not finite; `from` of no length; a result out of range.
@@ -95,7 +96,8 @@ fn finite(name: &'static str, value: f64) -> Result<(), RemapError> {
 }
 
 impl Homography {
-    /// The map that takes the rectangle with opposite corners `from` to that with opposite corners `to` (WI-2).
+    /// The map that takes the rectangle with opposite corners `from` to that with opposite corners
+    /// `to` (WI-2).
     ///
     /// # Errors
     /// As [`remap`], for either axis.
@@ -108,8 +110,8 @@ impl Homography {
 }
 
 impl<A: Space, B: Space> Affine<A, B> {
-    /// The map that takes the box with opposite corners `from` to that with opposite corners `to` (WI-3). A box to
-    /// map to may be flat or mirrored.
+    /// The map that takes the box with opposite corners `from` to that with opposite corners `to`
+    /// (WI-3). A box to map to may be flat or mirrored.
     ///
     /// # Errors
     /// As [`remap`], for any of the three axes.

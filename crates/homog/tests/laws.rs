@@ -1,5 +1,5 @@
-//! Laws of projective maps, on random ones: what is on a line stays on a line, order is kept, inverses undo, factors do not
-//! matter, planes and normals go along.
+//! Laws of projective maps, on random ones: what is on a line stays on a line, order is kept,
+//! inverses undo, factors do not matter, planes and normals go along.
 
 use homog::{
     Affine, Clip, Foreshortening, HPoint, Hom2, Homography, Meaning, Model, Normal, Plane, Point,
@@ -92,7 +92,9 @@ proptest! {
     }
 
     #[test]
-    fn c32_points_of_a_plane_stay_on_its_image(map in map(), p in triple(), n in triple(), along in triple()) {
+    fn c32_points_of_a_plane_stay_on_its_image(
+        map in map(), p in triple(), n in triple(), along in triple(),
+    ) {
         let (p, normal) = (Point::from(p), Normal::from_raw(n.into()));
         let plane = Plane::through(p, normal);
         let image = map.plane(plane).expect("regular");
@@ -113,7 +115,9 @@ proptest! {
     }
 
     #[test]
-    fn arrays_of_points_get_the_same_bits(map in map(), affine in affine(), points in prop::collection::vec(triple(), 0..9)) {
+    fn arrays_of_points_get_the_same_bits(
+        map in map(), affine in affine(), points in prop::collection::vec(triple(), 0..9),
+    ) {
         let mut images = vec![HPoint::new(0.0, 0.0, 0.0, 0.0); points.len()];
         let seen: Vec<Point<View>> = points.iter().map(|&p| p.into()).collect();
         map.points_into(&seen, &mut images);
@@ -181,7 +185,8 @@ fn c3_a_chain_is_the_product_of_its_factors() {
 
 #[test]
 fn c20_w_may_be_0_in_between() {
-    // The first map sends the plane z = 0 to infinity, the second fetches it back: nothing is divided on the way.
+    // The first map sends the plane z = 0 to infinity, the second fetches it back: nothing is
+    // divided on the way.
     let with_bottom = |bottom: [f64; 4]| {
         let [x, y, z, _] = Affine::<World, World>::IDENTITY.rows();
         Projective::<World, World>::from_rows([x, y, z, bottom])
