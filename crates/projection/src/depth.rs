@@ -96,7 +96,7 @@ impl DepthCurve {
         let (near, far) = (self.near, self.far);
         match self.shape {
             Shape::Central if far == f64::INFINITY => 1.0 - near / distance,
-            Shape::Central => far / (far - near) * ((distance - near) / distance),
+            Shape::Central => (distance - near) / (far - near) * (far / distance),
             Shape::Parallel => (distance - near) / (far - near),
         }
     }

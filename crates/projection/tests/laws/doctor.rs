@@ -2,7 +2,7 @@
 
 use crate::samples::{self, convention, distance, frustum, orthographic, perspective};
 use glam::{DMat4, DVec4};
-use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, Vector, View, World};
+use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, View, World};
 use projection::{
     ApexMovedFrustum, Axonometric, Convention, DepthCurve, Fov, Frustum, Misprint, NPoint, Oblique,
     Orthographic, Perspective, Wanted, api, chapter, misprint_of, principal_vanishing_points,
@@ -303,6 +303,5 @@ proptest! {
             let matrix = DMat4::from_cols_array(&matrix);
             let _ = (symptoms(matrix).count(), projection::decompose(matrix, c));
         }
-        let _ = Vector::<View>::X;
     }
 }

@@ -3,7 +3,12 @@
 #![allow(missing_docs)]
 
 mod builders;
+mod classical;
 mod decomposition;
+mod depth;
 mod doctor;
+mod exercises;
 mod parity;
 mod samples;
+mod vanishing;
+mod window;

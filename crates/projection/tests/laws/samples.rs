@@ -12,7 +12,8 @@ use proptest::prelude::*;
 pub(crate) fn cases(cases: u32) -> ProptestConfig {
     let asked = ProptestConfig::default();
     let cases = if std::env::var_os("PROPTEST_CASES").is_some() { asked.cases } else { cases };
-    ProptestConfig { cases, failure_persistence: None, ..asked }
+    let max_global_rejects = 1024 + 4 * cases;
+    ProptestConfig { cases, max_global_rejects, failure_persistence: None, ..asked }
 }
 
 /// All conventions that are named, and the variants of each.
