@@ -174,8 +174,8 @@ fn misprint(case: &Value, out: &Value) -> Result<(), String> {
         }
         "004-window-viewport-sign" => {
             let map = window_map(case)?.map_err(|error| error.to_string())?;
-            close_matrix3("correct", map.matrix(), &out["correct"])?;
-            let printed = close_matrix3("printed", map.matrix(), &out["printed"]);
+            close_matrix3("correct", map.homography().raw(), &out["correct"])?;
+            let printed = close_matrix3("printed", map.homography().raw(), &out["printed"]);
             printed.err().map(|_| ()).ok_or_else(|| "is the printed form".to_owned())
         }
         "000-translation-ty-twice" => {

@@ -111,7 +111,7 @@ pub fn window_map(case: &Value) -> Result<Result<WindowToViewport, ViewportError
 
 fn window_to_viewport(case: &Value, out: &Value) -> Result<(), String> {
     judge(window_map(case)?, out, |map| {
-        close_matrix3("matrix", map.matrix(), &out["matrix"])?;
+        close_matrix3("matrix", map.homography().raw(), &out["matrix"])?;
         for (p, theirs) in pairs(&case["points"], &out["points"])? {
             let (p, theirs) = (numbers(p)?, numbers::<2>(theirs)?);
             close_all("by ratio", &map.by_ratio(p), &theirs, TOLERANCE)?;

@@ -1,4 +1,58 @@
-//! Viewports: from the canonical volume to pixels, and back.
+//! Viewports: from the canonical volume to pixels on an image or millimetres on paper, and back.
+//!
+//! ```text
+//!    canonical square                          image: 6 by 4 pixels, y down, centres at halves
+//!
+//!  (−1, 1) ┌────────────┐ (1, 1)               0   1   2   3   4   5   6 ► x
+//!          │            │                    0 ┌───┬───┬───┬───┬───┬───┐
+//!          │      ●     │     ndc_to_screen    │ · │ · │ · │ · │ · │ · │
+//!          │   (0, 0)   │    ─────────────►  1 ├───┼───┼───┼───┼───┼───┤
+//!          │            │                      │ · │ · │ · │ · │ · │ · │
+//! (−1, −1) └────────────┘ (1, −1)            2 ├───┼───┼───●───┼───┼───┤
+//!                                              │ · │ · │ · │ · │ · │ · │
+//!     depth: near +1 … far −1      near 1    3 ├───┼───┼───┼───┼───┼───┤
+//!                                  far  0      │ · │ · │ · │ · │ · │ · │
+//!                                         y ▼  └───┴───┴───┴───┴───┴───┘
+//! ```
+//!
+//! What is often left unsaid is said here: whether y runs up or down and where pixels have their centres
+//! ([`PixelConvention`]), and where depth goes ([`DepthRange`]). [`Viewport::image`] is the pipeline's own way,
+//! [`Viewport::chapter`] the textbook's; every other is made from parts.
+//!
+//! | what | by |
+//! | --- | --- |
+//! | the map M_vp and its inverse | [`Viewport::ndc_to_screen`], [`Viewport::screen_to_ndc`] (VP-1 to VP-3, WV-3) |
+//! | from one pixel convention to another | [`PixelConvention::to`] (VP-4) |
+//! | window to viewport in the plane, by both methods | [`WindowToViewport`] (WV-1, WV-2) |
+//! | pictures of one shape in places of another | [`Fit`] |
+//! | several viewports on a page | [`Rectangle::grid`], [`Rectangle::inset`], [`Rectangle::shrunk`] |
+//! | millimetres, dots per inch, scale 1:n | [`Paper`], [`Resolution`], [`DrawingScale`] |
+//! | large images in parts | [`tiles`], [`Viewport::for_tile`] |
+//! | what is under a pixel | [`Viewport::unprojector`], [`Unprojector::ray`] (UN-1, UN-2), [`Viewport::pick_matrix`] |
+//! | the points of a height field | [`Grid`] (WV-4) |
+//!
+//! # Example
+//! The same corner of the view in two conventions, and the way back:
+//! ```
+//! use homog::Point;
+//! use viewport::{PixelConvention, Viewport};
+//! let corner = Point::new(-1.0, 1.0, -1.0); // upper left, far
+//!
+//! let image = Viewport::image(640, 480)?;
+//! assert_eq!(image.ndc_to_screen().point(corner), Point::new(0.0, 0.0, 0.0));
+//!
+//! let chapter = Viewport::chapter(640, 480)?;
+//! let seen = chapter.ndc_to_screen().point(corner);
+//! assert_eq!(seen, Point::new(-0.5, 479.5, -1.0));
+//! assert!((chapter.screen_to_ndc().point(seen) - corner).length() < 1e-15);
+//!
+//! let convert = PixelConvention::CHAPTER.to(PixelConvention::IMAGE, 480.0)?;
+//! assert_eq!(convert.point(seen).y(), 0.0);
+//! # Ok::<(), viewport::ViewportError>(())
+//! ```
+//!
+//! Bad parameters are a [`ViewportError`] that names them. Nothing here panics, and nothing that comes out of finite input is infinite or
+//! NaN.
 #![no_std]
 
 #[cfg(test)]

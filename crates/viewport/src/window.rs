@@ -11,6 +11,7 @@
 use crate::ViewportError;
 use crate::error::interval;
 use glam::{DMat3, DVec2};
+use homog::Homography;
 
 /// A rectangle by its limits [min, max] on each axis. A mirrored one, with max < min, is allowed: it mirrors the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -53,7 +54,7 @@ impl WindowToViewport {
         interval("viewport's y", viewport.y)?;
         let map = Self { window, viewport };
         for map in [map, map.inverse()] {
-            if map.factors().contains(&0.0) || !map.matrix().is_finite() {
+            if map.factors().contains(&0.0) || !map.homography().raw().is_finite() {
                 return Err(ViewportError::OutOfRange { name: "window-viewport factor" });
             }
         }
@@ -90,7 +91,7 @@ impl WindowToViewport {
     /// The image of a point by the matrix of the chain (WV-2): the same, up to rounding.
     #[must_use]
     pub fn by_chain(&self, point: [f64; 2]) -> [f64; 2] {
-        self.matrix().transform_point2(point.into()).into()
+        self.homography().raw().transform_point2(point.into()).into()
     }
 
     /// The three factors of the chain, in the order in which a point passes through them: T(−xw min, −yw min) to the origin,
@@ -98,20 +99,21 @@ impl WindowToViewport {
     ///
     /// Both signs of the first are minus; one of the sources prints T(−xw min, +yw min) (misprint M18).
     #[must_use]
-    pub fn chain(&self) -> [DMat3; 3] {
+    pub fn chain(&self) -> [Homography; 3] {
         let low = |limits: Limits| DVec2::new(limits.x[0], limits.y[0]);
         [
             DMat3::from_translation(-low(self.window)),
             DMat3::from_scale(self.factors().into()),
             DMat3::from_translation(low(self.viewport)),
         ]
+        .map(Homography::from_raw)
     }
 
     /// The product of the chain, for column vectors (x, y, 1).
     #[must_use]
-    pub fn matrix(&self) -> DMat3 {
+    pub fn homography(&self) -> Homography {
         let [to_origin, scale, to_place] = self.chain();
-        to_place * scale * to_origin
+        to_origin.then(scale).then(to_place)
     }
 
     /// The map back.

@@ -1,7 +1,7 @@
 //! Exercises of the chapter and misprints of the sources that belong to viewports: the printed form fails, the right one passes.
 
 use glam::{DMat3, DMat4, DVec2, DVec4};
-use homog::{Affine, Ndc, Point, Projective, Vector, View};
+use homog::{Affine, Hom2, Homography, Ndc, Point, Projective, Vector, View};
 use viewport::{DepthRange, Grid, Limits, PixelConvention, Rectangle, Viewport, WindowToViewport};
 
 fn rows(rows: [[f64; 4]; 4]) -> DMat4 {
@@ -54,11 +54,11 @@ fn misprint_m18_the_chain_moves_the_window_to_the_origin_by_minus_and_minus() {
     let window = Limits { x: [-1.0, 3.0], y: [2.0, 4.0] };
     let map =
         WindowToViewport::new(window, Limits { x: [0.0, 8.0], y: [0.0, 4.0] }).expect("not empty");
-    let corner = DVec2::new(-1.0, 2.0);
-    assert_eq!(map.matrix().transform_point2(corner), DVec2::ZERO);
+    let corner = Hom2::place(-1.0, 2.0);
+    assert_eq!(map.homography().apply(corner).divide(), Some([0.0, 0.0]));
     let [_, scale, to_place] = map.chain();
-    let printed = to_place * scale * DMat3::from_translation(DVec2::new(1.0, 2.0));
-    assert_ne!(printed.transform_point2(corner), DVec2::ZERO);
+    let printed = Homography::from_raw(DMat3::from_translation(DVec2::new(1.0, 2.0)));
+    assert_ne!(printed.then(scale).then(to_place).apply(corner).divide(), Some([0.0, 0.0]));
 }
 
 /// M21: gluOrtho2D takes the four borders of a window; the box of six is glOrtho's. With near −1 and far 1 they are the same map

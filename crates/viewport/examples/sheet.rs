@@ -1,0 +1,59 @@
+//! A drawing sheet: three views of a house to scale on A4, and what their viewports look like in pixels.
+//!
+//! Run it with `cargo run -p viewport --example sheet`.
+#![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
+
+use homog::Point;
+use viewport::{
+    DepthRange, DrawingScale, Fit, Paper, PixelConvention, Rectangle, Resolution, Viewport,
+    ViewportError,
+};
+
+/// Width and height of the house in millimetres, as each view shows it.
+const VIEWS: [(&str, [f64; 2]); 3] =
+    [("front", [9_000.0, 6_500.0]), ("side", [12_000.0, 6_500.0]), ("top", [9_000.0, 12_000.0])];
+
+fn main() -> Result<(), ViewportError> {
+    let print = Resolution::dots_per_inch(150.0)?;
+    let sheet = Paper::A4.turned();
+    let cells: Vec<Rectangle> = sheet.area().shrunk(10.0)?.grid(3, 1, 5.0)?.collect();
+    println!("A4 on its side, {} by {} mm", sheet.width(), sheet.height());
+    if let Some([width, height]) = sheet.pixels(print) {
+        println!("at 150 dots per inch: {width} by {height} pixels\n");
+    }
+
+    // All views get the same scale: the smallest of those that fit.
+    let fitting = VIEWS.iter().zip(&cells).filter_map(|((_, size), cell)| {
+        DrawingScale::largest_standard(*size, [cell.width(), cell.height()])
+    });
+    let Some(scale) = fitting.min_by(|a, b| a.ratio().total_cmp(&b.ratio())) else {
+        println!("the house is too large for the sheet");
+        return Ok(());
+    };
+    println!("scale {scale}: the front, 9 m wide, is {} mm on paper\n", scale.to_paper(9_000.0));
+
+    for ((name, size), cell) in VIEWS.iter().zip(cells) {
+        // The window that fills the cell at this scale, and the viewport it is drawn on.
+        let window = [scale.to_thing(cell.width()), scale.to_thing(cell.height())];
+        let on_paper = size.map(|length| scale.to_paper(length));
+        let place = Fit::Contain.place(window, cell, [0.5, 0.5])?;
+        let pixels = print.rectangle(place)?.snapped()?;
+        let view = Viewport::new(pixels, PixelConvention::IMAGE, DepthRange::ZERO_ONE);
+        let corner = view.ndc_to_screen().point(Point::new(-1.0, 1.0, 0.0));
+        println!(
+            "{name:>6}: {:5.1} by {:5.1} mm of {:5.1} by {:5.1} mm,",
+            on_paper[0],
+            on_paper[1],
+            cell.width(),
+            cell.height()
+        );
+        println!(
+            "        a window of {:.1} by {:.1} m, its upper left corner at pixel ({}, {})",
+            window[0] / 1e3,
+            window[1] / 1e3,
+            corner.x(),
+            corner.y()
+        );
+    }
+    Ok(())
+}
