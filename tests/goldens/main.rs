@@ -1,9 +1,10 @@
-//! The golden images: every scene of `scenes/`, drawn by the real program at its own size, must have the very pixels of
-//! `tests/goldens/NAME.png`.
+//! The golden images: every scene of `scenes/`, drawn by the real program at its own size, must
+//! have the very pixels of `tests/goldens/NAME.png`.
 //!
-//! Pixels are compared, not bytes, so that a new release of the PNG encoder changes nothing. Where they differ, the new picture
-//! and a map of the differences are left beside the golden as `NAME.actual.png` and `NAME.diff.png`. `cargo xtask golden
-//! --bless NAME` makes a picture golden after someone has looked at it. Arguments that are not flags choose scenes by name.
+//! Pixels are compared, not bytes, so that a new release of the PNG encoder changes nothing. Where
+//! they differ, the new picture and a map of the differences are left beside the golden as
+//! `NAME.actual.png` and `NAME.diff.png`. `cargo xtask golden --bless NAME` makes a picture golden
+//! after someone has looked at it. Arguments that are not flags choose scenes by name.
 
 #![allow(clippy::print_stdout, reason = "a test program speaks on its standard output")]
 #![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
@@ -64,7 +65,10 @@ fn compare(program: &Path, name: &str) -> Result<(), String> {
     render(program, &root().join(format!("scenes/{name}.ron")), &actual_path)?;
     let actual = Picture::read(&actual_path)?;
     let golden = Picture::read(&beside(".png")).map_err(|error| {
-        format!("{error}\n  Look at {name}.actual.png; `cargo xtask golden --bless {name}` if it is right.")
+        format!(
+            "{error}\n  Look at {name}.actual.png; \
+             `cargo xtask golden --bless {name}` if it is right."
+        )
     })?;
     match golden.difference(&actual) {
         None => {

@@ -65,7 +65,8 @@ impl Picture {
         let first = differing[0];
         let most = differing.iter().map(|&i| largest_step(self.pixels[i], actual.pixels[i])).max();
         format!(
-            "{} of {} pixels differ, by at most {} of 255, in columns {left} to {right} and rows {top} to {bottom}; \
+            "{} of {} pixels differ, by at most {} of 255, \
+             in columns {left} to {right} and rows {top} to {bottom}; \
              the first is ({}, {}): {:?} in the golden, {:?} now",
             differing.len(),
             self.pixels.len(),

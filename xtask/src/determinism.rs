@@ -1,8 +1,9 @@
 //! `cargo xtask determinism`: the promise that a scene has the same bytes whoever draws it.
 //!
-//! Every scene is drawn by the debug build and by the release build, twice each, and with one, two and more threads where the
-//! program lets one choose. `--wide` adds a build whose compiler may use AVX2 and fused multiply-add, which is where sums
-//! computed in floating point first go apart; it needs a processor that has them.
+//! Every scene is drawn by the debug build and by the release build, twice each, and with one, two
+//! and more threads where the program lets one choose. `--wide` adds a build whose compiler may use
+//! AVX2 and fused multiply-add, which is where sums computed in floating point first go apart; it
+//! needs a processor that has them.
 
 use crate::Outcome;
 use crate::program::{Build, Program};

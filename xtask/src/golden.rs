@@ -1,7 +1,7 @@
 //! `cargo xtask golden`: the golden images, one for each scene.
 //!
-//! Comparing is a test of the workspace like any other (`tests/goldens`); this command runs it, and makes new goldens of scenes
-//! that were looked at and found right.
+//! Comparing is a test of the workspace like any other (`tests/goldens`); this command runs it, and
+//! makes new goldens of scenes that were looked at and found right.
 
 use crate::Outcome;
 use crate::program::{Build, Program, cargo};
@@ -51,7 +51,8 @@ fn bless(names: &[&String]) -> Outcome {
     Ok(())
 }
 
-/// Writes a PNG again with the same pixels and the best compression, and gives its new size. The program prefers speed.
+/// Writes a PNG again with the same pixels and the best compression, and gives its new size. The
+/// program prefers speed.
 fn compress(path: &Path) -> Result<usize, String> {
     let bytes = fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
     let bytes = compressed(&bytes).map_err(|error| format!("{}: {error}", path.display()))?;

@@ -1,7 +1,7 @@
 //! `cargo xtask`: one program for everything a developer does to the workspace besides editing it.
 //!
-//! Each command is a file with a `run`; this one is the table. Nothing here depends on the crates it drives, so that
-//! `cargo xtask` builds in seconds and still works when they do not compile.
+//! Each command is a file with a `run`; this one is the table. Nothing here depends on the crates
+//! it drives, so that `cargo xtask` builds in seconds and still works when they do not compile.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program speaks to its person")]
 #![allow(unreachable_pub, reason = "in a program `pub` means: used by another file")]
 

@@ -1,7 +1,8 @@
 //! `cargo xtask models`: the models of the scenes, made by code.
 //!
-//! The `.glb` files are committed so that a fresh clone has its pictures at once; `--check` says whether they are still what the
-//! code makes. The same code gives the same bytes on every machine: `+ − × ÷ √` and `libm` only.
+//! The `.glb` files are committed so that a fresh clone has its pictures at once; `--check` says
+//! whether they are still what the code makes. The same code gives the same bytes on every machine:
+//! `+ − × ÷ √` and `libm` only.
 
 mod bezier;
 mod boxes;

@@ -1,8 +1,9 @@
 //! `cargo xtask test`: all of the tests, for a newcomer and for CI alike.
 //!
-//! A step is a name and what it runs. The integration tests of `tests/` are steps of their own, one for each `[[test]]` of its manifest,
-//! so that `cargo xtask test vectors` runs just that one, with its environment (`VECTORS=DIR`, `ASSETS=DIR`) passed through. All
-//! steps but the last build with one profile and one set of features, so that nothing is compiled twice. A line that begins with
+//! A step is a name and what it runs. The integration tests of `tests/` are steps of their own, one
+//! for each `[[test]]` of its manifest, so that `cargo xtask test vectors` runs just that one, with
+//! its environment (`VECTORS=DIR`, `ASSETS=DIR`) passed through. All steps but the last build with
+//! one profile and one set of features, so that nothing is compiled twice. A line that begins with
 //! `SKIPPED` in what a step prints is repeated at the end.
 
 mod no_std;
@@ -156,7 +157,22 @@ mod tests {
 
     #[test]
     fn tests_are_read_from_the_manifest() {
-        let manifest = "[lib]\npath = \"lib.rs\"\n\n[[test]]\nname = \"a\"\npath = \"a/main.rs\"\nharness = false\n\n[[test]]\nname = \"b\"\npath = \"b.rs\"\n\n[dependencies]\nname = \"c\"\n";
+        let manifest = r#"
+[lib]
+path = "lib.rs"
+
+[[test]]
+name = "a"
+path = "a/main.rs"
+harness = false
+
+[[test]]
+name = "b"
+path = "b.rs"
+
+[dependencies]
+name = "c"
+"#;
         let expected =
             [("a", "a/main.rs"), ("b", "b.rs")].map(|(a, b)| (a.to_owned(), b.to_owned()));
         assert_eq!(tests_of(manifest), expected);

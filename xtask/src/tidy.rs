@@ -1,6 +1,7 @@
 //! `cargo xtask tidy`: the rules of the house that no lint can check.
 //!
-//! Each rule is a function from what it looks at to the faults it finds; each file below holds the rules of one subject.
+//! Each rule is a function from what it looks at to the faults it finds; each file below holds the
+//! rules of one subject.
 
 mod boundaries;
 mod code;

@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The folder of the workspace's `Cargo.toml`. Known from this file's own place, so commands work from any folder.
+/// The folder of the workspace's `Cargo.toml`. Known from this file's own place, so commands work
+/// from any folder.
 pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
 }

@@ -1,4 +1,5 @@
-//! A wooden crate with a picture on each side, and panes of glass with a cut-out screen between them.
+//! A wooden crate with a picture on each side, and panes of glass with a cut-out screen between
+//! them.
 
 use super::document::Document;
 use super::mesh::Mesh;
@@ -17,9 +18,11 @@ pub fn wooden_crate() -> Result<Document, String> {
     Ok(document)
 }
 
-/// Three panes of coloured glass (BLEND) with a perforated screen (MASK) behind them, in a slate rail (OPAQUE).
+/// Three panes of coloured glass (BLEND) with a perforated screen (MASK) behind them, in a slate
+/// rail (OPAQUE).
 ///
-/// The panes are listed from front to back, against the order in which they must be blended from a camera in front.
+/// The panes are listed from front to back, against the order in which they must be blended from a
+/// camera in front.
 pub fn panes() -> Result<Document, String> {
     let mut document = Document::default();
     let rail = document.material("rail", SLATE);

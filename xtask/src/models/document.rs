@@ -1,7 +1,8 @@
 //! A glTF 2.0 document while it is being made, and its `.glb` form.
 //!
-//! Every index that glTF asks for is a small type of its own here, so a mesh cannot be named where a node is due. The
-//! bytes depend on nothing but the model: keys are sorted, floats are written by their shortest decimal.
+//! Every index that glTF asks for is a small type of its own here, so a mesh cannot be named where
+//! a node is due. The bytes depend on nothing but the model: keys are sorted, floats are written by
+//! their shortest decimal.
 
 use super::mesh::Mesh;
 use super::palette::Color;
@@ -79,7 +80,8 @@ impl Document {
         )
     }
 
-    /// A material with a picture; `others` are further members of the material, such as its alpha mode.
+    /// A material with a picture; `others` are further members of the material, such as its alpha
+    /// mode.
     pub fn textured(&mut self, name: &str, texture: TextureId, others: Value) -> MaterialId {
         self.material_from(name, json!({ "baseColorTexture": { "index": texture.0 } }), others)
     }
@@ -142,7 +144,8 @@ impl Document {
         primitive
     }
 
-    /// Positions are the one attribute that must come with its bounds (glTF 2.0, §3.7.2.1), as the stored f32 have them.
+    /// Positions are the one attribute that must come with its bounds (glTF 2.0, §3.7.2.1), as the
+    /// stored f32 have them.
     fn positions(&mut self, positions: &[DVec3]) -> Value {
         let stored = positions.iter().map(|position| position.as_vec3().as_dvec3());
         let low = stored.clone().fold(DVec3::INFINITY, DVec3::min);
@@ -208,7 +211,8 @@ impl Document {
         push(&mut self.buffer_views, view)
     }
 
-    /// A node at the top of the scene. `members` are its transform and whatever else glTF gives to a node.
+    /// A node at the top of the scene. `members` are its transform and whatever else glTF gives to
+    /// a node.
     pub fn root(&mut self, name: &str, mesh: Option<MeshId>, members: Value) -> NodeId {
         let node = self.node(name, mesh, members);
         self.roots.push(node.0);
@@ -239,8 +243,8 @@ impl Document {
         NodeId(push(&mut self.nodes, members))
     }
 
-    /// A camera at the top of the scene, at `eye` and turned by the unit quaternion `rotation` (x, y, z, w); it looks along
-    /// its own −z. `lens` is the camera as glTF writes it.
+    /// A camera at the top of the scene, at `eye` and turned by the unit quaternion `rotation` (x,
+    /// y, z, w); it looks along its own −z. `lens` is the camera as glTF writes it.
     pub fn camera(&mut self, name: &str, lens: Value, eye: [f64; 3], rotation: [f64; 4]) -> NodeId {
         let mut camera = lens;
         camera["name"] = json!(name);

@@ -1,7 +1,8 @@
-//! A long floor of square tiles in two colours, with rows of posts, that goes on behind a camera at the origin.
+//! A long floor of square tiles in two colours, with rows of posts, that goes on behind a camera at
+//! the origin.
 //!
-//! Every tile is a face of its own: those under the camera straddle its plane, which is where a renderer that divides before
-//! it clips tears them.
+//! Every tile is a face of its own: those under the camera straddle its plane, which is where a
+//! renderer that divides before it clips tears them.
 
 use super::document::Document;
 use super::mesh::Mesh;

@@ -1,4 +1,5 @@
-//! A small house, once solid and once as its edges (glTF LINES), both from the same list of corners.
+//! A small house, once solid and once as its edges (glTF LINES), both from the same list of
+//! corners.
 
 use super::document::{Document, Mode};
 use super::mesh::Mesh;
@@ -6,7 +7,8 @@ use super::palette::{BRICK, CREAM, INK, PAPER, SKY, SLATE, TEAL};
 use glam::{DVec3, dvec3};
 use serde_json::json;
 
-/// Half the width (x) and half the depth (z) of the walls, height of the eaves and of the ridge, which runs along z.
+/// Half the width (x) and half the depth (z) of the walls, height of the eaves and of the ridge,
+/// which runs along z.
 const HALF_WIDTH: f64 = 2.0;
 const HALF_DEPTH: f64 = 2.8;
 const EAVES: f64 = 2.4;

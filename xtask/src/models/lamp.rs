@@ -46,8 +46,8 @@ fn joined(at: f64, axis: DVec3, degrees: f64) -> Value {
     json!({ "translation": [0.0, at, 0.0], "rotation": turn(axis, degrees) })
 }
 
-/// The head's place written as a matrix, column by column: turned by −78° about z, at the end of the upper arm, and
-/// a tenth longer than it is wide.
+/// The head's place written as a matrix, column by column: turned by −78° about z, at the end of
+/// the upper arm, and a tenth longer than it is wide.
 fn head_matrix() -> Value {
     let (sine, cosine) = libm::sincos((-78.0_f64).to_radians());
     let length = 1.1;

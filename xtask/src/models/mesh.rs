@@ -1,12 +1,15 @@
-//! A mesh while it is being made: lists of attributes and of indices, and the shapes that models are put together from.
+//! A mesh while it is being made: lists of attributes and of indices, and the shapes that models
+//! are put together from.
 //!
-//! Triangles run counter-clockwise seen from outside. Shapes carry the exact normals of the surface they stand for, not
-//! those of their triangles; flat faces do not share corners, so their edges stay sharp.
+//! Triangles run counter-clockwise seen from outside. Shapes carry the exact normals of the surface
+//! they stand for, not those of their triangles; flat faces do not share corners, so their edges
+//! stay sharp.
 
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Attributes by vertex and the indices that join them. `normals`, `uvs` and `colors` are empty or as long as `positions`.
+/// Attributes by vertex and the indices that join them. `normals`, `uvs` and `colors` are empty or
+/// as long as `positions`.
 #[derive(Clone, Default, Debug)]
 pub struct Mesh {
     pub positions: Vec<DVec3>,
@@ -56,8 +59,8 @@ impl Mesh {
         }
     }
 
-    /// A flat four-sided face with texture coordinates over the whole square, its corners counter-clockwise from the
-    /// lower left.
+    /// A flat four-sided face with texture coordinates over the whole square, its corners
+    /// counter-clockwise from the lower left.
     pub fn quad(&mut self, corners: [DVec3; 4]) {
         let [a, b, c, d] = corners;
         let normal = (b - a).cross(d - a).normalize();
@@ -110,8 +113,8 @@ impl Mesh {
         Self::cuboid(at - half, at + half + dvec3(0.0, size.y, 0.0))
     }
 
-    /// The surface that an outline sweeps about the y axis, in `segments` steps. The outline is given from the bottom up
-    /// along the outside, so that outside is to its right.
+    /// The surface that an outline sweeps about the y axis, in `segments` steps. The outline is
+    /// given from the bottom up along the outside, so that outside is to its right.
     #[must_use]
     pub fn lathe(outline: &[Turned], segments: u32) -> Self {
         let mut mesh = Self::default();
@@ -182,8 +185,8 @@ impl Mesh {
     }
 }
 
-/// An outline of straight pieces with sharp corners between them: each corner is written twice, once for the piece below
-/// and once for the piece above.
+/// An outline of straight pieces with sharp corners between them: each corner is written twice,
+/// once for the piece below and once for the piece above.
 #[must_use]
 pub fn corners(points: &[(f64, f64)]) -> Vec<Turned> {
     let mut outline = Vec::new();

@@ -1,8 +1,9 @@
 //! The Mexican hat: a height field over a square grid.
 //!
-//! Grid indices go to `[-1, 1]²` by `x = 2i/(rows−1) − 1`, `z = 2j/(columns−1) − 1`. The height is `sin(R)/R` with
-//! `R = 2π√(x² + z²)`: 1 in the middle, the first trough on the circle of radius 0.715, the second crest just
-//! outside the edges' middles. (Angel's *Interactive Computer Graphics* draws the same surface.)
+//! Grid indices go to `[-1, 1]²` by `x = 2i/(rows−1) − 1`, `z = 2j/(columns−1) − 1`. The height is
+//! `sin(R)/R` with `R = 2π√(x² + z²)`: 1 in the middle, the first trough on the circle of radius
+//! 0.715, the second crest just outside the edges' middles. (Angel's *Interactive Computer
+//! Graphics* draws the same surface.)
 
 use super::document::{Document, Mode};
 use super::mesh::Mesh;

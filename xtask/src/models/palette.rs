@@ -20,7 +20,8 @@ pub const SLATE: Color = Color(0x4a, 0x62, 0x74);
 pub const INK: Color = Color(0x22, 0x31, 0x3f);
 
 impl Color {
-    /// The channels in linear light, 0 to 1, rounded to the four digits that a file needs (IEC 61966-2-1).
+    /// The channels in linear light, 0 to 1, rounded to the four digits that a file needs (IEC
+    /// 61966-2-1).
     pub fn linear(self) -> [f64; 3] {
         [self.0, self.1, self.2].map(|channel| {
             let encoded = f64::from(channel) / 255.0;

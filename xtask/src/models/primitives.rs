@@ -38,7 +38,8 @@ pub fn primitives() -> Document {
     document
 }
 
-/// The outline's points and hollows in turn, then the middle, then an inner ring. Normals only where there are faces.
+/// The outline's points and hollows in turn, then the middle, then an inner ring. Normals only
+/// where there are faces.
 fn star(faces: bool) -> Mesh {
     let at = |step: u32, radius: f64| {
         let (sine, cosine) = libm::sincos(PI / 2.0 + TAU * f64::from(step) / f64::from(2 * RAYS));

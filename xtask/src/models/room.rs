@@ -1,5 +1,5 @@
-//! A small room without its ceiling and two of its walls, with three cameras in the file: a view from the door, a plan
-//! and an elevation.
+//! A small room without its ceiling and two of its walls, with three cameras in the file: a view
+//! from the door, a plan and an elevation.
 
 use super::document::{Document, turn};
 use super::mesh::Mesh;
@@ -7,7 +7,8 @@ use super::palette::{BARK, BRICK, CREAM, OCHRE, PAPER, PLUM, SAGE, SKY, TEAL, WO
 use glam::{DVec3, dvec3};
 use serde_json::json;
 
-/// The floor goes from −2.5 to 2.5 in x and from −2 to 2 in z; the walls that stand are those at −x and −z.
+/// The floor goes from −2.5 to 2.5 in x and from −2 to 2 in z; the walls that stand are those at −x
+/// and −z.
 pub fn room() -> Document {
     let mut document = Document::default();
     let mut piece = |name: &str, color, boxes: &[(DVec3, DVec3)]| {
@@ -93,7 +94,8 @@ fn books() -> Vec<(DVec3, DVec3)> {
     heights.iter().enumerate().map(book).collect()
 }
 
-/// glTF cameras look along their own −z with y up; the door's is turned about y and then tipped down.
+/// glTF cameras look along their own −z with y up; the door's is turned about y and then tipped
+/// down.
 fn cameras(document: &mut Document) {
     let lens = json!({ "type": "perspective",
         "perspective": { "yfov": 50.0_f64.to_radians(), "znear": 0.1, "zfar": 50.0 } });
@@ -104,7 +106,9 @@ fn cameras(document: &mut Document) {
 
     let flat = |half_height: f64| {
         json!({ "type": "orthographic",
-            "orthographic": { "xmag": half_height * 1.6, "ymag": half_height, "znear": 0.1, "zfar": 20.0 } })
+            "orthographic": {
+                "xmag": half_height * 1.6, "ymag": half_height, "znear": 0.1, "zfar": 20.0,
+            } })
     };
     document.camera("plan", flat(2.4), [0.0, 10.0, 0.0], turn(DVec3::X, -90.0));
     document.camera("elevation", flat(1.7), [0.0, 1.3, 10.0], turn(DVec3::X, 0.0));

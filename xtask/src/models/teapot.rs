@@ -13,7 +13,8 @@ const STEPS: u32 = 10;
 
 pub fn teapot() -> Document {
     let mut document = Document::default();
-    // Through the gap about the lid, which is the original's, and through the spout one sees the inside.
+    // Through the gap about the lid, which is the original's, and through the spout one sees the
+    // inside.
     let glaze = document.double_sided("glaze", TEAL);
     let root = document.root("teapot", None, json!({}));
     for part in parts() {
@@ -39,7 +40,8 @@ fn tessellate(part: &Part) -> Mesh {
 const RADIUS: f64 = 4.2;
 const RIM: f64 = 4.05;
 
-/// A round table top with a soft dark patch in the middle, where a pot of radius 1.5 stands: painted contact shadow.
+/// A round table top with a soft dark patch in the middle, where a pot of radius 1.5 stands:
+/// painted contact shadow.
 pub fn table() -> Document {
     let mut document = Document::default();
     let cloth = document.material("table top", super::palette::Color(255, 255, 255));

@@ -1,9 +1,11 @@
-//! The published patches of Martin Newell's teapot (University of Utah, 1975): 32 bicubic Bézier patches, the last four of
-//! them the bottom that Frank Crow added ("The Origins of the Teapot", IEEE Computer Graphics and Applications 7(1), 1987).
+//! The published patches of Martin Newell's teapot (University of Utah, 1975): 32 bicubic Bézier
+//! patches, the last four of them the bottom that Frank Crow added ("The Origins of the Teapot",
+//! IEEE Computer Graphics and Applications 7(1), 1987).
 //!
-//! The published table lists 306 control points, of which all but a few dozen follow from the others: body, lid and bottom are
-//! outlines turned about the axis in four quarters, with 0.56 of the radius where an exact circle would ask for 0.5523, and
-//! handle and spout are halves with their mirror images. So the outlines and halves are written here, and the 32 patches are made
+//! The published table lists 306 control points, of which all but a few dozen follow from the
+//! others: body, lid and bottom are outlines turned about the axis in four quarters, with 0.56 of
+//! the radius where an exact circle would ask for 0.5523, and handle and spout are halves with
+//! their mirror images. So the outlines and halves are written here, and the 32 patches are made
 //! from them; the test compares with the table's own entries.
 //!
 //! z is up, as in the table; the spout points along +x and the handle along −x.
@@ -19,7 +21,8 @@ pub struct Part {
     pub patches: Vec<Patch>,
 }
 
-/// A point of an outline: radius, height, and the share of the radius that the inner control points of a quarter circle get.
+/// A point of an outline: radius, height, and the share of the radius that the inner control points
+/// of a quarter circle get.
 type Ring = (f64, f64, f64);
 
 const QUARTER: f64 = 0.56;
@@ -40,7 +43,8 @@ const LID_KNOB: [Ring; 4] =
     [(0.0, 3.15, QUARTER), (0.8, 3.15, KNOB), (0.0, 2.85, QUARTER), (0.2, 2.7, QUARTER)];
 const LID: [Ring; 4] =
     [(0.2, 2.7, QUARTER), (0.4, 2.55, QUARTER), (1.3, 2.55, QUARTER), (1.3, 2.4, QUARTER)];
-/// Here alone the rows run against the table's, from the foot to the middle: turned like the others, it then looks down.
+/// Here alone the rows run against the table's, from the foot to the middle: turned like the
+/// others, it then looks down.
 const BOTTOM: [Ring; 4] =
     [(1.5, 0.15, QUARTER), (1.5, 0.075, QUARTER), (1.425, 0.0, QUARTER), (0.0, 0.0, QUARTER)];
 
@@ -104,7 +108,8 @@ fn quarters(outline: &[Ring; 4]) -> [Patch; 4] {
     [first, second, third, turn(third)]
 }
 
-/// A half and its mirror image in the plane y = 0, whose columns run the other way so that outside stays outside.
+/// A half and its mirror image in the plane y = 0, whose columns run the other way so that outside
+/// stays outside.
 fn both_sides(half: &Half) -> [Patch; 2] {
     let patch = half.map(|row| row.map(DVec3::from));
     let mirrored = patch.map(|[a, b, c, d]| [d, c, b, a].map(|p| dvec3(p.x, -p.y, p.z)));
@@ -115,7 +120,8 @@ fn both_sides(half: &Half) -> [Patch; 2] {
 mod tests {
     use super::*;
 
-    /// (patch, row, column) of the published table, both counted from 0, and the control point it has there.
+    /// (patch, row, column) of the published table, both counted from 0, and the control point it
+    /// has there.
     const PUBLISHED: [(usize, usize, usize, [f64; 3]); 14] = [
         (0, 0, 1, [1.4, -0.784, 2.4]),
         (1, 1, 1, [-0.749, -1.3375, 2.53125]),

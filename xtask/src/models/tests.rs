@@ -1,5 +1,5 @@
-//! What every model must keep to be a valid glTF file, read back from its bytes by a reader that shares no code with the
-//! writer.
+//! What every model must keep to be a valid glTF file, read back from its bytes by a reader that
+//! shares no code with the writer.
 
 use super::all;
 use serde_json::Value;
@@ -98,7 +98,8 @@ fn positions_reach_exactly_their_stated_bounds() {
                 };
                 let low = values.clone().fold(f64::INFINITY, f64::min);
                 let high = values.fold(f64::NEG_INFINITY, f64::max);
-                // The reader of the JSON may miss the last bit of a double; the f32 it stands for is exact.
+                // The reader of the JSON may miss the last bit of a double; the f32 it stands for
+                // is exact.
                 assert_eq!(low as f32, stated("min") as f32, "{name}");
                 assert_eq!(high as f32, stated("max") as f32, "{name}");
             }

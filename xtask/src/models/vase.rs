@@ -6,7 +6,8 @@ use super::palette::{PAPER, SAND, SLATE};
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use serde_json::json;
 
-/// The vase's outline from foot to lip: radius and height. A smooth curve is laid through these points.
+/// The vase's outline from foot to lip: radius and height. A smooth curve is laid through these
+/// points.
 const OUTLINE: [DVec2; 9] = [
     dvec2(0.30, 0.00),
     dvec2(0.33, 0.10),
@@ -43,7 +44,8 @@ pub fn vase() -> Document {
     document
 }
 
-/// A Catmull-Rom curve through the outline (Catmull and Rom 1974), closed by the foot's flat underside.
+/// A Catmull-Rom curve through the outline (Catmull and Rom 1974), closed by the foot's flat
+/// underside.
 fn curve() -> Vec<Turned> {
     let mut turned = Vec::new();
     let point = |i: usize| OUTLINE[i.min(OUTLINE.len() - 1)];
@@ -57,7 +59,8 @@ fn curve() -> Vec<Turned> {
     turned
 }
 
-/// The point `t` of the way from the second of four points to the third, and the normal to the right of the way.
+/// The point `t` of the way from the second of four points to the third, and the normal to the
+/// right of the way.
 fn on_curve([a, b, c, d]: [DVec2; 4], t: f64) -> Turned {
     let (p, q, r) = (c - a, a * 2.0 - b * 5.0 + c * 4.0 - d, b * 3.0 - a - c * 3.0 + d);
     let place = b + (p * t + q * (t * t) + r * (t * t * t)) * 0.5;

@@ -44,13 +44,15 @@ fn is_nail(x: u32, y: u32) -> bool {
     near(x) && near(y)
 }
 
-/// Wood between `light` and `dark`: long streaks that differ from line to line, `shade` of the way to dark in the mean.
+/// Wood between `light` and `dark`: long streaks that differ from line to line, `shade` of the way
+/// to dark in the mean.
 fn grain(light: [f64; 3], dark: [f64; 3], along: u32, across: u32, shade: f64) -> [f64; 3] {
     let streak = noise(across, along / 24) * 0.6 + noise(across, along / 7 + 99) * 0.4;
     mix(light, dark, shade + (streak - 0.5) * 0.3)
 }
 
-/// A number from 0 to 1 that looks random and is always the same for the same place (an integer hash).
+/// A number from 0 to 1 that looks random and is always the same for the same place (an integer
+/// hash).
 fn noise(x: u32, y: u32) -> f64 {
     let mut hash = x.wrapping_mul(0x9e37_79b1) ^ y.wrapping_mul(0x85eb_ca77);
     hash = (hash ^ (hash >> 15)).wrapping_mul(0x2c1b_3c6d);
@@ -58,7 +60,8 @@ fn noise(x: u32, y: u32) -> f64 {
     f64::from((hash ^ (hash >> 15)) & 0xffff) / 65535.0
 }
 
-/// A screen of round holes in a square lattice, for cut-out materials: alpha is 0 in the holes. RGBA.
+/// A screen of round holes in a square lattice, for cut-out materials: alpha is 0 in the holes.
+/// RGBA.
 pub fn lattice() -> Result<Vec<u8>, String> {
     let Color(r, g, b) = SAGE;
     let mut texels = Vec::new();

@@ -1,7 +1,8 @@
 //! Whether the crates of mathematics do without the standard library.
 //!
-//! That they say `#![no_std]` is a rule of tidy. Here each is built by itself, without what tests need, and Cargo is asked which
-//! crates and which features that build has: none may be one that brings the standard library back.
+//! That they say `#![no_std]` is a rule of tidy. Here each is built by itself, without what tests
+//! need, and Cargo is asked which crates and which features that build has: none may be one that
+//! brings the standard library back.
 
 use crate::Outcome;
 use crate::program::{cargo, output, succeed};

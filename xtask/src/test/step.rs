@@ -66,7 +66,8 @@ impl Step {
     }
 }
 
-/// The folders that a person names for a test, from where the person stands: the test itself runs in another folder.
+/// The folders that a person names for a test, from where the person stands: the test itself runs
+/// in another folder.
 fn folders() -> Vec<(&'static str, PathBuf)> {
     let here = std::env::current_dir().unwrap_or_default();
     let named = |name| Some((name, here.join(std::env::var_os(name)?)));

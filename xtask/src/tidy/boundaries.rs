@@ -5,7 +5,8 @@ use super::code::is_word;
 use super::source::Source;
 use crate::workspace::{read, root};
 
-/// Crates that only one part may name, so that they can be exchanged, and the paths that part begins with.
+/// Crates that only one part may name, so that they can be exchanged, and the paths that part
+/// begins with.
 const NAMED_BY: &[(&str, &[&str])] = &[
     ("gltf", &["crates/pipeline/src/import"]),
     ("ron", &["crates/pipeline/src/scene"]),
@@ -103,7 +104,15 @@ mod tests {
 
     #[test]
     fn stages_know_only_homog() {
-        let manifest = "[dependencies]\nhomog.workspace = true\n# x = 1\nclip = { path = \"a\" }\n\n[dev-dependencies]\nproptest = \"1\"\n";
+        let manifest = r#"
+[dependencies]
+homog.workspace = true
+# x = 1
+clip = { path = "a" }
+
+[dev-dependencies]
+proptest = "1"
+"#;
         let faults = stage_dependencies("camera", manifest);
         assert_eq!(faults.len(), 1);
         assert!(faults[0].message.contains("`clip`"));

@@ -1,6 +1,8 @@
-//! Rust source with everything blanked out that is not code, so that rules may look for words and braces plainly.
+//! Rust source with everything blanked out that is not code, so that rules may look for words and
+//! braces plainly.
 
-/// The source with comments and the insides of strings and characters replaced by spaces. Lines stay where they are.
+/// The source with comments and the insides of strings and characters replaced by spaces. Lines
+/// stay where they are.
 #[must_use]
 pub fn blanked(source: &str) -> String {
     let mut rest = source;

@@ -1,4 +1,5 @@
-//! What the documents point at must exist, and their code blocks must say what language they are in.
+//! What the documents point at must exist, and their code blocks must say what language they are
+//! in.
 
 use super::Fault;
 use super::source::text_files;

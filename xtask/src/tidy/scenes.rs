@@ -1,4 +1,5 @@
-//! Every scene has its golden, a caption, and a row in the table of `scenes/README.md`; and nothing else has.
+//! Every scene has its golden, a caption, and a row in the table of `scenes/README.md`; and nothing
+//! else has.
 
 use super::Fault;
 use crate::workspace::{files, read, root, scenes};

@@ -86,7 +86,16 @@ mod tests {
 
     #[test]
     fn libraries_do_not_print_but_programs_tests_and_docs_may() {
-        let text = "//! A.\n/// println!(\"x\");\nfn f() {\n    eprintln!(\"x\");\n}\n#[cfg(test)]\nmod tests {\n    fn g() { println!(); }\n}\n";
+        let text = r#"//! A.
+/// println!("x");
+fn f() {
+    eprintln!("x");
+}
+#[cfg(test)]
+mod tests {
+    fn g() { println!(); }
+}
+"#;
         let places = |path: &str| printing(&Source::new(path, text)).len();
         assert_eq!(
             (places("crates/clip/src/a.rs"), places("crates/pipeline/src/cli/a.rs")),
