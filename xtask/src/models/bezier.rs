@@ -2,8 +2,8 @@
 //!
 //! `P(u, v) = Σ B_i(v) B_j(u) p_ij` with Bernstein's cubics (Bézier 1968; Foley et al., 2nd ed.,
 //! §11.3.2); `u` runs along a row of control points, `v` from row to row. The normal is
-//! `P_u × P_v`. Where a whole row is one place, a pole, `P_u` is zero on it; but near it `P_u ≈ ±v P_uv`,
-//! so the mixed derivative gives the limit of the direction.
+//! `P_u × P_v`. Where a whole row is one place, a pole, `P_u` is zero on it; but near it
+//! `P_u ≈ ±v P_uv`, so the mixed derivative gives the limit of the direction.
 
 use super::mesh::Mesh;
 use glam::{DVec3, DVec4, dvec4};
