@@ -167,25 +167,28 @@ fn values() -> Vec<Case> {
 /// Accessors without bytes: zeros, in bounded numbers.
 fn zeros() -> Vec<Case> {
     let case = |count: u64, expected: Expected| {
-        let document = Document::triangle()
-            .without("/accessors/0/bufferView")
-            .with("/accessors/0/count", json!(count));
+        let mut document = Document::triangle().without("/accessors/0/bufferView");
+        document.json["accessors"][0]["count"] = json!(count);
+        let document = document.without("/meshes/0/primitives/0/indices");
         Case::of(format!("{count} zeros"), &document, expected)
     };
-    let too_many = |count: u64| {
+    let grown = |bytes: u64| {
         Expected::Says(format!(
-            "/accessors/0/count: {count} elements are read up to here, more than the limit of 100000000; \
-             raise the limit `elements` if you trust the file"
+            "/accessors/0/count: the arrays take {bytes} bytes up to here, more than 64 times the files; \
+             raise the limit `array_growth` if you trust the file"
+        ))
+    };
+    let large = |bytes: u64| {
+        Expected::Says(format!(
+            "/accessors/0/count: the arrays take {bytes} bytes up to here, more than the limit of 4294967296; \
+             raise the limit `array_bytes` if you trust the file"
         ))
     };
     vec![
         case(3, Expected::LoadsClean),
         case(1_000_000, Expected::LoadsClean),
-        case(2_000_001, Expected::Says(
-            "/accessors/0/count: 2000001 elements are read up to here, more than the limit of 2000000; \
-             raise the limit `zero_elements` if you trust the file".to_owned(),
-        )),
-        case(4_000_000_000, too_many(4_000_000_000)),
-        case(u64::MAX, too_many(u64::MAX)),
+        case(5_000_000, grown(20_000_000)),
+        case(4_000_000_000, large(16_000_000_000)),
+        case(u64::MAX, large(u64::MAX)),
     ]
 }

@@ -63,10 +63,19 @@ pub fn cases() -> Vec<Case> {
         textured(
             "100,000 squared",
             &lying_png(100_000, 100_000, 8, 6),
-            warns("the image has 100000 x 100000 texels, more than the limit of 16384"),
+            warns("the image says 100000 x 100000 texels, which cannot be in 74 bytes"),
         ),
         textured("16,384 squared without data", &lying_png(16_384, 16_384, 8, 6), Expected::Loads),
-        textured("2^31 wide", &lying_png(i32::MAX as u32, 1, 8, 6), Expected::Loads),
+        textured(
+            "2^31 wide",
+            &lying_png(i32::MAX as u32, 1, 8, 6),
+            warns("the image says 2147483647 x 1 texels, which cannot be in 74 bytes"),
+        ),
+        textured(
+            "20,000 wide",
+            &lying_png(20_000, 1, 8, 6),
+            warns("the image has 20000 x 1 texels, more than the limit of 16384"),
+        ),
         textured("no width", &lying_png(0, 7, 8, 6), Expected::Loads),
         textured("empty", &[], warns("the image is empty")),
         textured(

@@ -73,8 +73,8 @@ pub fn cases() -> Vec<Case> {
                 "/nodes/1024: the node tree is 1025 levels deep, more than the limit of 1024; {deep}"
             )),
         ),
-        nodes("100,000 deep", chain(100_000), Expected::Refused),
-        nodes("100,000 wide", json!(vec![json!({"mesh": 0}); 100_000]), Expected::LoadsClean),
+        nodes("50,000 deep", chain(50_000), Expected::Refused),
+        nodes("50,000 wide", json!(vec![json!({"mesh": 0}); 50_000]), Expected::LoadsClean),
     ];
     cases.extend(transforms());
     cases.extend(scenes());

@@ -43,10 +43,10 @@ pub fn cases() -> Vec<Case> {
         text("100,000 open", "[{".repeat(50_000), Expected::Refused),
         text("100,000 open in an object", "{\"a\":".repeat(100_000), Expected::Refused),
         text(
-            "10,000,000 values",
-            plus(&format!(r#""extras": [{}0]"#, "0,".repeat(10_000_000))),
+            "20,000,000 values",
+            plus(&format!(r#""extras": [{}0]"#, "0,".repeat(20_000_000))),
             says(
-                "the JSON has 10000005 values, more than the limit of 8000000; raise the limit `json_values` if you trust the file",
+                "the JSON has 20000023 values, more than the limit of 16000000; raise the limit `json_values` if you trust the file",
             ),
         ),
         text(

@@ -70,14 +70,14 @@ fn load_model(path: &Path, options: &ImportOptions) -> Result<Model, Fault> {
     let limits = &options.limits;
     let mut warnings = Warnings::default();
     let bytes = resolver::read_file(path, limits, "")?;
-    let resolver = Resolver::new(path, options.root.as_deref(), limits)?;
+    let resolver = Resolver::new(path, bytes.len(), options.root.as_deref(), limits)?;
     let container = Container::find(&bytes, &mut warnings)?;
     let document = Document::parse(&bytes[container.json], limits)?;
     let chunk = container.binary.map(|range| &bytes[range]);
     extensions::check(&document.root, &mut warnings)?;
     let buffers = Buffers::new(&document.root, &resolver, chunk);
     let source = Source::new(&document.root, &buffers, limits);
-    let mut model = build(&document, &source, &resolver, &mut warnings)?;
+    let mut model = build(&document, &source, &mut warnings)?;
     model.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     model.warnings = warnings.into_list();
     Ok(model)
@@ -86,7 +86,6 @@ fn load_model(path: &Path, options: &ImportOptions) -> Result<Model, Fault> {
 fn build(
     document: &Document,
     source: &Source<'_>,
-    resolver: &Resolver<'_>,
     warnings: &mut Warnings,
 ) -> Result<Model, Fault> {
     let root = &document.root;
@@ -109,7 +108,7 @@ fn build(
     let shown = shown_meshes(&model);
     let Model { meshes, materials, textures, .. } = &model;
     let needed = image::needed(meshes, &shown, materials, textures, root.images.len());
-    let encoded = image::read(&needed, source, resolver, warnings);
+    let encoded = image::read(&needed, source, warnings);
     model.images = image::decode_all(&encoded, root.images.len(), warnings);
     Ok(model)
 }

@@ -56,6 +56,8 @@ pub struct Node {
     pub name: Option<String>,
     /// The node's transform: from its own coordinates to its parent's (the model's, for a root).
     pub to_parent: Affine<ModelSpace, ModelSpace>,
+    /// From the node's own coordinates to the model's: the product of the transforms from here up, all of them finite.
+    pub to_model: Affine<ModelSpace, ModelSpace>,
     /// The node above it; `None` for a root.
     pub parent: Option<usize>,
     /// The nodes below it.

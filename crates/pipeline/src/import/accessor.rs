@@ -2,38 +2,32 @@
 //!
 //! An accessor says: from this byte on, so many elements, each of so many components of such a type, one element every
 //! so many bytes. All of that is the file's claim. [`Source::elements`] checks it in 64-bit arithmetic against the
-//! bytes there are; nothing is allocated before that, and an accessor without bytes (zeros, by the specification) is
-//! counted against a limit of its own.
+//! bytes there are. Arrays are made by [`Source::floats`] and its like, which count what they make: an accessor without
+//! bytes (zeros, by the specification), or the same bytes used a thousand times, must not take all memory.
 
 use super::buffers::{Buffers, slice};
-use super::elements::Elements;
-use super::error::Fault;
+use super::elements::{Elements, Run, Sparse};
+use super::error::{Fault, FaultKind};
 use super::limits::Limits;
 use gltf::json::Root;
 use gltf::json::accessor::{Accessor, ComponentType, IndexComponentType, Type, sparse};
 use gltf::json::validation::Checked;
 use std::cell::Cell;
 
-/// The file's accessors, and what reading them has cost so far.
+/// The file's accessors, and how many bytes of arrays have been made of them.
 pub(super) struct Source<'a> {
     pub(super) root: &'a Root,
     pub(super) buffers: &'a Buffers<'a>,
     pub(super) limits: &'a Limits,
-    elements: Cell<u64>,
-    zeros: Cell<u64>,
+    made: Cell<u64>,
 }
 
-/// A run of elements in bytes: every element has at least its size, and only the last one may have less than the
-/// stride.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Run<'a> {
-    pub(super) bytes: &'a [u8],
-    pub(super) stride: usize,
-}
+/// Arrays may take so many bytes however small the files are.
+const FREE_BYTES: u64 = 16 << 20;
 
 impl<'a> Source<'a> {
     pub(super) fn new(root: &'a Root, buffers: &'a Buffers<'a>, limits: &'a Limits) -> Self {
-        Self { root, buffers, limits, elements: Cell::new(0), zeros: Cell::new(0) }
+        Self { root, buffers, limits, made: Cell::new(0) }
     }
 
     /// The elements of an accessor. `user` is the pointer to the member that names it.
@@ -43,52 +37,64 @@ impl<'a> Source<'a> {
         };
         let pointer = format!("/accessors/{accessor}");
         let (component, shape) = format(json, &pointer)?;
-        self.charge(json, &pointer)?;
         let count = usize::try_from(json.count.0).unwrap_or(usize::MAX);
-        let size = element_size(component, shape);
-        let run = match json.buffer_view {
-            None => None,
-            Some(view) => {
-                let user = format!("{pointer}/bufferView");
-                let offset = json.byte_offset.unwrap_or_default().0;
-                Some(self.run(
-                    view.value(),
-                    &user,
-                    offset,
-                    Block { pointer: &pointer, count, size },
-                )?)
-            }
-        };
-        let sparse =
-            json.sparse.as_ref().map(|s| self.sparse(s, &pointer, count, size)).transpose()?;
-        Ok(Elements { run, sparse, count, component, shape, normalized: json.normalized })
+        let block = Block { pointer: &pointer, count, size: element_size(component, shape) };
+        let offset = json.byte_offset.unwrap_or_default().0;
+        let run = json.buffer_view.map(|view| self.run(view.value(), offset, block)).transpose()?;
+        let sparse = json.sparse.as_ref().map(|json| self.sparse(json, accessor, block));
+        Ok(Elements {
+            accessor,
+            run,
+            sparse: sparse.transpose()?,
+            first: 0,
+            count,
+            component,
+            shape,
+            normalized: json.normalized,
+        })
     }
 
-    /// Counts what is read; see [`Limits::elements`] and [`Limits::zero_elements`].
-    fn charge(&self, json: &Accessor, pointer: &str) -> Result<(), Fault> {
-        let sparse = json.sparse.as_ref().map_or(0, |sparse| sparse.count.0);
-        let spend = |spent: &Cell<u64>, count: u64, limit: &str, allowed: u64| {
-            spent.set(spent.get().saturating_add(count));
-            if spent.get() > allowed {
-                let what = format!("{} elements are read up to here", spent.get());
-                return Err(Fault::limit(&format!("{pointer}/count"), &what, limit, allowed));
-            }
-            Ok(())
-        };
-        let count = json.count.0.saturating_add(sparse);
-        spend(&self.elements, count, "elements", self.limits.elements)?;
-        let zeros = if json.buffer_view.is_none() { json.count.0 } else { 0 };
-        spend(&self.zeros, zeros, "zero_elements", self.limits.zero_elements)
+    /// The first `N` components of every element as floats.
+    pub(super) fn floats<const N: usize>(&self, of: &Elements<'_>) -> Result<Vec<[f32; N]>, Fault> {
+        self.charge(of.accessor, of.count, 4 * N)?;
+        Ok(of.floats())
     }
 
-    fn run(
-        &self,
-        view: usize,
-        user: &str,
-        offset: u64,
-        block: Block<'_>,
-    ) -> Result<Run<'_>, Fault> {
-        let view = self.buffers.view(view, user)?;
+    /// The first `N` components of every element as unsigned shorts.
+    pub(super) fn shorts<const N: usize>(&self, of: &Elements<'_>) -> Result<Vec<[u16; N]>, Fault> {
+        self.charge(of.accessor, of.count, 2 * N)?;
+        Ok(of.shorts())
+    }
+
+    /// The elements as indices.
+    pub(super) fn indices(&self, of: &Elements<'_>) -> Result<Vec<u32>, Fault> {
+        self.charge(of.accessor, of.count, 4)?;
+        Ok(of.indices())
+    }
+
+    /// Counts an array that is about to be made; see [`Limits::array_bytes`] and [`Limits::array_growth`].
+    pub(super) fn charge(&self, accessor: usize, count: usize, bytes: usize) -> Result<(), Fault> {
+        let more = (count as u64).saturating_mul(bytes as u64);
+        let made = self.made.get().saturating_add(more);
+        self.made.set(made);
+        let pointer = format!("/accessors/{accessor}/count");
+        let what = format!("the arrays take {made} bytes up to here");
+        let Limits { array_bytes, array_growth, .. } = *self.limits;
+        if made > array_bytes {
+            return Err(Fault::limit(&pointer, &what, "array_bytes", array_bytes));
+        }
+        let paid = self.buffers.resolver.total_bytes().saturating_mul(array_growth);
+        if made.saturating_sub(FREE_BYTES) > paid {
+            let problem = format!("{what}, more than {array_growth} times the files");
+            let remedy = "raise the limit `array_growth` if you trust the file";
+            return Err(Fault::new(FaultKind::Limit, &pointer, problem, remedy));
+        }
+        Ok(())
+    }
+
+    /// The bytes of a block from an offset in a buffer view on.
+    fn run(&self, view: usize, offset: u64, block: Block<'_>) -> Result<Run<'_>, Fault> {
+        let view = self.buffers.view(view, &format!("{}/bufferView", block.pointer))?;
         let stride = view.stride.unwrap_or(block.size);
         if stride < block.size && block.count > 1 {
             let problem = format!("the stride is {stride}, an element has {} bytes", block.size);
@@ -100,66 +106,52 @@ impl<'a> Source<'a> {
         match slice(view.bytes, offset, length) {
             Some(bytes) => Ok(Run { bytes, stride }),
             None => {
+                let (count, pointer, there) = (block.count, view.pointer, view.bytes.len());
                 let problem = format!(
-                    "{} elements from byte {offset} on need {length} bytes, and {} has {}",
-                    block.count,
-                    view.pointer,
-                    view.bytes.len()
+                    "{count} elements from byte {offset} on need {length} bytes, and {pointer} has {there}"
                 );
                 Err(Fault::invalid(block.pointer, problem))
             }
         }
     }
 
-    /// The elements that replace some of the accessor's own.
+    /// The elements that replace some of the `base`.
     fn sparse(
         &self,
         json: &sparse::Sparse,
-        accessor: &str,
-        count: usize,
-        size: usize,
+        accessor: usize,
+        base: Block<'_>,
     ) -> Result<Sparse<'_>, Fault> {
-        let replaced = usize::try_from(json.count.0).unwrap_or(usize::MAX);
-        let part = |name: &str| format!("{accessor}/sparse/{name}");
+        let count = usize::try_from(json.count.0).unwrap_or(usize::MAX);
+        let pointer = format!("{}/sparse/indices", base.pointer);
         let Checked::Valid(IndexComponentType(component)) = json.indices.component_type else {
             let problem = "the component type is not one of 5121, 5123 and 5125";
-            return Err(Fault::invalid(&part("indices/componentType"), problem));
+            return Err(Fault::invalid(&format!("{pointer}/componentType"), problem));
         };
-        let (at, user) = (part("indices"), part("indices/bufferView"));
-        let block = Block { pointer: &at, count: replaced, size: component.size() };
+        let block = Block { pointer: &pointer, count, size: component.size() };
         let (view, offset) = (json.indices.buffer_view.value(), json.indices.byte_offset.0);
-        let run = self.run(view, &user, offset, block)?;
-        let shape = Type::Scalar;
-        let indices = Elements {
-            run: Some(run),
+        let indices = self.indices(&Elements {
+            accessor,
+            run: Some(self.run(view, offset, block)?),
             sparse: None,
-            count: replaced,
+            first: 0,
+            count,
             component,
-            shape,
+            shape: Type::Scalar,
             normalized: false,
-        };
-        let indices = indices.indices();
-        if let Some(&index) = indices.iter().find(|&&index| index as usize >= count) {
-            let problem = format!("element {index} is to be replaced and there are {count}");
-            return Err(Fault::invalid(&at, problem));
+        })?;
+        if let Some(&index) = indices.iter().find(|&&index| index as usize >= base.count) {
+            let problem = format!("element {index} is to be replaced and there are {}", base.count);
+            return Err(Fault::invalid(&pointer, problem));
         }
-        let (at, user) = (part("values"), part("values/bufferView"));
-        let block = Block { pointer: &at, count: replaced, size };
+        let pointer = format!("{}/sparse/values", base.pointer);
+        let block = Block { pointer: &pointer, count, size: base.size };
         let (view, offset) = (json.values.buffer_view.value(), json.values.byte_offset.0);
-        Ok(Sparse { indices, values: self.run(view, &user, offset, block)? })
+        Ok(Sparse { indices, values: self.run(view, offset, block)? })
     }
 }
 
-/// Elements that replace others.
-#[derive(Debug)]
-pub(super) struct Sparse<'a> {
-    /// Which elements, each below the number of elements.
-    pub(super) indices: Vec<u32>,
-    /// Their new values.
-    pub(super) values: Run<'a>,
-}
-
-/// What a run must hold.
+/// What a run must hold: so many elements of such a size; `pointer` says who wants them.
 #[derive(Clone, Copy)]
 struct Block<'a> {
     pointer: &'a str,

@@ -36,7 +36,7 @@ fn last_time(source: &Source<'_>, accessor: usize, pointer: &str) -> Result<f64,
     if (elements.shape, elements.component) != (Type::Scalar, ComponentType::F32) {
         return Err(Fault::invalid(pointer, "the times must be SCALAR of floats"));
     }
-    let times = elements.floats::<1>();
+    let times = source.floats::<1>(&elements)?;
     let finite = times.iter().map(|&[time]| f64::from(time)).filter(|time| time.is_finite());
     Ok(finite.fold(0.0, f64::max))
 }

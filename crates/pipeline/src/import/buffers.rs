@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 /// The buffers of a file.
 pub(super) struct Buffers<'a> {
     root: &'a Root,
-    resolver: &'a Resolver<'a>,
+    pub(super) resolver: &'a Resolver<'a>,
     /// The binary chunk of the file itself.
     chunk: Option<&'a [u8]>,
     /// What has been read from elsewhere.

@@ -87,14 +87,17 @@ fn check_header(bytes: &[u8]) -> Result<usize, Fault> {
     Ok(length)
 }
 
+/// A chunk's type and place.
+type Chunk<'a> = (&'a [u8; 4], Range<usize>);
+
 struct Chunks<'a> {
     bytes: &'a [u8],
     at: usize,
 }
 
 impl<'a> Chunks<'a> {
-    /// The next chunk's type and place; `None` at the end.
-    fn next(&mut self) -> Result<Option<(&'a [u8; 4], Range<usize>)>, Fault> {
+    /// The next chunk; `None` at the end.
+    fn next(&mut self) -> Result<Option<Chunk<'a>>, Fault> {
         let rest = &self.bytes[self.at..];
         if rest.is_empty() {
             return Ok(None);

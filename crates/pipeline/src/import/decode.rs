@@ -28,6 +28,11 @@ pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), String> {
         }
         Kind::WebP => Ok(webp_decoder(bytes)?.dimensions()),
     })
+    .and_then(|(width, height)| {
+        let (texels, most) =
+            (u64::from(width) * u64::from(height), Kind::of(bytes)?.most_texels(bytes.len()));
+        if texels <= most { Ok((width, height)) } else { Err(hollow(width, height, bytes.len())) }
+    })
 }
 
 /// The whole image. Its size should have been asked first: this allocates as much as the image has texels.
@@ -44,6 +49,10 @@ fn guarded<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| Err("the decoder gave up".to_owned()))
 }
 
+fn hollow(width: u32, height: u32, bytes: usize) -> String {
+    format!("the image says {width} x {height} texels, which cannot be in {bytes} bytes")
+}
+
 enum Kind {
     Png,
     Jpeg,
@@ -51,6 +60,18 @@ enum Kind {
 }
 
 impl Kind {
+    /// No more texels than this can be in so many bytes: deflate makes at most 1,032 bytes of one and a byte has eight
+    /// one-bit texels; a JPEG needs a bit for each block of 64 texels; a WebP of one colour needs next to nothing, so
+    /// that only its sheer size can be held against it.
+    fn most_texels(&self, bytes: usize) -> u64 {
+        let bytes = bytes as u64;
+        match self {
+            Self::Png => bytes.saturating_mul(8 * 1032),
+            Self::Jpeg => bytes.saturating_mul(8 * 64),
+            Self::WebP => bytes.saturating_mul(1024).saturating_add(4096 * 4096),
+        }
+    }
+
     fn of(bytes: &[u8]) -> Result<Self, String> {
         let other = match bytes {
             [0x89, b'P', b'N', b'G', ..] => return Ok(Self::Png),
@@ -78,26 +99,29 @@ fn decode_png(bytes: &[u8]) -> Result<Image, String> {
     let problem = |error: png::DecodingError| png_problem(&error);
     let mut decoder =
         png::Decoder::new_with_limits(Cursor::new(bytes), png::Limits { bytes: 1 << 30 });
-    decoder.set_transformations(Transformations::normalize_to_color8());
+    decoder.set_transformations(Transformations::normalize_to_color8() | Transformations::ALPHA);
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
     let mut reader = decoder.read_info().map_err(problem)?;
-    let length = reader.output_buffer_size().ok_or("the PNG is too large")?;
-    let mut samples = vec![0; length];
-    let frame = reader.next_frame(&mut samples).map_err(problem)?;
-    if frame.bit_depth != BitDepth::Eight {
-        return Err(format!("the PNG has samples of {:?} bits", frame.bit_depth));
-    }
-    let rgba = match frame.color_type {
-        ColorType::Rgba => samples.as_chunks().0.to_vec(),
-        ColorType::Rgb => samples.as_chunks().0.iter().map(|&[r, g, b]| [r, g, b, 255]).collect(),
-        ColorType::GrayscaleAlpha => {
-            samples.as_chunks().0.iter().map(|&[y, alpha]| [y, y, y, alpha]).collect()
+    let (width, height) = reader.info().size();
+    match reader.output_color_type() {
+        (ColorType::Rgba, BitDepth::Eight) => {
+            let mut rgba = texels(width, height);
+            reader.next_frame(rgba.as_flattened_mut()).map_err(problem)?;
+            Ok(Image { width, height, rgba })
         }
-        ColorType::Grayscale => samples.iter().map(|&y| [y, y, y, 255]).collect(),
-        ColorType::Indexed => return Err("the PNG's palette could not be read".to_owned()),
-    };
-    whole(frame.width, frame.height, rgba)
+        (ColorType::GrayscaleAlpha, BitDepth::Eight) => {
+            let mut grey = vec![0; reader.output_buffer_size().ok_or("the PNG is too large")?];
+            reader.next_frame(&mut grey).map_err(problem)?;
+            let pairs = grey.as_chunks().0.iter();
+            whole(width, height, pairs.map(|&[y, alpha]| [y, y, y, alpha]).collect())
+        }
+        (color, depth) => Err(format!("the PNG is {color:?} of {depth:?} bits after reading")),
+    }
+}
+
+fn texels(width: u32, height: u32) -> Vec<[u8; 4]> {
+    vec![[0; 4]; width as usize * height as usize]
 }
 
 fn jpeg_decoder(bytes: &[u8]) -> JpegDecoder<ZCursor<&[u8]>> {
@@ -119,8 +143,10 @@ fn decode_jpeg(bytes: &[u8]) -> Result<Image, String> {
         return Err(format!("the JPEG is in {space:?}, for printing; only RGB and grey are read"));
     }
     let info = decoder.info().ok_or("the JPEG has no header")?;
-    let samples = decoder.decode().map_err(|error| jpeg_problem(&error))?;
-    whole(u32::from(info.width), u32::from(info.height), samples.as_chunks().0.to_vec())
+    let (width, height) = (u32::from(info.width), u32::from(info.height));
+    let mut rgba = texels(width, height);
+    decoder.decode_into(rgba.as_flattened_mut()).map_err(|error| jpeg_problem(&error))?;
+    Ok(Image { width, height, rgba })
 }
 
 fn webp_problem(error: &image_webp::DecodingError) -> String {
@@ -136,15 +162,15 @@ fn webp_decoder(bytes: &[u8]) -> Result<WebPDecoder<Cursor<&[u8]>>, String> {
 fn decode_webp(bytes: &[u8]) -> Result<Image, String> {
     let mut decoder = webp_decoder(bytes)?;
     let (width, height) = decoder.dimensions();
-    let length = decoder.output_buffer_size().ok_or("the WebP is too large")?;
-    let mut samples = vec![0; length];
-    decoder.read_image(&mut samples).map_err(|error| webp_problem(&error))?;
-    let rgba = if decoder.has_alpha() {
-        samples.as_chunks().0.to_vec()
-    } else {
-        samples.as_chunks().0.iter().map(|&[r, g, b]| [r, g, b, 255]).collect()
-    };
-    whole(width, height, rgba)
+    if decoder.has_alpha() {
+        let mut rgba = texels(width, height);
+        decoder.read_image(rgba.as_flattened_mut()).map_err(|error| webp_problem(&error))?;
+        return Ok(Image { width, height, rgba });
+    }
+    let mut rgb = vec![0; decoder.output_buffer_size().ok_or("the WebP is too large")?];
+    decoder.read_image(&mut rgb).map_err(|error| webp_problem(&error))?;
+    let rgba = rgb.as_chunks().0.iter().map(|&[r, g, b]| [r, g, b, 255]);
+    whole(width, height, rgba.collect())
 }
 
 fn whole(width: u32, height: u32, rgba: Vec<[u8; 4]>) -> Result<Image, String> {

@@ -3,22 +3,53 @@
 //! Tightly packed floats, by far the most common case, become one loop over words that the compiler turns into a copy;
 //! the other types and strides go element by element, with the type decided outside of the loop.
 
-use super::accessor::{Run, Sparse};
 use gltf::json::accessor::{ComponentType, Type};
+use std::ops::Range;
 
-/// The elements of one accessor, whose bytes are known to be there.
+/// The elements of one accessor, or some of them, whose bytes are known to be there.
 #[derive(Debug)]
 pub(super) struct Elements<'a> {
+    /// The accessor's number.
+    pub(super) accessor: usize,
     /// The elements' bytes; `None` for zeros.
     pub(super) run: Option<Run<'a>>,
+    /// What replaces some of them.
     pub(super) sparse: Option<Sparse<'a>>,
+    /// The first element that is read.
+    pub(super) first: usize,
+    /// How many are read.
     pub(super) count: usize,
     pub(super) component: ComponentType,
     pub(super) shape: Type,
     pub(super) normalized: bool,
 }
 
+/// A run of elements in bytes: every element has at least its size, and only the last one may have less than the
+/// stride.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Run<'a> {
+    pub(super) bytes: &'a [u8],
+    pub(super) stride: usize,
+}
+
+/// Elements that replace others.
+#[derive(Debug)]
+pub(super) struct Sparse<'a> {
+    /// Which elements, each below the number of elements.
+    pub(super) indices: Vec<u32>,
+    /// Their new values.
+    pub(super) values: Run<'a>,
+}
+
 impl Elements<'_> {
+    /// Only the elements of a range; what of it is not there is left out.
+    pub(super) fn only(mut self, range: Range<usize>) -> Self {
+        let end = range.end.min(self.count);
+        self.first += range.start.min(end);
+        self.count = end.saturating_sub(range.start);
+        self
+    }
+
     /// The first `N` components of every element as floats. Normalised integers become numbers in [0, 1] or [−1, 1]
     /// (glTF 2.0 §3.11), other integers keep their value.
     pub(super) fn floats<const N: usize>(&self) -> Vec<[f32; N]> {
@@ -54,8 +85,7 @@ impl Elements<'_> {
             ComponentType::U32 => self.read(|x: u32| x),
             _ => self.floats::<1>().into_iter().map(|v| v.map(|x| x as u32)).collect(),
         };
-        // Arrays of one are laid out as their element: this collects in place.
-        words.into_iter().map(|[word]| word).collect()
+        words.into_flattened()
     }
 
     fn read<const N: usize, C: Component, T: Copy + Default>(
@@ -63,23 +93,24 @@ impl Elements<'_> {
         convert: impl Fn(C) -> T,
     ) -> Vec<[T; N]> {
         let mut elements = vec![[T::default(); N]; self.count];
-        match self.run {
-            Some(run) if run.stride == N * size_of::<C>() => {
-                for (to, word) in elements.as_flattened_mut().iter_mut().zip(C::words(run.bytes)) {
+        if let Some(Run { bytes, stride }) = self.run {
+            let bytes = bytes.get(self.first * stride..).unwrap_or(&[]);
+            if stride == N * size_of::<C>() {
+                for (to, word) in elements.as_flattened_mut().iter_mut().zip(C::words(bytes)) {
                     *to = convert(C::read(word));
                 }
-            }
-            Some(run) => {
-                for (to, from) in elements.iter_mut().zip(run.bytes.chunks(run.stride)) {
+            } else {
+                for (to, from) in elements.iter_mut().zip(bytes.chunks(stride)) {
                     copy(to, from, &convert);
                 }
             }
-            None => {}
         }
-        if let Some(sparse) = &self.sparse {
-            let values = sparse.values.bytes.chunks(sparse.values.stride);
-            for (&index, from) in sparse.indices.iter().zip(values) {
-                copy(&mut elements[index as usize], from, &convert);
+        if let Some(Sparse { indices, values }) = &self.sparse {
+            for (&index, from) in indices.iter().zip(values.bytes.chunks(values.stride)) {
+                let place = (index as usize).checked_sub(self.first);
+                if let Some(to) = place.and_then(|place| elements.get_mut(place)) {
+                    copy(to, from, &convert);
+                }
             }
         }
         elements
@@ -117,3 +148,68 @@ macro_rules! component {
 }
 
 component!(i8 u8 i16 u16 u32 f32);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn elements(
+        bytes: &[u8],
+        stride: usize,
+        count: usize,
+        component: ComponentType,
+        normalized: bool,
+    ) -> Elements<'_> {
+        let run = Some(Run { bytes, stride });
+        let shape = Type::Vec2;
+        Elements { accessor: 0, run, sparse: None, first: 0, count, component, shape, normalized }
+    }
+
+    #[test]
+    fn every_component_type_has_its_value() {
+        use ComponentType::{F32, I8, I16, U8, U16, U32};
+        // The two bytes of each component: the least and the greatest value of the type, or near it.
+        let table: [(ComponentType, bool, &[u8], [f32; 2]); 10] = [
+            (I8, false, &[0x80, 0x7F], [-128.0, 127.0]),
+            (I8, true, &[0x80, 0x7F], [-1.0, 1.0]),
+            (U8, false, &[0x00, 0xFF], [0.0, 255.0]),
+            (U8, true, &[0x33, 0xFF], [0.2, 1.0]),
+            (I16, false, &[0x00, 0x80, 0xFF, 0x7F], [-32_768.0, 32_767.0]),
+            (I16, true, &[0x00, 0x80, 0xFF, 0x7F], [-1.0, 1.0]),
+            (U16, false, &[0x01, 0x02, 0xFF, 0xFF], [513.0, 65_535.0]),
+            (U16, true, &[0x33, 0x33, 0xFF, 0xFF], [0.2, 1.0]),
+            (U32, false, &[1, 0, 0, 0, 0, 0, 0, 1], [1.0, 16_777_216.0]),
+            (F32, false, &[0, 0, 0x80, 0x3F, 0, 0, 0, 0xC0], [1.0, -2.0]),
+        ];
+        for (component, normalized, bytes, values) in table {
+            let tight = elements(bytes, bytes.len(), 1, component, normalized);
+            assert_eq!(tight.floats::<2>(), [values], "{component:?} {normalized}");
+            let spread = [bytes, &[9; 4], bytes].concat();
+            let spread = elements(&spread, bytes.len() + 4, 2, component, normalized);
+            assert_eq!(spread.floats::<2>(), [values; 2], "{component:?} {normalized}, with gaps");
+        }
+    }
+
+    #[test]
+    fn ranges_and_replaced_elements() {
+        let bytes: Vec<u8> = (0..10).collect();
+        let values = Run { bytes: &[50, 51, 0, 60, 61], stride: 3 };
+        let all = |range: Range<usize>| {
+            let mut all = elements(&bytes, 2, 5, ComponentType::U8, false);
+            all.sparse = Some(Sparse { indices: vec![1, 4], values });
+            all.only(range).shorts::<2>()
+        };
+        assert_eq!(all(0..5), [[0, 1], [50, 51], [4, 5], [6, 7], [60, 61]]);
+        assert_eq!(all(1..3), [[50, 51], [4, 5]]);
+        assert_eq!(all(2..9), [[4, 5], [6, 7], [60, 61]]);
+        assert!(all(7..9).is_empty());
+    }
+
+    #[test]
+    fn without_bytes_there_are_zeros() {
+        let mut zeros = elements(&[], 1, 3, ComponentType::U16, false);
+        zeros.run = None;
+        assert_eq!(zeros.indices(), [0; 3]);
+        assert_eq!(zeros.only(1..3).floats::<3>(), [[0.0; 3]; 2]);
+    }
+}

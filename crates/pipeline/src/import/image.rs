@@ -8,7 +8,6 @@ use super::accessor::Source;
 use super::decode;
 use super::error::Fault;
 use super::limits::Limits;
-use super::resolver::Resolver;
 use super::warnings::Warnings;
 use crate::model::{Image, Material, Mesh, Texture};
 use gltf::json::image::Image as JsonImage;
@@ -48,14 +47,13 @@ pub(super) fn needed(
 pub(super) fn read<'a>(
     needed: &[bool],
     source: &'a Source<'_>,
-    resolver: &Resolver<'_>,
     warnings: &mut Warnings,
 ) -> Vec<Encoded<'a>> {
     let mut texels_left = source.limits.image_texels;
     let mut found = Vec::new();
     for number in (0..needed.len()).filter(|&at| needed[at]) {
         let pointer = format!("/images/{number}");
-        let bytes = bytes(&source.root.images[number], &pointer, source, resolver);
+        let bytes = bytes(&source.root.images[number], &pointer, source);
         let checked = bytes.and_then(|bytes| {
             let (width, height) = decode::size(&bytes).map_err(|p| Fault::invalid(&pointer, p))?;
             check_size(width, height, &mut texels_left, source.limits, &pointer)?;
@@ -75,10 +73,9 @@ fn bytes<'a>(
     json: &JsonImage,
     pointer: &str,
     source: &'a Source<'_>,
-    resolver: &Resolver<'_>,
 ) -> Result<Cow<'a, [u8]>, Fault> {
     match (&json.uri, json.buffer_view) {
-        (Some(uri), _) => Ok(resolver.read(uri, &format!("{pointer}/uri"))?.into()),
+        (Some(uri), _) => Ok(source.buffers.resolver.read(uri, &format!("{pointer}/uri"))?.into()),
         (None, Some(view)) => {
             let user = format!("{pointer}/bufferView");
             Ok(source.buffers.view(view.value(), &user)?.bytes.into())
@@ -118,10 +115,11 @@ pub(super) fn decode_all(
         encoded.iter().map(|_| Mutex::new(None)).collect();
     let next = AtomicUsize::new(0);
     let work = || {
-        while let Some(image) = encoded.get(next.fetch_add(1, Ordering::Relaxed)) {
+        loop {
+            let at = next.fetch_add(1, Ordering::Relaxed);
+            let Some(image) = encoded.get(at) else { break };
             let result = decode::decode(&image.bytes);
-            let slot = encoded.iter().position(|other| other.number == image.number);
-            if let Some(mut slot) = slot.and_then(|slot| results[slot].lock().ok()) {
+            if let Ok(mut slot) = results[at].lock() {
                 *slot = Some(result);
             }
         }

@@ -43,7 +43,7 @@ fn count(text: &[u8], limits: &Limits) -> Result<(), Fault> {
             b'"' => at = end_of_string(text, at),
             b'[' | b'{' => {
                 depth += 1;
-                values += 1;
+                values += if byte == b'{' { 10 } else { 1 };
                 if depth > limits.json_depth.min(127) {
                     let what = format!("brackets are nested {depth} deep at byte {at}");
                     return Err(Fault::limit("", &what, "json_depth", limits.json_depth as u64));
@@ -255,9 +255,9 @@ mod tests {
         assert_eq!(fault.kind, FaultKind::Limit);
         assert!(fault.remedy.contains("json_depth"), "{fault}");
         let text = br#"{"asset": {"version": "2.0"}, "extras": "[[[[[[[\"[[[["}"#;
-        let limits = Limits { json_depth: 2, json_values: 4, ..Limits::default() };
+        let limits = Limits { json_depth: 2, json_values: 24, ..Limits::default() };
         assert!(Document::parse(text, &limits).is_ok(), "brackets in strings do not count");
-        let fault = Document::parse(b"[1,2,3,4]", &limits).unwrap_err();
+        let fault = Document::parse(b"[{},{},{}]", &limits).unwrap_err();
         assert!(fault.remedy.contains("json_values"), "{fault}");
     }
 }

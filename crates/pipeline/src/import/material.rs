@@ -58,8 +58,7 @@ impl Reader<'_, '_> {
 
     /// Factors brought into [0, 1], where the specification wants them.
     fn unit<const N: usize>(&mut self, member: &str, factors: [f32; N]) -> [f32; N] {
-        // max before min: not a number becomes 0.
-        let inside = factors.map(|x| x.max(0.0).min(1.0));
+        let inside = factors.map(|x| if x > 0.0 { x.min(1.0) } else { 0.0 });
         if inside != factors {
             let message = format!("{factors:?} is not in [0, 1]; it is {inside:?}");
             self.warnings.add(&self.pointer(member), message);

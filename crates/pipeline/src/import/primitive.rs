@@ -13,6 +13,7 @@ use gltf::json;
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::mesh::Semantic;
 use gltf::json::validation::Checked;
+use std::ops::Range;
 
 /// So many sets of texture coordinates are read.
 const UV_SETS: u32 = 8;
@@ -46,23 +47,27 @@ struct Reader<'a, 'w> {
     warnings: &'w mut Warnings,
 }
 
-impl Reader<'_, '_> {
+impl<'a> Reader<'a, '_> {
     fn primitive(mut self) -> Result<Primitive, Fault> {
         let Checked::Valid(mode) = self.json.mode else {
             let pointer = format!("{}/mode", self.pointer);
             return Err(Fault::invalid(&pointer, "the mode is not one of 0 to 6"));
         };
         let Some(positions) = self.positions()? else { return Ok(Primitive::default()) };
-        let (topology, indices) = topology::list(mode, self.indices(positions.len())?);
-        let mut primitive = Primitive { topology, indices, positions, ..Primitive::default() };
-        self.drop_impossible(&mut primitive);
-        self.attributes(&mut primitive)?;
+        let vertices = positions.count;
+        let (topology, indices) = topology::list(mode, self.indices(vertices)?);
+        let mut primitive = Primitive { topology, indices, ..Primitive::default() };
+        self.drop_lost_vertices(&mut primitive, vertices);
+        let used = shift_to_zero(&mut primitive.indices);
+        primitive.positions = self.source.floats(&positions.only(used.clone()))?;
+        self.drop_lost_places(&mut primitive);
+        self.attributes(&mut primitive, vertices, &used)?;
         primitive.material = self.material();
         Ok(primitive)
     }
 
     /// The positions; `None` if there is nothing to draw.
-    fn positions(&mut self) -> Result<Option<Vec<[f32; 3]>>, Fault> {
+    fn positions(&mut self) -> Result<Option<Elements<'a>>, Fault> {
         let Some(accessor) = self.attribute(Semantic::Positions) else {
             self.warnings.add(&self.pointer, "there are no positions; the primitive is left out");
             return Ok(None);
@@ -72,7 +77,7 @@ impl Reader<'_, '_> {
         }
         use ComponentType::{F32, I8, I16, U8, U16};
         let format = Format { shapes: &[Type::Vec3], components: &[F32, I8, U8, I16, U16] };
-        Ok(Some(self.elements("POSITION", accessor, &format)?.floats()))
+        Ok(Some(self.elements("POSITION", accessor, &format)?))
     }
 
     fn is_draco(&self) -> bool {
@@ -89,59 +94,76 @@ impl Reader<'_, '_> {
     /// The vertices in the order in which they are drawn; without indices that of the file.
     fn indices(&self, vertices: usize) -> Result<Vec<u32>, Fault> {
         let Some(accessor) = self.json.indices else {
-            return Ok((0..vertices as u32).collect());
+            let accessor = self.attribute(Semantic::Positions).unwrap_or(0);
+            self.source.charge(accessor, vertices, 4)?;
+            return Ok((0..u32::try_from(vertices).unwrap_or(u32::MAX)).collect());
         };
         use ComponentType::{U8, U16, U32};
         let format = Format { shapes: &[Type::Scalar], components: &[U8, U16, U32] };
         let pointer = format!("{}/indices", self.pointer);
         let elements = self.source.elements(accessor.value(), &pointer)?;
         format.check(&elements, "indices", &pointer)?;
-        Ok(elements.indices())
+        self.source.indices(&elements)
     }
 
-    /// Drops the items that have a corner without a vertex, or at a position that is no place. The list keeps its
-    /// promise: every index has a vertex, every position is finite.
-    fn drop_impossible(&mut self, primitive: &mut Primitive) {
-        let vertices = primitive.positions.len();
-        let corners = primitive.topology.corners();
+    /// Drops the items that have a corner without a vertex: every index then has one.
+    fn drop_lost_vertices(&mut self, primitive: &mut Primitive, vertices: usize) {
+        if primitive.indices.iter().all(|&i| (i as usize) < vertices) {
+            return;
+        }
+        let has_vertices = |item: &[u32]| item.iter().all(|&i| (i as usize) < vertices);
+        let dropped = retain_items(primitive, has_vertices);
+        let message = format!("{dropped} items use vertices that do not exist; they are left out");
+        self.warnings.add(&format!("{}/indices", self.pointer), message);
+    }
+
+    /// Drops the items that have a corner at a position that is no place: every position then is finite.
+    fn drop_lost_places(&mut self, primitive: &mut Primitive) {
         let is_place = |p: &[f32; 3]| p.iter().all(|x| x.is_finite());
-        if primitive.indices.iter().any(|&i| i as usize >= vertices) {
-            let has_vertices = |item: &[u32]| item.iter().all(|&i| (i as usize) < vertices);
-            let dropped = retain_items(&mut primitive.indices, corners, has_vertices);
-            let message =
-                format!("{dropped} items use vertices that do not exist; they are left out");
-            self.warnings.add(&format!("{}/indices", self.pointer), message);
+        if primitive.positions.iter().all(is_place) {
+            return;
         }
-        if !primitive.positions.iter().all(is_place) {
-            let positions = &primitive.positions;
-            let has_places = |item: &[u32]| item.iter().all(|&i| is_place(&positions[i as usize]));
-            let dropped = retain_items(&mut primitive.indices, corners, has_places);
-            primitive.positions.iter_mut().filter(|p| !is_place(p)).for_each(|p| *p = [0.0; 3]);
-            let message =
-                format!("{dropped} items have corners at no finite place; they are left out");
-            self.warnings.add(&format!("{}/attributes/POSITION", self.pointer), message);
-        }
+        let mut positions = std::mem::take(&mut primitive.positions);
+        let has_places = |item: &[u32]| item.iter().all(|&i| is_place(&positions[i as usize]));
+        let dropped = retain_items(primitive, has_places);
+        positions.iter_mut().filter(|p| !is_place(p)).for_each(|p| *p = [0.0; 3]);
+        primitive.positions = positions;
+        let message = format!("{dropped} items have corners at no finite place; they are left out");
+        self.warnings.add(&format!("{}/attributes/POSITION", self.pointer), message);
     }
 
-    fn attributes(&mut self, primitive: &mut Primitive) -> Result<(), Fault> {
+    /// Reads the attributes of the vertices in the range `used`; each should have as many elements as there are
+    /// `vertices`.
+    fn attributes(
+        &mut self,
+        primitive: &mut Primitive,
+        vertices: usize,
+        used: &Range<usize>,
+    ) -> Result<(), Fault> {
         use ComponentType::{F32, I8, I16, U8, U16};
-        let count = primitive.positions.len();
+        let source = self.source;
+        let span = Span { vertices, used: used.clone() };
         let normal = Format { shapes: &[Type::Vec3], components: &[F32, I8, I16] };
-        primitive.normals = self.optional(Semantic::Normals, &normal, count, |e| e.floats())?;
+        primitive.normals =
+            self.optional(Semantic::Normals, &normal, &span, |e| source.floats(&e))?;
         self.mend_normals(primitive);
         let uv = Format { shapes: &[Type::Vec2], components: &[F32, I8, U8, I16, U16] };
         for set in 0..UV_SETS {
-            let read = self.optional(Semantic::TexCoords(set), &uv, count, |e| e.floats())?;
+            let read =
+                self.optional(Semantic::TexCoords(set), &uv, &span, |e| source.floats(&e))?;
             let Some(mut uvs) = read else { break };
             self.mend_uvs(set, &mut uvs);
             primitive.uvs.push(uvs);
         }
         let color = Format { shapes: &[Type::Vec3, Type::Vec4], components: &[F32, U8, U16] };
-        primitive.colors = self.optional(Semantic::Colors(0), &color, count, colors)?;
+        primitive.colors =
+            self.optional(Semantic::Colors(0), &color, &span, |e| colors(source, e))?;
         let joint = Format { shapes: &[Type::Vec4], components: &[U8, U16] };
-        primitive.joints = self.optional(Semantic::Joints(0), &joint, count, |e| e.shorts())?;
+        primitive.joints =
+            self.optional(Semantic::Joints(0), &joint, &span, |e| source.shorts(&e))?;
         let weight = Format { shapes: &[Type::Vec4], components: &[F32, U8, U16] };
-        primitive.weights = self.optional(Semantic::Weights(0), &weight, count, |e| e.floats())?;
+        primitive.weights =
+            self.optional(Semantic::Weights(0), &weight, &span, |e| source.floats(&e))?;
         Ok(())
     }
 
@@ -150,8 +172,8 @@ impl Reader<'_, '_> {
         &mut self,
         semantic: Semantic,
         format: &Format,
-        vertices: usize,
-        read: impl Fn(&Elements<'_>) -> Vec<T>,
+        span: &Span,
+        read: impl Fn(Elements<'_>) -> Result<Vec<T>, Fault>,
     ) -> Result<Option<Vec<T>>, Fault> {
         let name = semantic.to_string();
         let Some(accessor) = self.attribute(semantic) else { return Ok(None) };
@@ -159,21 +181,18 @@ impl Reader<'_, '_> {
             return Ok(None);
         }
         let checked = self.elements(&name, accessor, format).and_then(|elements| {
-            let problem = format!("{} values for {vertices} vertices", elements.count);
-            let pointer = format!("{}/attributes/{name}", self.pointer);
-            if elements.count == vertices {
-                Ok(elements)
-            } else {
-                Err(Fault::invalid(&pointer, problem))
+            if elements.count == span.vertices {
+                return read(elements.only(span.used.clone()));
             }
+            let problem = format!("{} values for {} vertices", elements.count, span.vertices);
+            Err(Fault::invalid(&format!("{}/attributes/{name}", self.pointer), problem))
         });
         match checked {
-            Ok(elements) => Ok(Some(read(&elements))),
             Err(fault) if fault.is_soft() => {
                 self.warnings.soft(&fault, &format!("the attribute {name} is left out"));
                 Ok(None)
             }
-            Err(fault) => Err(fault),
+            values => values.map(Some),
         }
     }
 
@@ -186,7 +205,7 @@ impl Reader<'_, '_> {
         name: &str,
         accessor: usize,
         format: &Format,
-    ) -> Result<Elements<'_>, Fault> {
+    ) -> Result<Elements<'a>, Fault> {
         let pointer = format!("{}/attributes/{name}", self.pointer);
         let elements = self.source.elements(accessor, &pointer)?;
         format.check(&elements, name, &pointer)?;
@@ -234,26 +253,46 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Keeps the items of a list that `keep` accepts; gives the number of the others.
-fn retain_items(indices: &mut Vec<u32>, corners: usize, keep: impl Fn(&[u32]) -> bool) -> usize {
-    let before = indices.len();
-    let kept: Vec<u32> =
-        indices.chunks_exact(corners).filter(|i| keep(i)).flatten().copied().collect();
-    *indices = kept;
-    (before - indices.len()) / corners
+/// The vertices of a primitive, and which of them are used.
+struct Span {
+    vertices: usize,
+    used: Range<usize>,
 }
 
-/// Colours of three or four components as four, each in [0, 1].
-fn colors(elements: &Elements<'_>) -> Vec<[f32; 4]> {
-    // max before clamp: not a number becomes 0.
-    let inside = |x: f32| x.max(0.0).min(1.0);
-    match elements.shape {
-        Type::Vec4 => elements.floats::<4>().into_iter().map(|c| c.map(inside)).collect(),
-        _ => {
-            let opaque = |[r, g, b]: [f32; 3]| [r, g, b, 1.0];
-            elements.floats().into_iter().map(|c: [f32; 3]| opaque(c.map(inside))).collect()
-        }
+/// Counts the indices from the lowest one on; gives the range they came from. Parts of a model often share one long
+/// array of vertices, of which each uses a stretch.
+fn shift_to_zero(indices: &mut [u32]) -> Range<usize> {
+    let (Some(&low), Some(&high)) = (indices.iter().min(), indices.iter().max()) else {
+        return 0..0;
+    };
+    if low > 0 {
+        indices.iter_mut().for_each(|index| *index -= low);
     }
+    low as usize..high as usize + 1
+}
+
+/// Keeps the items that `keep` accepts; gives the number of the others.
+fn retain_items(primitive: &mut Primitive, keep: impl Fn(&[u32]) -> bool) -> usize {
+    let Primitive { topology, indices, .. } = primitive;
+    let before = indices.len();
+    let items = indices.chunks_exact(topology.corners());
+    *indices = items.filter(|item| keep(item)).flatten().copied().collect();
+    (before - indices.len()) / topology.corners()
+}
+
+/// Colours of three or four components as four, each in [0, 1]. Integers are normalised even if the file forgot to say
+/// so: there is no other way to read them.
+fn colors(source: &Source<'_>, mut elements: Elements<'_>) -> Result<Vec<[f32; 4]>, Fault> {
+    elements.normalized = true;
+    let mut colors: Vec<[f32; 4]> = source.floats(&elements)?;
+    for color in &mut colors {
+        if elements.shape == Type::Vec3 {
+            color[3] = 1.0;
+        }
+        // What is not a number becomes 0.
+        *color = color.map(|x| if x > 0.0 { x.min(1.0) } else { 0.0 });
+    }
+    Ok(colors)
 }
 
 /// The formats an attribute may have.

@@ -10,6 +10,7 @@ use super::limits::Limits;
 use base64::Engine;
 use base64::alphabet;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+use std::cell::Cell;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
@@ -22,26 +23,45 @@ pub(super) struct Resolver<'a> {
     /// The folder that everything must stay below.
     root: PathBuf,
     limits: &'a Limits,
+    /// The bytes that have been read so far.
+    total: Cell<u64>,
 }
 
 impl<'a> Resolver<'a> {
-    /// A resolver for the assets of `file`, which must be below `root`, or, without one, below the file's own folder.
-    pub(super) fn new(file: &Path, root: Option<&Path>, limits: &'a Limits) -> Result<Self, Fault> {
+    /// A resolver for the assets of `file`, which must be below `root`, or, without one, below the file's own folder. The file
+    /// itself has been read: its `length` counts.
+    pub(super) fn new(
+        file: &Path,
+        length: usize,
+        root: Option<&Path>,
+        limits: &'a Limits,
+    ) -> Result<Self, Fault> {
         let parent = match file.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
         };
         let folder = canonical(parent)?;
         let root = root.map_or_else(|| Ok(folder.clone()), canonical)?;
-        Ok(Self { folder, root, limits })
+        Ok(Self { folder, root, limits, total: Cell::new(length as u64) })
     }
 
     /// The bytes that a URI stands for; `pointer` is where the URI is.
     pub(super) fn read(&self, uri: &str, pointer: &str) -> Result<Vec<u8>, Fault> {
-        match uri.split_once(':') {
-            Some((scheme, data)) if scheme.eq_ignore_ascii_case("data") => decode(data, pointer),
-            _ => read_file(&self.find(uri, pointer)?, self.limits, pointer),
+        let bytes = match uri.split_once(':') {
+            Some((scheme, data)) if scheme.eq_ignore_ascii_case("data") => decode(data, pointer)?,
+            _ => read_file(&self.find(uri, pointer)?, self.limits, pointer)?,
+        };
+        self.total.set(self.total.get().saturating_add(bytes.len() as u64));
+        if self.total.get() > self.limits.total_bytes {
+            let what = format!("{} bytes have been read up to here", self.total.get());
+            return Err(Fault::limit(pointer, &what, "total_bytes", self.limits.total_bytes));
         }
+        Ok(bytes)
+    }
+
+    /// The bytes of all files that have been read so far.
+    pub(super) fn total_bytes(&self) -> u64 {
+        self.total.get()
     }
 
     /// The file that a URI names: as it is written, else percent-decoded, else with `\` read as `/`.

@@ -4,9 +4,9 @@ use super::error::Fault;
 use super::json::Document;
 use super::limits::Limits;
 use super::warnings::Warnings;
-use crate::model::{Model, Node};
+use crate::model::{Instance, Mesh, Model, Node, Primitive};
 use gltf::json::Index;
-use homog::{Affine, Model as ModelSpace};
+use homog::Affine;
 
 /// Reads all nodes of a file. They form a forest of bounded depth, and every index in them is right.
 pub(super) fn nodes(
@@ -22,7 +22,7 @@ pub(super) fn nodes(
     let mut nodes =
         (0..count).map(|at| node(document, at, warnings)).collect::<Result<Vec<_>, _>>()?;
     connect(&mut nodes)?;
-    check_forest(&nodes, limits)?;
+    place(&mut nodes, limits)?;
     Ok(nodes)
 }
 
@@ -40,7 +40,16 @@ fn node(document: &Document, at: usize, warnings: &mut Warnings) -> Result<Node,
         skin = None;
     }
     let camera = existing(json.camera, "camera", root.cameras.len(), &pointer)?;
-    Ok(Node { name: json.name.clone(), to_parent, parent: None, children, mesh, skin, camera })
+    Ok(Node {
+        name: json.name.clone(),
+        to_parent,
+        to_model: to_parent,
+        parent: None,
+        children,
+        mesh,
+        skin,
+        camera,
+    })
 }
 
 fn existing<T>(
@@ -76,25 +85,26 @@ fn connect(nodes: &mut [Node]) -> Result<(), Fault> {
     Ok(())
 }
 
-/// With one parent each, the nodes form a forest if a walk from the roots meets them all; what it misses are cycles.
-fn check_forest(nodes: &[Node], limits: &Limits) -> Result<(), Fault> {
+/// Tells every node its place in the model. With one parent each, the nodes form a forest if a walk from the roots meets
+/// them all; what it misses are cycles.
+fn place(nodes: &mut [Node], limits: &Limits) -> Result<(), Fault> {
     let mut met = vec![false; nodes.len()];
     let roots = (0..nodes.len()).filter(|&at| nodes[at].parent.is_none());
-    let mut open: Vec<(usize, usize, Affine<ModelSpace, ModelSpace>)> =
-        roots.map(|root| (root, 1, Affine::IDENTITY)).collect();
-    while let Some((at, depth, above)) = open.pop() {
+    let mut open: Vec<(usize, usize)> = roots.map(|root| (root, 1)).collect();
+    while let Some((at, depth)) = open.pop() {
         met[at] = true;
         if depth > limits.node_depth {
             let what = format!("the node tree is {depth} levels deep");
             let allowed = limits.node_depth as u64;
             return Err(Fault::limit(&format!("/nodes/{at}"), &what, "node_depth", allowed));
         }
-        let to_model = nodes[at].to_parent.then(above);
-        if !to_model.is_finite() {
+        let above = nodes[at].parent.map_or(Affine::IDENTITY, |parent| nodes[parent].to_model);
+        nodes[at].to_model = nodes[at].to_parent.then(above);
+        if !nodes[at].to_model.is_finite() {
             let problem = "the product of the transforms down to here is too large for numbers";
             return Err(Fault::invalid(&format!("/nodes/{at}"), problem));
         }
-        open.extend(nodes[at].children.iter().map(|&child| (child, depth + 1, to_model)));
+        open.extend(nodes[at].children.iter().map(|&child| (child, depth + 1)));
     }
     match met.iter().position(|met| !met) {
         None => Ok(()),
@@ -161,15 +171,22 @@ fn is_shown_once(
     true
 }
 
-/// Counts what the shown scene draws, each item as often as it is drawn, and refuses more than the limit.
+/// Counts what the shown scene draws, each item as often as it is drawn, and refuses more than the limit. A primitive
+/// counts as one item more, so that many empty ones are not free; for skinned meshes vertices and joints count as well.
 pub(super) fn check_items(model: &Model, limits: &Limits) -> Result<(), Fault> {
-    let items = |mesh: usize| -> u64 {
-        let mesh = model.meshes.get(mesh);
-        mesh.map_or(0, |mesh| mesh.primitives.iter().map(|p| p.count() as u64).sum())
+    let sum = |count: fn(&Primitive) -> usize| -> Vec<u64> {
+        let of_mesh = |mesh: &Mesh| mesh.primitives.iter().map(|p| count(p) as u64 + 1).sum();
+        model.meshes.iter().map(of_mesh).collect()
     };
+    let (items, vertices) = (sum(Primitive::count), sum(|primitive| primitive.positions.len()));
     let mut total = 0u64;
-    for instance in model.instances() {
-        total = total.saturating_add(model.nodes[instance.node].mesh.map_or(0, items));
+    for Instance { node, .. } in model.instances() {
+        let Some(mesh) = model.nodes[node].mesh else { continue };
+        let joints = model.nodes[node].skin.map(|skin| model.skins[skin].joints.len() as u64);
+        let parts = model.meshes[mesh].primitives.len() as u64;
+        let bending =
+            joints.map_or(0, |joints| vertices[mesh].saturating_add(joints.saturating_mul(parts)));
+        total = total.saturating_add(items[mesh]).saturating_add(bending);
     }
     if total <= limits.scene_items {
         return Ok(());

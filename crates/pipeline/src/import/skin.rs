@@ -46,9 +46,8 @@ fn skin(source: &Source<'_>, at: usize) -> Result<Skin, Fault> {
         let problem = format!("{} matrices for {} joints", elements.count, joints.len());
         return Err(Fault::invalid(&pointer, problem));
     }
-    let matrices = elements.floats::<16>();
-    let inverse_bind: Option<Vec<_>> =
-        matrices.iter().take(joints.len()).map(|m| affine(&m.map(f64::from))).collect();
+    let matrices = source.floats::<16>(&elements.only(0..joints.len()))?;
+    let inverse_bind: Option<Vec<_>> = matrices.iter().map(|m| affine(&m.map(f64::from))).collect();
     match inverse_bind {
         Some(inverse_bind) => Ok(Skin { joints, inverse_bind }),
         None => Err(Fault::invalid(&pointer, "the last row of a matrix is not 0, 0, 0, 1")),

@@ -51,25 +51,10 @@ impl Model {
 
     /// For each joint of a skin the map from the mesh to the model.
     fn bones(&self, skin: &Skin) -> Vec<DMat4> {
-        let places = self.node_places();
         let bone = |(&joint, bind): (&usize, &Affine<ModelSpace, ModelSpace>)| {
-            places.get(joint).map_or(DMat4::IDENTITY, |place| bind.then(*place).raw())
+            self.nodes.get(joint).map_or(DMat4::IDENTITY, |node| bind.then(node.to_model).raw())
         };
         skin.joints.iter().zip(&skin.inverse_bind).map(bone).collect()
-    }
-
-    /// For each node, shown or not, the map from its coordinates to the model's.
-    fn node_places(&self) -> Vec<Affine<ModelSpace, ModelSpace>> {
-        let mut places = vec![Affine::IDENTITY; self.nodes.len()];
-        let roots = (0..self.nodes.len()).filter(|&at| self.nodes[at].parent.is_none());
-        let mut open: Vec<usize> = roots.collect();
-        while let Some(at) = open.pop() {
-            let node = &self.nodes[at];
-            let above = node.parent.map_or(Affine::IDENTITY, |parent| places[parent]);
-            places[at] = node.to_parent.then(above);
-            open.extend(&node.children);
-        }
-        places
     }
 }
 
