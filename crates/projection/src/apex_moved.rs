@@ -1,21 +1,22 @@
 //! The apex-moved frustum of the WebGL lesson: not glFrustum, though its parameters look alike.
 //!
 //! ```text
-//!   Frustum                       ApexMovedFrustum
-//!             window                         window
-//!               ┐                              ┐
-//!   eye ●───────┤ centre of the window   ●─────┤  the apex stands right behind the window's centre,
-//!               ┘ seen at an angle             ┘  in the plane of the eye
+//!   Frustum                    ApexMovedFrustum
+//!              window                     window
+//!               ┐                          ┐
+//!   eye ●───────┤ seen at            ●─────┤  the apex stands right behind the
+//!               ┘ an angle                 ┘  window's centre, beside the eye
 //! ```
 //!
-//! Both agree on the near plane only, or when the window is centred (LW-1, M12). For stereo pairs, tiles and lens shift
-//! use [`Frustum`].
+//! Both agree on the near plane only, or when the window is centred (LW-1, M12). For stereo pairs,
+//! tiles and lens shift use [`Frustum`].
 
 use crate::error::finite;
 use crate::{Convention, Frustum, ProjectionError, Window};
 use homog::{Affine, Clip, Point, Projective, View};
 
-/// The perspective of createFrustum (LW-1; C63): symmetric, from an apex moved to behind the window's centre.
+/// The perspective of createFrustum (LW-1; C63): symmetric, from an apex moved to behind the
+/// window's centre.
 ///
 /// # Guarantees
 /// As for [`Frustum`].
@@ -36,12 +37,14 @@ pub struct ApexMovedFrustum {
     about_apex: Frustum,
 }
 
-/// The four steps of the lesson, in the order a point passes them; their product is the matrix (C66).
+/// The four steps of the lesson, in the order a point passes them; their product is the matrix
+/// (C66).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ApexMovedSteps {
     /// Eq2: moves the apex to the origin.
     pub move_apex: Affine<View, View>,
-    /// Eq7 with the 0 it needs at the end of its last row (M14): maps the depth and sets w to the distance.
+    /// Eq7 with the 0 it needs at the end of its last row (M14): maps the depth and sets w to the
+    /// distance.
     pub map_depth: Projective<View, View>,
     /// Eq3: projects x and y onto the near plane by multiplying them with near.
     pub project: Affine<View, View>,
@@ -50,7 +53,8 @@ pub struct ApexMovedSteps {
 }
 
 impl ApexMovedFrustum {
-    /// The frustum from the apex ((left + right)/2, (bottom + top)/2, 0) through the window on the near plane.
+    /// The frustum from the apex ((left + right)/2, (bottom + top)/2, 0) through the window on the
+    /// near plane.
     ///
     /// # Errors
     /// As for [`Frustum::new`]; the lesson's far plane is finite.

@@ -1,14 +1,15 @@
 //! Builders under the names by which graphics interfaces know them.
 //!
-//! All take distances, refuse an infinite `far` where the formula has a finite one, and return the matrix only; each is
-//! one line over [`Frustum`], [`Perspective`] or [`Orthographic`] with its [`Convention`]. `fovy` is in radians (M19),
-//! `aspect` is width / height. `lh`: looks along +z; `zo`: depth from zero to one; `rev`: near at 1; `inf`: no far plane.
+//! All take distances, refuse an infinite `far` where the formula has a finite one, and return the
+//! matrix only; each is one line over [`Frustum`], [`Perspective`] or [`Orthographic`] with its
+//! [`Convention`]. `fovy` is in radians (M19), `aspect` is width / height. `lh`: looks along +z;
+//! `zo`: depth from zero to one; `rev`: near at 1; `inf`: no far plane.
 //!
 //! ```
 //! use projection::{Convention, Frustum, api};
 //! let by_name = api::frustum_gl(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0)?;
-//! let by_convention = Frustum::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0)?.view_to_clip(Convention::OPENGL);
-//! assert_eq!(by_name, by_convention);
+//! let frustum = Frustum::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0)?;
+//! assert_eq!(by_name, frustum.view_to_clip(Convention::OPENGL));
 //! # Ok::<(), projection::ProjectionError>(())
 //! ```
 
@@ -65,7 +66,8 @@ macro_rules! by_angle {
         $(#[$doc])*
         ///
         /// # Errors
-        /// If a number is not finite, fovy not between 0 and π, aspect not above 0, or not 0 < near < far.
+        /// If a number is not finite, fovy not between 0 and π, aspect not above 0, or not 0 < near
+        /// < far.
         pub fn $name(fovy: f64, aspect: f64, near: f64, far: f64) -> Matrix {
             perspective(fovy, aspect, near, far, $convention)
         }

@@ -8,8 +8,9 @@
 //!        z ⟋   ⟍ x               z ⟋      x              z ⟋     x
 //! ```
 //!
-//! The object is turned by −α about y and by β about x until the plane's normal points at the viewer; then z is
-//! dropped. A unit along an axis with angle γ to the plane shrinks to cos γ; the squares of the three ratios sum to 2.
+//! The object is turned by −α about y and by β about x until the plane's normal points at the
+//! viewer; then z is dropped. A unit along an axis with angle γ to the plane shrinks to cos γ; the
+//! squares of the three ratios sum to 2.
 
 use crate::ProjectionError;
 use crate::error::{finite, positive};
@@ -56,8 +57,8 @@ impl Axonometric {
         Ok(Self { alpha, beta, origin: Point::ORIGIN })
     }
 
-    /// The projection onto the plane with the given normal, which points to the viewer; y stays upright. For a normal
-    /// along ±y, α is 0.
+    /// The projection onto the plane with the given normal, which points to the viewer; y stays
+    /// upright. For a normal along ±y, α is 0.
     ///
     /// # Errors
     /// If the normal is zero or not finite.
@@ -72,10 +73,11 @@ impl Axonometric {
         Self::by_angles(alpha, libm::atan2(unit.y, level))
     }
 
-    /// The projection that shortens the x, y and z axis as x : y : z, seen from the octant of positive axes.
+    /// The projection that shortens the x, y and z axis as x : y : z, seen from the octant of
+    /// positive axes.
     ///
-    /// The ratios may have any common factor. None may be so large that its square exceeds the sum of the squares of
-    /// the other two.
+    /// The ratios may have any common factor. None may be so large that its square exceeds the sum
+    /// of the squares of the other two.
     ///
     /// # Errors
     /// If a ratio is not finite and above 0, or no plane shortens the axes so.
@@ -86,7 +88,8 @@ impl Axonometric {
         let largest = x.max(y).max(z);
         let squares = [x, y, z].map(|ratio| (ratio / largest) * (ratio / largest));
         let sum = squares[0] + squares[1] + squares[2];
-        // The ratio's square, scaled to the sum 2, is 1 − n² for that coordinate of the unit normal.
+        // The ratio's square, scaled to the sum 2, is 1 − n² for that coordinate of the unit
+        // normal.
         let normal = squares.map(|square| 1.0 - 2.0 * square / sum);
         if normal.iter().any(|&square| square < -4.0 * f64::EPSILON) {
             let reason = "no square may exceed the sum of the other two";
@@ -103,8 +106,8 @@ impl Axonometric {
         Self { alpha: core::f64::consts::FRAC_PI_4, beta, origin: Point::ORIGIN }
     }
 
-    /// The dimetric projection of engineering drawing (ISO 5456-3): x and y in full, z by half; drawn, z leaves at
-    /// 41.4° (called 42°) and x at 7.2° (called 7°) from the horizontal.
+    /// The dimetric projection of engineering drawing (ISO 5456-3): x and y in full, z by half;
+    /// drawn, z leaves at 41.4° (called 42°) and x at 7.2° (called 7°) from the horizontal.
     #[must_use]
     pub fn dimetric_42_7() -> Self {
         // The normal is (1, 1, √7)/3.
@@ -183,8 +186,8 @@ impl Axonometric {
         self.axes().map(|axis| libm::hypot(axis.x(), axis.y()))
     }
 
-    /// The directions in which the x, y and z axis are drawn, in radians counterclockwise from the right; `None` for an
-    /// axis that shows as a point.
+    /// The directions in which the x, y and z axis are drawn, in radians counterclockwise from the
+    /// right; `None` for an axis that shows as a point.
     #[must_use]
     pub fn drawn_angles(self) -> [Option<f64>; 3] {
         self.axes().map(|axis| {

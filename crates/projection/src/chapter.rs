@@ -1,8 +1,9 @@
 //! The textbook's own matrices P, M_orth and M_per, in its signs and under its names.
 //!
-//! Here `n` and `f` are *z-coordinates*, not distances: the camera looks along −z, so that 0 > n > f. Near goes to +1,
-//! far to −1. After P and M_per a visible point has w = z < 0; for clipping use [`m_per_positive`], the same map with
-//! the sign of w turned (PE-3), which is [`Convention::CHAPTER`].
+//! Here `n` and `f` are *z-coordinates*, not distances: the camera looks along −z, so that 0 > n >
+//! f. Near goes to +1, far to −1. After P and M_per a visible point has w = z < 0; for clipping use
+//! [`m_per_positive`], the same map with the sign of w turned (PE-3), which is
+//! [`Convention::CHAPTER`].
 //!
 //! ```
 //! use homog::Point;
@@ -53,7 +54,8 @@ pub fn p_inverse(n: f64, f: f64) -> Result<Projective<View, View>, ProjectionErr
     Ok(Projective::from_raw(representable(from_rows(rows), "depth range")?))
 }
 
-/// The inverse of [`p`] times nf, without fractions; as a projective map it is the same (exercise 6, M14).
+/// The inverse of [`p`] times nf, without fractions; as a projective map it is the same (exercise
+/// 6, M14).
 ///
 /// # Errors
 /// As for [`p`].
@@ -129,7 +131,8 @@ fn signed_box(
     Ok(volume)
 }
 
-/// M_per = M_orth P as the textbook writes it: w = z, negative in front of the eye (PE-2; C27, C29).
+/// M_per = M_orth P as the textbook writes it: w = z, negative in front of the eye (PE-2; C27,
+/// C29).
 ///
 /// # Errors
 /// If a number is not finite, the window on z = n is empty, or not 0 > n > f.
@@ -192,8 +195,8 @@ fn signed_frustum(
     Frustum::new(l, r, b, t, -n, -f)
 }
 
-/// The window on z = n for a vertical field of view `theta` and an image of nx × ny square pixels (FOV-1, C33):
-/// t = |n| tan(θ/2), r = t nx/ny.
+/// The window on z = n for a vertical field of view `theta` and an image of nx × ny square pixels
+/// (FOV-1, C33): t = |n| tan(θ/2), r = t nx/ny.
 ///
 /// # Errors
 /// If theta is not between 0 and π, nx or ny not above 0, n not below 0, or one of them not finite.
@@ -206,7 +209,8 @@ pub fn window_from_fov(theta: f64, nx: f64, ny: f64, n: f64) -> Result<Window, P
     Window::new(-right, right, -top, top)
 }
 
-/// The vertical field of view of the symmetric window whose top edge is at `t` on z = n: θ = 2 atan(t/|n|) (FOV-1).
+/// The vertical field of view of the symmetric window whose top edge is at `t` on z = n: θ = 2
+/// atan(t/|n|) (FOV-1).
 ///
 /// # Errors
 /// If t is not above 0, n not below 0, or one of them not finite.

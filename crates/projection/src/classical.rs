@@ -1,7 +1,8 @@
 //! Any classical projection, ready to be rendered.
 //!
-//! The classical projections drop z: their matrices are singular and tell nothing about what hides what. With depth kept
-//! and a view volume around the object each becomes a matrix like any other, from view space to clip space (PR-1, C89).
+//! The classical projections drop z: their matrices are singular and tell nothing about what hides
+//! what. With depth kept and a view volume around the object each becomes a matrix like any other,
+//! from view space to clip space (PR-1, C89).
 
 use crate::{
     Axonometric, Convention, NPoint, Oblique, Orthographic, Planometric, PrincipalView,
@@ -74,8 +75,9 @@ impl Classical {
 
     /// The whole projection.
     ///
-    /// `volume` is what is shown of the picture: its window lies on the picture, its near and far are measured from the
-    /// picture plane away from the viewer, for perspectives on the line x = y = 0 before the divide.
+    /// `volume` is what is shown of the picture: its window lies on the picture, its near and far
+    /// are measured from the picture plane away from the viewer, for perspectives on the line x = y
+    /// = 0 before the divide.
     ///
     /// # Errors
     /// If a perspective's near or far plane lies behind its eye.

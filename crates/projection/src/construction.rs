@@ -1,9 +1,11 @@
-//! Perspective constructed as draughtsmen do: vanishing points are chosen on the picture, the eye follows.
+//! Perspective constructed as draughtsmen do: vanishing points are chosen on the picture, the eye
+//! follows.
 //!
 //! ```text
 //!   three points:  the principal point is the orthocentre of their triangle,
 //!                  the eye's distance from it the height of the box corner above the triangle
-//!   two points:    the principal point lies on the horizon between them, the eye on the half circle over them
+//!   two points:    the principal point lies on the horizon between them,
+//!                  the eye on the half circle over them
 //!   one point:     the principal point is the vanishing point
 //!
 //!   VP x ●──────────────┼──────● VP z     horizon
@@ -19,14 +21,16 @@ use homog::{Affine, Point, Vector, View, World};
 
 /// The eye and the attitude of the world that give three axes the chosen vanishing points.
 ///
-/// The picture plane stands `distance` ahead of the eye; places on it are (x, y) in any unit and from any origin.
+/// The picture plane stands `distance` ahead of the eye; places on it are (x, y) in any unit and
+/// from any origin.
 ///
 /// ```
 /// use homog::{Point, Vector};
 /// use projection::{ConstructedPerspective, Convention, Window, vanishing_point};
 /// let drawing = ConstructedPerspective::two_point((-3.0, 0.0), (2.0, 0.0), 0.6)?;
 /// let frustum = drawing.frustum(Window::new(-1.0, 1.0, -1.0, 1.0)?, 0.1, 100.0)?;
-/// let world_to_clip = drawing.world_to_view().then_project(frustum.view_to_clip(Convention::OPENGL));
+/// let view_to_clip = frustum.view_to_clip(Convention::OPENGL);
+/// let world_to_clip = drawing.world_to_view().then_project(view_to_clip);
 /// let right = vanishing_point(world_to_clip, Vector::Z)?.point().expect("finite");
 /// assert!((right.x() - 2.0).abs() < 1e-12 && right.y().abs() < 1e-12);
 /// # Ok::<(), projection::ProjectionError>(())
@@ -49,7 +53,8 @@ impl ConstructedPerspective {
         Ok(Self { principal, distance, axes: [Vector::X, Vector::Y, Vector::Z] })
     }
 
-    /// Two-point perspective: lines along x meet at `x`, those along z at `z`, and y stays in the picture plane.
+    /// Two-point perspective: lines along x meet at `x`, those along z at `z`, and y stays in the
+    /// picture plane.
     ///
     /// `fraction` says where between the two the principal point lies, 0 at `x` and 1 at `z`.
     ///
@@ -82,7 +87,8 @@ impl ConstructedPerspective {
     /// Three-point perspective: lines along x, y and z meet at the three given points.
     ///
     /// # Errors
-    /// If a number is not finite, or the points are not the corners of a triangle with acute angles only.
+    /// If a number is not finite, or the points are not the corners of a triangle with acute angles
+    /// only.
     pub fn three_point(
         x: (f64, f64),
         y: (f64, f64),
@@ -138,7 +144,8 @@ impl ConstructedPerspective {
         Affine::from_frame(x, y, z, Point::ORIGIN)
     }
 
-    /// The frustum through `window`, a part of the picture in the coordinates of the vanishing points.
+    /// The frustum through `window`, a part of the picture in the coordinates of the vanishing
+    /// points.
     ///
     /// # Errors
     /// If not 0 < near < far.

@@ -1,16 +1,17 @@
 //! Conventions: which way the camera looks and what clip space looks like.
 //!
 //! ```text
-//!  convention      looks along   NDC y   depth at near   at far
-//!  CHAPTER             −z          up         +1           −1      Shirley's textbook, with w > 0 (PE-3)
-//!  OPENGL              −z          up         −1           +1      glFrustum, WebGL
-//!  VULKAN              −z         down         0            1
-//!  DIRECT3D            +z          up          0            1      D3DX…LH
-//!  METAL, WEBGPU       −z          up          0            1
+//!  convention      looks along   NDC y   near at   far at
+//!  CHAPTER             −z          up        +1        −1      the textbook, with w > 0 (PE-3)
+//!  OPENGL              −z          up        −1        +1      glFrustum, WebGL
+//!  VULKAN              −z         down        0         1
+//!  DIRECT3D            +z          up         0         1      D3DX…LH
+//!  METAL, WEBGPU       −z          up         0         1
 //! ```
 //!
-//! All have w > 0 in front of the eye. A projection is described once, without a convention, and written as a matrix
-//! of any of them; matrices made elsewhere are converted by [`Convention::convert`].
+//! All have w > 0 in front of the eye. A projection is described once, without a convention, and
+//! written as a matrix of any of them; matrices made elsewhere are converted by
+//! [`Convention::convert`].
 
 use crate::ProjectionError;
 use crate::error::finite;
@@ -54,7 +55,8 @@ pub struct Convention {
 }
 
 impl Convention {
-    /// The textbook's canonical volume in its w > 0 form (PE-3): [−1, 1]³ with near at +1 and far at −1.
+    /// The textbook's canonical volume in its w > 0 form (PE-3): [−1, 1]³ with near at +1 and far
+    /// at −1.
     pub const CHAPTER: Self = Self::of(Handedness::Right, NdcY::Up, 1.0, -1.0);
     /// OpenGL and WebGL (GL-1): near at −1, far at +1.
     pub const OPENGL: Self = Self::of(Handedness::Right, NdcY::Up, -1.0, 1.0);
@@ -164,14 +166,15 @@ impl Convention {
 
     /// The same projection, written for convention `to` instead of this one.
     ///
-    /// Flips of y and z are exact; the depth is remapped linearly, which is exact between the conventions of this
-    /// module. View space is re-read with the handedness of `to`: the same scene with its z axis turned.
+    /// Flips of y and z are exact; the depth is remapped linearly, which is exact between the
+    /// conventions of this module. View space is re-read with the handedness of `to`: the same
+    /// scene with its z axis turned.
     ///
     /// ```
     /// use projection::{Convention, Fov, Perspective};
     /// let lens = Perspective::new(Fov::Vertical(0.7), 1.5, 0.1, 100.0)?;
-    /// let converted = Convention::OPENGL.convert(Convention::CHAPTER, lens.view_to_clip(Convention::OPENGL));
-    /// assert_eq!(converted, lens.view_to_clip(Convention::CHAPTER));
+    /// let (from, to) = (Convention::OPENGL, Convention::CHAPTER);
+    /// assert_eq!(from.convert(to, lens.view_to_clip(from)), lens.view_to_clip(to));
     /// # Ok::<(), projection::ProjectionError>(())
     /// ```
     #[must_use]
@@ -189,7 +192,8 @@ impl Convention {
         Projective::from_raw(columns)
     }
 
-    /// The map from this convention's clip space to that of `to`: y and depth only, since the view space stays.
+    /// The map from this convention's clip space to that of `to`: y and depth only, since the view
+    /// space stays.
     #[must_use]
     pub fn clip_to_clip(self, to: Self) -> Projective<Clip, Clip> {
         let (factor, offset) = self.depth_remap(to);

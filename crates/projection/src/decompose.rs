@@ -1,4 +1,4 @@
-//! From any 4×4 matrix back to the projection that made it (D7 of the inventory's ideas: "matrix doctor", first half).
+//! From any 4×4 matrix back to the projection that made it.
 //!
 //! ```text
 //!                         last row (p, q, r, s)
@@ -11,9 +11,9 @@
 //!      no inverse     → classical: the centre is what the matrix sends to nothing
 //! ```
 //!
-//! A matrix and its multiples are the same map, so a common factor is taken out first and reported. A matrix does not
-//! tell its convention: the OpenGL matrix of (N, F) is the zero-to-one matrix of (2FN/(F+N), F). So the convention is asked
-//! for; [`readings`] tries the named ones.
+//! A matrix and its multiples are the same map, so a common factor is taken out first and reported.
+//! A matrix does not tell its convention: the OpenGL matrix of (N, F) is the zero-to-one matrix of
+//! (2FN/(F+N), F). So the convention is asked for; [`readings`] tries the named ones.
 
 use crate::placed::{self, Placement};
 use crate::{
@@ -27,7 +27,8 @@ use thiserror::Error;
 /// What a matrix turned out to be.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Decomposed {
-    /// A perspective from the origin; with a centred window [`crate::Perspective`] can be had from it.
+    /// A perspective from the origin; with a centred window [`crate::Perspective`] can be had from
+    /// it.
     Frustum(Frustum),
     /// The frustum of the WebGL lesson, its apex beside the origin (LW-1).
     ApexMoved(ApexMovedFrustum),
@@ -56,7 +57,8 @@ pub enum Decomposed {
         /// The window on the picture, near and far.
         volume: Orthographic,
     },
-    /// An orthographic projection turned in a way that no axonometric projection is: a camera and a box in one matrix.
+    /// An orthographic projection turned in a way that no axonometric projection is: a camera and a
+    /// box in one matrix.
     PlacedOrthographic {
         /// What the camera does.
         placement: Affine<View, View>,
@@ -67,7 +69,8 @@ pub enum Decomposed {
     NPoint(NPoint),
     /// A classical projection that drops a dimension: singular.
     Flat {
-        /// The centre of projection: what the matrix sends to nothing. w = 0 if the projectors are parallel.
+        /// The centre of projection: what the matrix sends to nothing. w = 0 if the projectors are
+        /// parallel.
         centre: HPoint<View>,
         /// Which one, if it drops z in one of the known ways.
         projection: Option<Classical>,
@@ -79,8 +82,8 @@ pub enum Decomposed {
 pub struct Decomposition {
     /// What the matrix is, without the factor.
     pub kind: Decomposed,
-    /// The common factor that was taken out. Negative if w is negative in front of the eye, as in the textbook's M_per:
-    /// divide by it before clipping (PE-3).
+    /// The common factor that was taken out. Negative if w is negative in front of the eye, as in
+    /// the textbook's M_per: divide by it before clipping (PE-3).
     pub factor: f64,
 }
 
@@ -102,10 +105,9 @@ pub enum DecomposeError {
         /// Its rank.
         rank: usize,
     },
-    /// The picture's x and y axis are not at right angles, or the depth depends on the place in no known way.
-    #[error(
-        "the axes of the picture are not at right angles: the matrix shears as no projection here does"
-    )]
+    /// The picture's x and y axis are not at right angles, or the depth depends on the place in no
+    /// known way.
+    #[error("the axes of the picture are not at right angles: no projection here shears so")]
     Sheared,
     /// Near and far make no sense in this convention.
     #[error("in this convention near and far would be {near} and {far}; allowed: 0 < near < far")]

@@ -17,7 +17,8 @@ use crate::{Convention, Frustum, Orthographic, Perspective, ProjectionError};
 /// How depth values are stored.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum DepthFormat {
-    /// As whole numbers of the given number of bits, 1 to 64, spread evenly from the near to the far depth.
+    /// As whole numbers of the given number of bits, 1 to 64, spread evenly from the near to the
+    /// far depth.
     FixedPoint(u32),
     /// As 32-bit floating point numbers, in the convention's own range.
     Float32,
@@ -35,7 +36,7 @@ enum Shape {
 /// use projection::{Convention, DepthCurve};
 /// let curve = DepthCurve::perspective(2.0, 40.0, Convention::OPENGL)?;
 /// assert_eq!(curve.depth(2.0), Some(-1.0));
-/// assert_eq!(curve.half_range_distance(), 80.0 / 21.0); // the lesson rounds it to 3.8 (M29 of the chapter)
+/// assert_eq!(curve.half_range_distance(), 80.0 / 21.0); // the lesson rounds it to 3.8
 /// # Ok::<(), projection::ProjectionError>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -81,8 +82,8 @@ impl DepthCurve {
         (row.factor, row.offset)
     }
 
-    /// The depth of points at `distance`; `None` where there is none: at the eye's own plane, for NaN, and for results
-    /// too large to represent.
+    /// The depth of points at `distance`; `None` where there is none: at the eye's own plane, for
+    /// NaN, and for results too large to represent.
     #[must_use]
     pub fn depth(self, distance: f64) -> Option<f64> {
         let (at_near, at_far) = (self.convention.near_depth(), self.convention.far_depth());
@@ -128,21 +129,23 @@ impl DepthCurve {
         (slope.is_finite() && distance.is_finite()).then_some(slope)
     }
 
-    /// The distance at which half of the depth range is used up: 2FN/(F+N) for a perspective, 2N without far plane.
+    /// The distance at which half of the depth range is used up: 2FN/(F+N) for a perspective, 2N
+    /// without far plane.
     #[must_use]
     pub fn half_range_distance(self) -> f64 {
         let (near, far) = (self.near, self.far);
         match self.shape {
-            Shape::Central if far == f64::INFINITY => 2.0 * near,
-            Shape::Central => 2.0 * far * near / (far + near),
+            Shape::Central => 2.0 * near / (1.0 + near / far),
             Shape::Parallel => 0.5 * near + 0.5 * far,
         }
     }
 
-    /// The smallest step away from `distance`, towards the far plane, that gives another stored depth.
+    /// The smallest step away from `distance`, towards the far plane, that gives another stored
+    /// depth.
     ///
     /// # Errors
-    /// If the distance is not finite or, for a perspective, not above 0; or the format has not 1 to 64 bits.
+    /// If the distance is not finite or, for a perspective, not above 0; or the format has not 1 to
+    /// 64 bits.
     pub fn resolution(self, distance: f64, format: DepthFormat) -> Result<f64, ProjectionError> {
         match self.shape {
             Shape::Central => positive("distance", distance)?,
@@ -222,10 +225,11 @@ impl Orthographic {
     }
 }
 
-/// A and B of the third row (0, 0, A, B) over w = z, such that A + B/z is `at_1` for z = `z_1` and `at_2` for z = `z_2`.
+/// A and B of the third row (0, 0, A, B) over w = z, such that A + B/z is `at_1` for z = `z_1` and
+/// `at_2` for z = `z_2`.
 ///
-/// This is how the third row of P is found (exercise 3, C40): with z kept on n and f, A = n + f and B = −nf. With −1 at
-/// z = −N and +1 at z = −F it gives the OpenGL row (C56), its sign turned.
+/// This is how the third row of P is found (exercise 3, C40): with z kept on n and f, A = n + f and
+/// B = −nf. With −1 at z = −N and +1 at z = −F it gives the OpenGL row (C56), its sign turned.
 ///
 /// # Errors
 /// If a number is not finite, a z is 0, or both z are equal.

@@ -1,8 +1,9 @@
-//! The matrix doctor: which misprint is this, and what should have been there (D7).
+//! The matrix doctor: which misprint is this, and what should have been there.
 //!
-//! Books, lessons and slides that teach these matrices print some of them wrongly, and programs copy them. Two questions
-//! can be answered: [`misprint_of`] compares a matrix with all known slips of the projection that was wanted, and is
-//! certain; [`symptoms`] looks at sixteen numbers alone and tells what is suspicious about them.
+//! Books, lessons and slides that teach these matrices print some of them wrongly, and programs
+//! copy them. Two questions can be answered: [`misprint_of`] compares a matrix with all known slips
+//! of the projection that was wanted, and is certain; [`symptoms`] looks at sixteen numbers alone
+//! and tells what is suspicious about them.
 
 use crate::placed::{across, negligible, unit};
 use crate::{
@@ -10,22 +11,26 @@ use crate::{
 };
 use glam::{DMat4, DVec4};
 
-/// A known slip, by its number in the inventory (M…) and in the list of misprints of the formula collection.
+/// A known slip: its number among M1 to M28, and in brackets its row in the formula collection's
+/// table of misprints.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Misprint {
     /// M4 (7): P is left out of M_vp M_orth P M_cam; w stays 1 and nothing is foreshortened.
     PerspectiveLeftOut,
-    /// M8 (16): the textbook's depth (near +1) where OpenGL's (near −1) is meant, or the other way round.
+    /// M8 (16): the textbook's depth (near +1) where OpenGL's (near −1) is meant, or the other way
+    /// round.
     DepthReversed,
     /// M8, PE-3: the textbook's raw sign, w < 0 in front of the eye.
     NegativeW,
     /// M11 (18): the third row of M_cam's translation is (0, 0, 0, −z_e); every z becomes the same.
     ThirdRowFlat,
-    /// M12 (32): the offsets stand in the fourth column: another projection, its apex moved (LW-1), not glFrustum.
+    /// M12 (32): the offsets stand in the fourth column: another projection, its apex moved (LW-1),
+    /// not glFrustum.
     ApexMoved,
     /// M14 (26): the bottom row is (0, 0, −1, 1) instead of (0, 0, −1, 0).
     BottomRowOne,
-    /// M15 (33): the depth offset of Ortho has the wrong sign; near and far land outside of [−1, 1].
+    /// M15 (33): the depth offset of Ortho has the wrong sign; near and far land outside of [−1,
+    /// 1].
     OrthoOffsetSign,
     /// M16 (34): (right − left)/(right − left) = 1 instead of (right + left)/(right − left).
     FrustumOffsetOne,
@@ -64,9 +69,9 @@ impl Misprint {
         Self::Transposed,
     ];
 
-    /// The number in the inventory; `None` for what is listed with the formulas only.
+    /// Its number among the misprints M1 to M28; `None` for what has none.
     #[must_use]
-    pub const fn inventory_id(self) -> Option<&'static str> {
+    pub const fn id(self) -> Option<&'static str> {
         match self {
             Self::PerspectiveLeftOut => Some("M4"),
             Self::DepthReversed | Self::NegativeW => Some("M8"),
@@ -222,8 +227,9 @@ fn apex_moved(frustum: Frustum) -> Option<DMat4> {
     Some(lesson.view_to_clip(Convention::OPENGL).raw())
 }
 
-/// The slip that turns what was wanted into `matrix`; `None` if the matrix is right, up to a positive factor, or wrong
-/// in a way nobody printed. Entries may differ by one part in a million, as those of f32 programs do.
+/// The slip that turns what was wanted into `matrix`; `None` if the matrix is right, up to a
+/// positive factor, or wrong in a way nobody printed. Entries may differ by one part in a million,
+/// as those of f32 programs do.
 ///
 /// ```
 /// use projection::{Misprint, Orthographic, Wanted, misprint_of};
@@ -256,14 +262,15 @@ fn same(ours: DMat4, theirs: DMat4) -> bool {
 pub struct Symptom {
     /// The slip it looks like.
     pub misprint: Misprint,
-    /// The matrix that was probably meant; `None` where the numbers that are missing cannot be had back.
+    /// The matrix that was probably meant; `None` where the numbers that are missing cannot be had
+    /// back.
     pub remedied: Option<DMat4>,
 }
 
 /// What is suspicious about the matrix, in OpenGL's convention unless it can be told otherwise.
 ///
-/// A symptom is no proof: every such matrix is also the right matrix of something less likely. Nothing is found in what
-/// the builders of this crate make for usual volumes.
+/// A symptom is no proof: every such matrix is also the right matrix of something less likely.
+/// Nothing is found in what the builders of this crate make for usual volumes.
 pub fn symptoms(matrix: DMat4) -> impl Iterator<Item = Symptom> {
     let tests: [fn(DMat4) -> Option<Symptom>; 8] = [
         transposed,

@@ -81,7 +81,8 @@ pub enum ProjectionError {
         /// The law it breaks.
         reason: &'static str,
     },
-    /// The frustum's window is not centred on the line of sight, so that no field of view describes it.
+    /// The frustum's window is not centred on the line of sight, so that no field of view describes
+    /// it.
     #[error("the window is off centre; a perspective by field of view cannot show it")]
     OffCentre,
     /// All parameters are fine by themselves, but the matrix would overflow or underflow.

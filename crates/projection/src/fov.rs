@@ -33,7 +33,8 @@ pub enum Film {
 }
 
 impl Film {
-    /// The diagonal of the 36 mm × 24 mm frame to which "35 mm equivalent" focal lengths refer, in millimetres.
+    /// The diagonal of the 36 mm × 24 mm frame to which "35 mm equivalent" focal lengths refer, in
+    /// millimetres.
     pub const FULL_FRAME_MM: Self = Self::Diagonal(43.266615305567875);
 }
 
@@ -65,7 +66,8 @@ impl Fov {
         Self::FocalLength { focal, film: Film::FULL_FRAME_MM }
     }
 
-    /// Half the window one unit ahead of the eye, for an image of the given aspect (width / height).
+    /// Half the window one unit ahead of the eye, for an image of the given aspect (width /
+    /// height).
     ///
     /// # Errors
     /// If the aspect, a length or the angle is not finite or out of range.
@@ -113,8 +115,8 @@ fn by_diagonal(half: f64, aspect: f64) -> HalfSlopes {
     HalfSlopes { x: half * (aspect / diagonal), y: half / diagonal }
 }
 
-/// The angle under which the eye sees the stretch from `low` to `high` on a plane `distance` ahead, in radians:
-/// atan(high/distance) − atan(low/distance) (FOV-1).
+/// The angle under which the eye sees the stretch from `low` to `high` on a plane `distance` ahead,
+/// in radians: atan(high/distance) − atan(low/distance) (FOV-1).
 ///
 /// # Errors
 /// If a number is not finite, or the distance not above 0.

@@ -14,7 +14,8 @@ use homog::{Clip, Projective, View};
 /// ```
 ///
 /// # Guarantees
-/// 0 < near < far, far possibly infinite; the window is finite and not empty; matrix and inverse are finite in every
+/// 0 < near < far, far possibly infinite; the window is finite and not empty; matrix and inverse
+/// are finite in every
 /// [`Convention`].
 ///
 /// ```
@@ -60,7 +61,8 @@ impl Frustum {
         Ok(Self { window, near, far })
     }
 
-    /// The frustum whose window, one unit ahead of the eye, has the edges `slopes`: the tangents of the four angles.
+    /// The frustum whose window, one unit ahead of the eye, has the edges `slopes`: the tangents of
+    /// the four angles.
     ///
     /// # Errors
     /// As for [`new`](Self::new).

@@ -1,13 +1,15 @@
-//! What moves the window: lens shift, tiles of a larger picture, jitter, and the four angles of a headset's eye.
+//! What moves the window: lens shift, tiles of a larger picture, jitter, and the four angles of a
+//! headset's eye.
 //!
-//! All of them change the window and nothing else, so that they work alike for perspective and parallel projections
-//! and keep lines, depth and vanishing points where they are.
+//! All of them change the window and nothing else, so that they work alike for perspective and
+//! parallel projections and keep lines, depth and vanishing points where they are.
 //!
 //! ```
 //! use projection::{Convention, Fov, Perspective, Tile};
 //! // The right half of a 200 × 100 picture.
 //! let whole = Perspective::new(Fov::vertical_degrees(40.0), 2.0, 0.1, 50.0)?;
-//! let half = whole.tile(Tile { full: (200.0, 100.0), corner: (100.0, 0.0), size: (100.0, 100.0) })?;
+//! let right = Tile { full: (200.0, 100.0), corner: (100.0, 0.0), size: (100.0, 100.0) };
+//! let half = whole.tile(right)?;
 //! assert_eq!(half.window().left(), 0.0);
 //! assert_eq!(half.window().right(), whole.to_frustum().window().right());
 //! # Ok::<(), projection::ProjectionError>(())
@@ -17,7 +19,8 @@ use crate::error::{finite, positive};
 use crate::{Frustum, Orthographic, Perspective, ProjectionError, Window};
 use core::f64::consts::FRAC_PI_2;
 
-/// A rectangle of a larger picture, in pixels from its top left corner, y down. It may reach beyond the picture.
+/// A rectangle of a larger picture, in pixels from its top left corner, y down. It may reach beyond
+/// the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Tile {
     /// Width and height of the whole picture.
@@ -28,7 +31,8 @@ pub struct Tile {
     pub size: (f64, f64),
 }
 
-/// A sample position beside the pixel centre, in pixels, x right and y down, for accumulated antialiasing.
+/// A sample position beside the pixel centre, in pixels, x right and y down, for accumulated
+/// antialiasing.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Jitter {
     /// Width and height of the picture in pixels.
@@ -37,7 +41,8 @@ pub struct Jitter {
     pub offset: (f64, f64),
 }
 
-/// The angles from the line of sight to the four edges, in radians, right and up positive (as OpenXR has them).
+/// The angles from the line of sight to the four edges, in radians, right and up positive (as
+/// OpenXR has them).
 ///
 /// A centred lens of 90° has left = down = −π/4 and right = up = π/4.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -56,7 +61,8 @@ impl FourAngles {
     /// The frustum between the four edges.
     ///
     /// # Errors
-    /// If an angle is not between −π/2 and π/2, opposite ones are equal, or the planes are not 0 < near < far.
+    /// If an angle is not between −π/2 and π/2, opposite ones are equal, or the planes are not 0 <
+    /// near < far.
     pub fn frustum(self, near: f64, far: f64) -> Result<Frustum, ProjectionError> {
         let left = slope("left angle", self.left)?;
         let right = slope("right angle", self.right)?;
@@ -90,7 +96,8 @@ impl Window {
         Self::new(left, right, down((y + h) / height), down(y / height))
     }
 
-    /// The window moved by `x` times its width to the right and `y` times its height up: a lens shift.
+    /// The window moved by `x` times its width to the right and `y` times its height up: a lens
+    /// shift.
     ///
     /// # Errors
     /// If a number is not finite.
@@ -122,7 +129,8 @@ macro_rules! window_methods {
                 $with(self, &|window: Window| window.tile(tile))
             }
 
-            /// The projection through the window moved by `x` times its width and `y` times its height.
+            /// The projection through the window moved by `x` times its width and `y` times its
+            /// height.
             ///
             /// # Errors
             /// If a number is not finite.

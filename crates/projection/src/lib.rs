@@ -1,4 +1,68 @@
-//! Every planar projection, with checked parameters.
+//! Every planar projection of the textbooks and graphics interfaces, with checked parameters.
+//!
+//! ```text
+//!                window on the near plane
+//!                 ┌─────┐╲                                     y
+//!        y        │ r,t │  ╲                              +1 ┌───┼───┐
+//!        │    ╱   │     │    ╲ far       view_to_clip        │   │   │   near z = +1
+//!   eye  ●────────┼──── ┼─────► gaze   ───────────────►    ──┼───┼───┼── x
+//!       ╱ ╲   ╲   │     │    ╱         divide by w           │   │   │   far  z = −1
+//!      z    x     │ l,b │  ╱                              −1 └───┼───┘
+//!                 └─────┘╱                                  −1      +1
+//! ```
+//!
+//! A projection is described once, by numbers people understand, and checked once. Every builder
+//! returns a `Result` that names the parameter at fault, its value and what is allowed. What it
+//! returns can be written as a matrix of any [`Convention`], has its inverse in closed form, and
+//! never yields NaN or infinities.
+//!
+//! ```
+//! use homog::Point;
+//! use projection::{Convention, Fov, Perspective};
+//!
+//! let lens = Perspective::new(Fov::vertical_degrees(90.0), 16.0 / 9.0, 0.5, 100.0)?;
+//! let view_to_clip = lens.view_to_clip(Convention::CHAPTER);
+//!
+//! // Twice as far away is half as large.
+//! let height = |z: f64| view_to_clip.point(Point::new(0.0, 1.0, z)).divide().map(Point::y);
+//! let (near, far) = (height(-2.0).expect("in front"), height(-4.0).expect("in front"));
+//! assert!((near - 0.5).abs() < 1e-15 && (far - 0.25).abs() < 1e-15);
+//!
+//! let wrong = Perspective::new(Fov::Vertical(45.0), 16.0 / 9.0, 0.5, 100.0);
+//! assert_eq!(
+//!     wrong.expect_err("45 radians").to_string(),
+//!     "`vertical field of view` is 45; allowed: between 0 and π radians, both excluded",
+//! );
+//! # Ok::<(), projection::ProjectionError>(())
+//! ```
+//!
+//! | to get | use |
+//! | --- | --- |
+//! | a camera's perspective, by angle or focal length | [`Perspective`], [`Fov`] |
+//! | an off-centre one: stereo, walls, headsets | [`Frustum`], [`FourAngles`] |
+//! | a box without foreshortening | [`Orthographic`] |
+//! | part of a picture, lens shift, antialiasing | `tile`, `shifted`, `jittered` of the three above ([`Tile`], [`Jitter`]) |
+//! | a mirror's or portal's near plane | [`oblique_near_plane`] |
+//! | front, top and side | [`PrincipalView`] |
+//! | isometric, dimetric, trimetric | [`Axonometric`] |
+//! | cavalier, cabinet, military | [`Oblique`], [`Planometric`] |
+//! | one-, two-, three-point perspective | [`NPoint`], [`ConstructedPerspective`] |
+//! | any of those five as a renderable matrix | [`Classical`] |
+//! | any centre and any plane | [`Projector`] |
+//! | the textbook's P, M_orth, M_per | [`chapter`] |
+//! | glFrustum, gluPerspective, D3DX… by name | [`api`] |
+//! | the lesson's createFrustum | [`ApexMovedFrustum`] |
+//! | where parallel lines meet | [`vanishing_point`], [`principal_vanishing_points`] |
+//! | what depth can tell apart | [`DepthCurve`] |
+//! | corners, planes, eye of what is seen | [`ViewVolume`] |
+//! | what a matrix is, or what is wrong with it | [`decompose`], [`readings`], [`misprint_of`], [`symptoms`] |
+//! | the family tree | [`ProjectionClass`] |
+//!
+//! View space is right-handed unless the convention says otherwise: x right, y up, looking along
+//! −z. Column vectors, angles in radians, f64, no standard library. Formula ids such as PE-2, C29
+//! and M12 are those of the project's formula collection, item list and list of misprints. Two
+//! programs to play with are in `examples`: `gallery` draws a house in every projection, `doctor`
+//! reads matrices.
 #![no_std]
 
 pub mod api;

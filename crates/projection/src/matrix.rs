@@ -1,6 +1,8 @@
-//! The two matrix forms behind every builder, central and parallel, and their closed-form inverses (IV-1).
+//! The two matrix forms behind every builder, central and parallel, and their closed-form inverses
+//! (IV-1).
 //!
-//! With D the distance ahead of the eye, a window [l, r] × [b, t] and (c, e) the depth coefficients:
+//! With D the distance ahead of the eye, a window [l, r] × [b, t] and (c, e) the depth
+//! coefficients:
 //!
 //! ```text
 //!            central (window on D = near)             parallel
@@ -44,7 +46,8 @@ pub(crate) struct DepthRow {
 }
 
 impl DepthRow {
-    /// z'/D is the near depth at D = near and the far depth at D = far, which may be infinite (IF-1..3).
+    /// z'/D is the near depth at D = near and the far depth at D = far, which may be infinite
+    /// (IF-1..3).
     pub(crate) fn central(near: f64, far: f64, convention: Convention) -> Self {
         let (at_near, at_far) = (convention.near_depth(), convention.far_depth());
         if far == f64::INFINITY {

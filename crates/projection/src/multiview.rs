@@ -28,7 +28,8 @@ impl PrincipalPlane {
     /// All three, in the order of the axis they drop.
     pub const ALL: [Self; 3] = [Self::Yoz, Self::Zox, Self::Xoy];
 
-    /// The classical projection: sets the coordinate across the plane to 0. Singular; applying it again changes nothing.
+    /// The classical projection: sets the coordinate across the plane to 0. Singular; applying it
+    /// again changes nothing.
     #[must_use]
     pub fn onto_plane<S: Space>(self) -> Affine<S, S> {
         match self {
@@ -71,7 +72,8 @@ impl PrincipalView {
         }
     }
 
-    /// The turn that brings the view's own x right, y up and the viewer to +z: exact, entries 0 and ±1.
+    /// The turn that brings the view's own x right, y up and the viewer to +z: exact, entries 0 and
+    /// ±1.
     #[must_use]
     pub fn depth_kept(self) -> Affine<View, View> {
         let (x, y, z) = match self {
@@ -89,8 +91,8 @@ impl PrincipalView {
 
     /// The column and row of the view on a sheet, from the front view at (0, 0), x right and y up.
     ///
-    /// In third angle a view lies on the side it is seen from, in first angle on the opposite one. The back view
-    /// continues the right or left side.
+    /// In third angle a view lies on the side it is seen from, in first angle on the opposite one.
+    /// The back view continues the right or left side.
     #[must_use]
     pub const fn place(self, angle: SheetAngle) -> (i32, i32) {
         let (x, y) = match self {
@@ -111,8 +113,10 @@ impl PrincipalView {
 /// Where views lie on a sheet (ISO 5456-2).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum SheetAngle {
-    /// The object stands between viewer and sheet: the view from the left lies on the right. Usual in Europe and China.
+    /// The object stands between viewer and sheet: the view from the left lies on the right. Usual
+    /// in Europe and China.
     First,
-    /// The sheet stands between viewer and object: the view from the left lies on the left. Usual in America.
+    /// The sheet stands between viewer and object: the view from the left lies on the left. Usual
+    /// in America.
     Third,
 }

@@ -1,8 +1,9 @@
-//! View-volume normalisation, factor by factor: shear upright, scale to the canonical volume, map the depth.
+//! View-volume normalisation, factor by factor: shear upright, scale to the canonical volume, map
+//! the depth.
 //!
 //! ```text
-//!  skewed frustum  ──shear──►  upright  ──scale──►  sides x, y = ±D  ──depth──►  [−1, 1]³ after the divide
-//!  skewed prism    ──shear──►  upright  ──fit────────────────────────────────►  [−1, 1]³
+//!  skewed frustum ──shear──► upright ──scale──► sides x, y = ±D ──depth──► [−1, 1]³, divided
+//!  skewed prism   ──shear──► upright ──fit─────────────────────────────► [−1, 1]³
 //! ```
 //!
 //! After it one clipper serves all projections (VV-1, VV-2; C86..C89).
@@ -79,7 +80,8 @@ impl FrustumFactors {
 }
 
 impl Frustum {
-    /// Shear, scale and depth map, whose product is [`view_to_clip`](Self::view_to_clip) (VV-2, C87).
+    /// Shear, scale and depth map, whose product is [`view_to_clip`](Self::view_to_clip) (VV-2,
+    /// C87).
     #[must_use]
     pub fn factors(self, convention: Convention) -> FrustumFactors {
         let (near, window) = (self.near(), self.window());

@@ -1,14 +1,19 @@
-//! One-, two- and three-point perspective by the bottom row (p, q, r, 1) (ONE-1, TWO-1, THREE-1; C82, C83).
+//! One-, two- and three-point perspective by the bottom row (p, q, r, 1) (ONE-1, TWO-1, THREE-1;
+//! C82, C83).
 //!
 //! ```text
-//! [ 1 0 0 0 ]      each of p, q, r that is not 0 gives its axis a vanishing point: x at (1/p, 0, 0),
-//! [ 0 1 0 0 ]      y at (0, 1/q, 0), z at (0, 0, 1/r). What is drawn is z = 0 after the divide;
-//! [ 0 0 1 0 ]      points of the plane px + qy + rz = 0 stay where they are. The eye stands at (0, 0, −1/r),
-//! [ p q r 1 ]      or for r = 0 infinitely far away along z.
+//! [ 1 0 0 0 ]     each of p, q, r that is not 0 gives its axis a vanishing point:
+//! [ 0 1 0 0 ]     x at (1/p, 0, 0), y at (0, 1/q, 0), z at (0, 0, 1/r)
+//! [ 0 0 1 0 ]
+//! [ p q r 1 ]     what is drawn is z = 0 after the divide
 //! ```
 //!
-//! One-point perspective from an eye (0, 0, d) is p = q = 0, r = −1/d. The factor d/(d − z) by which a point's image
-//! grows is below 1 behind the plane (z < 0), above 1 between plane and eye, and negative behind the eye (M20).
+//! Points of the plane px + qy + rz = 0 stay where they are. The eye stands at (0, 0, −1/r), or for
+//! r = 0 infinitely far away along z.
+//!
+//! One-point perspective from an eye (0, 0, d) is p = q = 0, r = −1/d. The factor d/(d − z) by
+//! which a point's image grows is below 1 behind the plane (z < 0), above 1 between plane and eye,
+//! and negative behind the eye (M20).
 
 use crate::ProjectionError;
 use crate::error::finite;
@@ -64,7 +69,8 @@ impl NPoint {
         Self::new(0.0, 0.0, -1.0 / d)
     }
 
-    /// The perspective whose axes vanish at (x, 0, 0), (0, y, 0) and (0, 0, z); `None` keeps an axis' lines parallel.
+    /// The perspective whose axes vanish at (x, 0, 0), (0, y, 0) and (0, 0, z); `None` keeps an
+    /// axis' lines parallel.
     ///
     /// # Errors
     /// If a coordinate is 0 or not finite, or all are `None`.
@@ -98,7 +104,8 @@ impl NPoint {
         self.bottom_row().iter().filter(|&&entry| entry != 0.0).count()
     }
 
-    /// True if this is a real central projection onto z = 0: p = q = 0, so that points of that plane stay.
+    /// True if this is a real central projection onto z = 0: p = q = 0, so that points of that
+    /// plane stay.
     #[must_use]
     pub fn keeps_picture_plane(self) -> bool {
         self.p == 0.0 && self.q == 0.0

@@ -7,7 +7,8 @@
 //!   ───────┼────── x
 //! ```
 //!
-//! Faces parallel to the plane keep their shape and size. Cavalier: L1 = 1, α = 45°; cabinet: L1 = ½, tan α = 2.
+//! Faces parallel to the plane keep their shape and size. Cavalier: L1 = 1, α = 45°; cabinet: L1 =
+//! ½, tan α = 2.
 
 use crate::ProjectionError;
 use crate::error::finite;
@@ -48,8 +49,11 @@ pub enum ObliqueKind {
 }
 
 impl Oblique {
-    /// Onto z = 0, with a unit of depth drawn `length` long in direction `phi`, in radians counterclockwise from the
-    /// right (OB-1).
+    /// Onto z = 0, with a unit of z drawn `length` long in direction `phi`, in radians
+    /// counterclockwise from the right (OB-1).
+    ///
+    /// z runs towards the viewer; draughtsmen, who speak of what recedes, call the opposite
+    /// direction the angle: depth that leaves to the upper right at 45° is φ = 225°.
     ///
     /// # Errors
     /// If a number is not finite, or the length below 0.
@@ -66,7 +70,8 @@ impl Oblique {
         Self::checked(length * cos, length * sin, 0.0)
     }
 
-    /// Onto z = 0, with projectors at angle `alpha` to the plane and depth drawn in direction `phi`: L1 = cot α.
+    /// Onto z = 0, with projectors at angle `alpha` to the plane and depth drawn in direction
+    /// `phi`: L1 = cot α.
     ///
     /// # Errors
     /// If an angle is not finite, or α not in (0, π/2].
@@ -164,7 +169,8 @@ impl Oblique {
         }
     }
 
-    /// The shear that makes the projectors parallel to z and keeps z: x' = x + (z − z_p) L1 cos φ, y' alike.
+    /// The shear that makes the projectors parallel to z and keeps z: x' = x + (z − z_p) L1 cos φ,
+    /// y' alike.
     #[must_use]
     pub fn depth_kept(self) -> Affine<View, View> {
         self.shear(self.slant_x, self.slant_y)
@@ -195,7 +201,8 @@ impl Oblique {
     }
 }
 
-/// The plan oblique or planometric projection: the ground plan keeps its shape, heights are drawn straight up.
+/// The plan oblique or planometric projection: the ground plan keeps its shape, heights are drawn
+/// straight up.
 ///
 /// With a full height scale it is the military projection.
 ///

@@ -1,7 +1,8 @@
 //! A near plane of any inclination: mirrors and portals clip at their own surface (Lengyel 2005).
 //!
-//! Only the depth row is changed, so that the picture stays the same; what lies between the eye and the plane is cut
-//! away by ordinary near clipping. The far plane tilts with it, as far out as the opposite corner of the volume allows.
+//! Only the depth row is changed, so that the picture stays the same; what lies between the eye and
+//! the plane is cut away by ordinary near clipping. The far plane tilts with it, as far out as the
+//! opposite corner of the volume allows.
 
 use crate::{Convention, ProjectionError, ViewVolume};
 use glam::DVec4;
@@ -9,14 +10,16 @@ use homog::{Clip, HPoint, Plane, Projective, View};
 
 /// The same projection with `plane` as its near plane, for a matrix of any kind and convention.
 ///
-/// The plane's normal points to what stays visible; the eye must be on the other side. Depth is the convention's near
-/// depth on the plane and its far depth in the corner of the old volume that lies farthest behind it.
+/// The plane's normal points to what stays visible; the eye must be on the other side. Depth is the
+/// convention's near depth on the plane and its far depth in the corner of the old volume that lies
+/// farthest behind it.
 ///
-/// Source: Lengyel, "Oblique View Frustum Depth Projection and Clipping", Journal of Game Development 1(2), 2005.
+/// Source: Lengyel, "Oblique View Frustum Depth Projection and Clipping", Journal of Game
+/// Development 1(2), 2005.
 ///
 /// # Errors
-/// If a number is not finite, the projection singular, the normal zero, the eye not behind the plane, or nothing of the
-/// volume in front of it.
+/// If a number is not finite, the projection singular, the normal zero, the eye not behind the
+/// plane, or nothing of the volume in front of it.
 ///
 /// ```
 /// use homog::{Normal, Plane, Point};

@@ -7,7 +7,8 @@ use homog::{Clip, Projective, View};
 
 /// The orthographic projection of a box (OR-1, GL-3; C7, C34, C90).
 ///
-/// `near` and `far` are distances ahead of the eye; they may be any two different numbers, negative ones lie behind.
+/// `near` and `far` are distances ahead of the eye; they may be any two different numbers, negative
+/// ones lie behind.
 ///
 /// # Guarantees
 /// The box is finite and not empty; matrix and inverse are finite in every [`Convention`].

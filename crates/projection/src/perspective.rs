@@ -8,8 +8,8 @@ use homog::{Clip, Projective, View};
 /// The symmetric perspective (GL-2, FOV-1; C61, C92).
 ///
 /// # Guarantees
-/// 0 < near < far, far possibly infinite; both opening angles lie between 0 and π; matrix and inverse are finite in
-/// every [`Convention`].
+/// 0 < near < far, far possibly infinite; both opening angles lie between 0 and π; matrix and
+/// inverse are finite in every [`Convention`].
 ///
 /// ```
 /// use homog::Point;
@@ -27,12 +27,12 @@ pub struct Perspective {
 }
 
 impl Perspective {
-    /// The perspective with the given field of view, aspect (width / height of the picture) and distances of the near
-    /// and the far plane; `far` may be infinite.
+    /// The perspective with the given field of view, aspect (width / height of the picture) and
+    /// distances of the near and the far plane; `far` may be infinite.
     ///
     /// # Errors
-    /// If a number is not finite (`far` excepted), the angle is not between 0 and π, the aspect not above 0, or not
-    /// 0 < near < far.
+    /// If a number is not finite (`far` excepted), the angle is not between 0 and π, the aspect not
+    /// above 0, or not 0 < near < far.
     pub fn new(fov: Fov, aspect: f64, near: f64, far: f64) -> Result<Self, ProjectionError> {
         let lens = Self { half: fov.half_slopes(aspect)?, near, far };
         check_planes(near, far)?;
@@ -90,7 +90,8 @@ impl Perspective {
         self.far
     }
 
-    /// The same projection by its window on the near plane: top = near·tan(θ/2), right = aspect·top.
+    /// The same projection by its window on the near plane: top = near·tan(θ/2), right =
+    /// aspect·top.
     #[must_use]
     pub fn to_frustum(self) -> Frustum {
         Frustum::trusted(self.slopes().scaled(self.near), self.near, self.far)

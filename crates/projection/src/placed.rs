@@ -1,7 +1,9 @@
-//! Taking a central matrix apart into eye, attitude and lens; the linear algebra behind `decompose`.
+//! Taking a central matrix apart into eye, attitude and lens; the linear algebra behind
+//! `decompose`.
 //!
-//! With rows x, y, w of a matrix whose w row has a linear part of length 1, the line of sight is that linear part; what
-//! remains of x beside it points to the right, and what remains of y upwards. The eye is where all three rows vanish.
+//! With rows x, y, w of a matrix whose w row has a linear part of length 1, the line of sight is
+//! that linear part; what remains of x beside it points to the right, and what remains of y
+//! upwards. The eye is where all three rows vanish.
 
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use homog::{Affine, Vector, View};
@@ -110,7 +112,8 @@ pub(crate) struct Placement {
 }
 
 impl Placement {
-    /// Of a matrix whose last row has a linear part of length 1; `None` if x and y are not at right angles.
+    /// Of a matrix whose last row has a linear part of length 1; `None` if x and y are not at right
+    /// angles.
     pub(crate) fn of(matrix: DMat4) -> Option<Self> {
         let [x, y, z, w] = rows(matrix);
         let sight = w.truncate();
@@ -157,8 +160,8 @@ impl Placement {
     }
 }
 
-/// True if the camera would better have its x axis against the picture's: where the picture is mirrored anyway, and
-/// where the matrix of an unturned camera is mirrored in x.
+/// True if the camera would better have its x axis against the picture's: where the picture is
+/// mirrored anyway, and where the matrix of an unturned camera is mirrored in x.
 fn is_rolled(x: DVec4, y: DVec4, sight: DVec3, along_up: f64) -> bool {
     let unturned = negligible(sight.with_z(0.0), DVec4::ONE)
         && negligible(DVec3::X * x.y, x.truncate().extend(0.0))

@@ -9,9 +9,9 @@
 //!        ●    ●  object
 //! ```
 //!
-//! With the centre c as a homogeneous point and the plane π as four numbers, every point x goes to the one point of its
-//! projector that lies in the plane, (π·c) x − (π·x) c. A centre with w = 0 is the limit of an eye that goes to infinity:
-//! parallel projection is not a case of its own (PR-1).
+//! With the centre c as a homogeneous point and the plane π as four numbers, every point x goes to
+//! the one point of its projector that lies in the plane, (π·c) x − (π·x) c. A centre with w = 0 is
+//! the limit of an eye that goes to infinity: parallel projection is not a case of its own (PR-1).
 
 use crate::ProjectionError;
 use crate::error::finite;
@@ -57,7 +57,8 @@ impl<S: Space> Projector<S> {
     /// Parallel projection along `direction` onto `plane`.
     ///
     /// # Errors
-    /// If a number is not finite, the direction or the plane's normal is zero, or both are parallel.
+    /// If a number is not finite, the direction or the plane's normal is zero, or both are
+    /// parallel.
     pub fn along(direction: Vector<S>, plane: Plane<S>) -> Result<Self, ProjectionError> {
         for value in <[f64; 3]>::from(direction) {
             finite("direction", value)?;
@@ -104,15 +105,16 @@ impl<S: Space> Projector<S> {
         self.plane
     }
 
-    /// The classical projection: every point to the plane. Singular, and points of the plane stay (with w = 1).
+    /// The classical projection: every point to the plane. Singular, and points of the plane stay
+    /// (with w = 1).
     #[must_use]
     pub fn onto_plane(self) -> Projective<S, S> {
         let toward = self.centre.raw() / self.reach;
         Projective::from_raw(DMat4::IDENTITY - outer(toward, self.plane.raw()))
     }
 
-    /// The same image beside the plane instead of in it: the distance from the plane is kept before the divide, so that
-    /// the map has an inverse and what hides what can be told (PR-1, C102).
+    /// The same image beside the plane instead of in it: the distance from the plane is kept before
+    /// the divide, so that the map has an inverse and what hides what can be told (PR-1, C102).
     #[must_use]
     pub fn depth_kept(self) -> Projective<S, S> {
         let normal = self.plane.normal().raw().extend(0.0);

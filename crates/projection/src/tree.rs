@@ -178,10 +178,10 @@ impl ProjectionClass {
             Self::Isometric => Ok(Axonometric::isometric().into()),
             Self::Dimetric => Ok(Axonometric::dimetric_42_7().into()),
             Self::Trimetric => Axonometric::by_foreshortening(1.0, 0.9, 0.6).map(Into::into),
-            Self::Cavalier => Oblique::cavalier(DEGREES_45).map(Into::into),
-            Self::Cabinet => Oblique::cabinet(DEGREES_45).map(Into::into),
+            Self::Cavalier => Oblique::cavalier(FROM_LOWER_LEFT).map(Into::into),
+            Self::Cabinet => Oblique::cabinet(FROM_LOWER_LEFT).map(Into::into),
             Self::Military => Planometric::military(DEGREES_45).map(Into::into),
-            Self::GeneralOblique => Oblique::new(0.7, DEGREES_45).map(Into::into),
+            Self::GeneralOblique => Oblique::new(0.7, FROM_LOWER_LEFT).map(Into::into),
             Self::OnePoint => NPoint::from_eye(5.0).map(Into::into),
             Self::TwoPoint => NPoint::new(0.1, 0.0, -0.15).map(Into::into),
             Self::ThreePoint => NPoint::new(0.1, -0.08, -0.15).map(Into::into),
@@ -197,6 +197,8 @@ impl ProjectionClass {
 }
 
 const DEGREES_45: f64 = core::f64::consts::FRAC_PI_4;
+/// z runs to the viewer: drawn to the lower left it lets top and right side be seen.
+const FROM_LOWER_LEFT: f64 = 5.0 * DEGREES_45;
 
 impl Classical {
     /// The leaf of the tree this projection belongs to.

@@ -1,8 +1,8 @@
 //! Vanishing points: where the images of parallel lines meet (VN-1; C80, C81).
 //!
-//! Parallel lines share one point at infinity, (d, 0). Its image is their vanishing point; if that again lies at
-//! infinity, the images stay parallel. How many of the three axes vanish at a finite place says whether a picture is in
-//! one-, two- or three-point perspective.
+//! Parallel lines share one point at infinity, (d, 0). Its image is their vanishing point; if that
+//! again lies at infinity, the images stay parallel. How many of the three axes vanish at a finite
+//! place says whether a picture is in one-, two- or three-point perspective.
 
 use crate::ProjectionError;
 use crate::error::finite;
@@ -16,7 +16,8 @@ pub enum VanishingPoint<S: Space> {
     At {
         /// The common point, after the divide.
         point: Point<S>,
-        /// True if the lines reach it going along the given direction, false if going against it (w < 0).
+        /// True if the lines reach it going along the given direction, false if going against it (w
+        /// < 0).
         ahead: bool,
     },
     /// They stay parallel.
@@ -39,7 +40,8 @@ impl<S: Space> VanishingPoint<S> {
     }
 }
 
-/// The vanishing point of lines along `direction` under `map`. `direction` and its opposite share it.
+/// The vanishing point of lines along `direction` under `map`. `direction` and its opposite share
+/// it.
 ///
 /// ```
 /// use homog::{Point, Vector, View};
@@ -130,7 +132,8 @@ impl<S: Space> PrincipalVanishingPoints<S> {
 
 /// The vanishing points of the three axes of space `A` under `map`.
 ///
-/// For a map without rotation (the bottom row p, q, r, s) this counts the non-zero among p, q and r.
+/// For a map without rotation (the bottom row p, q, r, s) this counts the non-zero among p, q and
+/// r.
 ///
 /// # Errors
 /// If the map is not finite.

@@ -53,7 +53,8 @@ impl ViewVolume {
         Self { view_to_clip, convention }
     }
 
-    /// The six half-spaces whose intersection is the volume: left, right, bottom, top, near, far (CL-1).
+    /// The six half-spaces whose intersection is the volume: left, right, bottom, top, near, far
+    /// (CL-1).
     ///
     /// A plane's value is not negative inside. Its normal does not have length 1.
     #[must_use]
@@ -87,7 +88,8 @@ impl ViewVolume {
         self.planes().into_iter().all(inside) && self.view_to_clip.point(point).w() > 0.0
     }
 
-    /// The place from which the volume is seen: a point, or with w = 0 the direction towards an eye at infinity.
+    /// The place from which the volume is seen: a point, or with w = 0 the direction towards an eye
+    /// at infinity.
     ///
     /// `None` if the projection is singular.
     #[must_use]

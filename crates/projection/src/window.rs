@@ -4,11 +4,12 @@ use crate::ProjectionError;
 use crate::error::finite;
 use crate::matrix::Fit;
 
-/// A rectangle [left, right] × [bottom, top], in units of view space or, for slopes, without unit (C85).
+/// A rectangle [left, right] × [bottom, top], in units of view space or, for slopes, without unit
+/// (C85).
 ///
 /// # Guarantees
-/// All edges are finite and opposite ones differ. Mirrored windows, left > right or bottom > top, are allowed:
-/// they give a mirrored picture.
+/// All edges are finite and opposite ones differ. Mirrored windows, left > right or bottom > top,
+/// are allowed: they give a mirrored picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Window {
     left: f64,
@@ -98,7 +99,8 @@ impl Window {
         (0.5 * self.left + 0.5 * self.right, 0.5 * self.bottom + 0.5 * self.top)
     }
 
-    /// The window with all edges multiplied by `factor`: the same rays, on a plane `factor` times as far away.
+    /// The window with all edges multiplied by `factor`: the same rays, on a plane `factor` times
+    /// as far away.
     #[must_use]
     pub(crate) fn scaled(self, factor: f64) -> Self {
         Self {
@@ -109,7 +111,8 @@ impl Window {
         }
     }
 
-    /// What the window does to x and y, for a view plane at `distance` (1 for parallel projections).
+    /// What the window does to x and y, for a view plane at `distance` (1 for parallel
+    /// projections).
     pub(crate) fn fit(self, distance: f64) -> Result<Fit, ProjectionError> {
         self.fit_unchecked(distance).checked()
     }

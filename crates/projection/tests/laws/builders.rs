@@ -1,4 +1,5 @@
-//! Corners go to corners, inverses undo, conventions convert: for each builder and every convention.
+//! Corners go to corners, inverses undo, conventions convert: for each builder and every
+//! convention.
 
 use crate::samples::{self, convention, conventions, distance, frustum, orthographic, perspective};
 use glam::DMat4;
@@ -24,7 +25,10 @@ proptest! {
     #![proptest_config(samples::cases(128))]
 
     #[test]
-    fn a_frustum_takes_its_corners_to_those_of_the_canonical_volume(f in frustum(), c in convention()) {
+    fn a_frustum_takes_its_corners_to_those_of_the_canonical_volume(
+        f in frustum(),
+        c in convention(),
+    ) {
         let (map, window) = (f.view_to_clip(c), f.window());
         let far = if f.far() == f64::INFINITY { 1e12 * f.near() } else { f.far() };
         for (distance, depth) in [(f.near(), c.near_depth()), (far, c.far_depth())] {
@@ -37,7 +41,10 @@ proptest! {
     }
 
     #[test]
-    fn a_box_takes_its_corners_to_those_of_the_canonical_volume(o in orthographic(), c in convention()) {
+    fn a_box_takes_its_corners_to_those_of_the_canonical_volume(
+        o in orthographic(),
+        c in convention(),
+    ) {
         let (map, window) = (o.view_to_clip(c), o.window());
         let low = ahead(c, window.left(), window.bottom(), o.near());
         let high = ahead(c, window.right(), window.top(), o.far());
@@ -46,7 +53,12 @@ proptest! {
     }
 
     #[test]
-    fn closed_form_inverses_undo(f in frustum(), p in perspective(), o in orthographic(), c in convention()) {
+    fn closed_form_inverses_undo(
+        f in frustum(),
+        p in perspective(),
+        o in orthographic(),
+        c in convention(),
+    ) {
         for (map, inverse) in [
             (f.view_to_clip(c), f.clip_to_view(c)),
             (p.view_to_clip(c), p.clip_to_view(c)),
@@ -58,7 +70,12 @@ proptest! {
     }
 
     #[test]
-    fn any_convention_converts_to_any_other(f in frustum(), o in orthographic(), p in perspective(), from in convention()) {
+    fn any_convention_converts_to_any_other(
+        f in frustum(),
+        o in orthographic(),
+        p in perspective(),
+        from in convention(),
+    ) {
         for to in conventions() {
             for (here, there) in [
                 (f.view_to_clip(from), f.view_to_clip(to)),
@@ -83,7 +100,10 @@ proptest! {
     }
 
     #[test]
-    fn every_way_to_say_the_field_of_view_gives_the_same_lens(fov in 0.05..3.0, aspect in 0.2..5.0) {
+    fn every_way_to_say_the_field_of_view_gives_the_same_lens(
+        fov in 0.05..3.0,
+        aspect in 0.2..5.0,
+    ) {
         let lens = Perspective::new(Fov::Vertical(fov), aspect, 1.0, 10.0).expect("valid");
         let half = lens.half_slopes();
         let film = |size: f64| size * 35.0 * 2.0;
@@ -92,11 +112,16 @@ proptest! {
             Fov::Diagonal(lens.fov_diagonal()),
             Fov::FocalLength { focal: 35.0, film: Film::Height(film(half.y)) },
             Fov::FocalLength { focal: 35.0, film: Film::Width(film(half.x)) },
-            Fov::FocalLength { focal: 35.0, film: Film::Diagonal(film(libm::hypot(half.x, half.y))) },
+            Fov::FocalLength {
+                focal: 35.0,
+                film: Film::Diagonal(film(libm::hypot(half.x, half.y))),
+            },
         ];
         for way in same {
             let other = Perspective::new(way, aspect, 1.0, 10.0).expect("valid").half_slopes();
-            prop_assert!((other.x / half.x - 1.0).abs() < 1e-11 && (other.y / half.y - 1.0).abs() < 1e-11);
+            prop_assert!(
+                (other.x / half.x - 1.0).abs() < 1e-11 && (other.y / half.y - 1.0).abs() < 1e-11
+            );
         }
     }
 }

@@ -9,14 +9,27 @@ proptest! {
     #![proptest_config(samples::cases(128))]
 
     #[test]
-    fn the_curve_is_what_the_matrix_does(f in frustum(), o in orthographic(), c in convention(), t in 0.0..1.0) {
+    fn the_curve_is_what_the_matrix_does(
+        f in frustum(),
+        o in orthographic(),
+        c in convention(),
+        t in 0.0..1.0,
+    ) {
         let far = f.far().min(1e3 * f.near());
         let distance = f.near() + t * (far - f.near());
-        let seen = f.view_to_clip(c).point(Point::new(0.0, 0.0, c.ahead() * distance)).divide().expect("in front");
+        let seen = f
+            .view_to_clip(c)
+            .point(Point::new(0.0, 0.0, c.ahead() * distance))
+            .divide()
+            .expect("in front");
         let depth = f.depth_curve(c).depth(distance).expect("in front");
         prop_assert!((seen.z() - depth).abs() < 1e-10);
         let distance = o.near() + t * (o.far() - o.near());
-        let seen = o.view_to_clip(c).point(Point::new(0.0, 0.0, c.ahead() * distance)).divide().expect("affine");
+        let seen = o
+            .view_to_clip(c)
+            .point(Point::new(0.0, 0.0, c.ahead() * distance))
+            .divide()
+            .expect("affine");
         prop_assert!((seen.z() - o.depth_curve(c).depth(distance).expect("finite")).abs() < 1e-10);
     }
 
@@ -27,21 +40,33 @@ proptest! {
         let back = curve.distance(curve.depth(distance).expect("in front")).expect("finite");
         // A rounding of the depth moves the distance by this much.
         let blur = 4.0 * f64::EPSILON / curve.slope(distance).expect("in front").abs();
-        prop_assert!((back - distance).abs() <= 1e-12 * distance + blur, "{back} is not {distance}");
+        prop_assert!(
+            (back - distance).abs() <= 1e-12 * distance + blur,
+            "{back} is not {distance}"
+        );
     }
 
     #[test]
-    fn depth_keeps_the_order_of_distances((near, far) in planes(), c in convention(), a in 0.0..1.0, b in 0.0..1.0) {
+    fn depth_keeps_the_order_of_distances(
+        (near, far) in planes(),
+        c in convention(),
+        a in 0.0..1.0,
+        b in 0.0..1.0,
+    ) {
         // C41, exercise 4: the order along the line of sight is kept.
         let curve = DepthCurve::perspective(near, far, c).expect("valid");
         let at = |t: f64| near * libm::pow(far.min(1e4 * near) / near, t);
         let towards = c.far_depth() - c.near_depth();
-        let (da, db) = (curve.depth(at(a)).expect("in front"), curve.depth(at(b)).expect("in front"));
+        let (da, db) =
+            (curve.depth(at(a)).expect("in front"), curve.depth(at(b)).expect("in front"));
         prop_assert!((db - da) * towards * (b - a) >= -1e-12);
     }
 
     #[test]
-    fn half_of_the_range_is_used_at_the_half_range_distance((near, far) in planes(), c in convention()) {
+    fn half_of_the_range_is_used_at_the_half_range_distance(
+        (near, far) in planes(),
+        c in convention(),
+    ) {
         let curve = DepthCurve::perspective(near, far, c).expect("valid");
         let half = curve.half_range_distance();
         let middle = 0.5 * (c.near_depth() + c.far_depth());
@@ -53,7 +78,8 @@ proptest! {
     fn slope_is_the_derivative((near, far) in planes(), c in convention(), t in 0.1..3.0) {
         let curve = DepthCurve::perspective(near, far, c).expect("valid");
         let (distance, step) = (near * (1.0 + t), near * 1e-5);
-        let rise = curve.depth(distance + step).expect("in front") - curve.depth(distance - step).expect("in front");
+        let rise = curve.depth(distance + step).expect("in front")
+            - curve.depth(distance - step).expect("in front");
         let slope = curve.slope(distance).expect("in front");
         prop_assert!((rise / (2.0 * step) / slope - 1.0).abs() < 1e-4);
     }
@@ -61,13 +87,17 @@ proptest! {
     #[test]
     fn reversed_float_depth_is_as_fine_as_the_formula_says(near in 0.001..1.0, t in 0.0..1.0) {
         // ΔD ≤ 2⁻²³ D without a far plane, everywhere; forward depth coarsens with D².
-        let reversed = DepthCurve::perspective(near, f64::INFINITY, Convention::WEBGPU.reversed()).expect("valid");
+        let reversed = DepthCurve::perspective(near, f64::INFINITY, Convention::WEBGPU.reversed())
+            .expect("valid");
         let distance = near * libm::exp10(5.0 * t);
         let step = reversed.resolution(distance, DepthFormat::Float32).expect("in front");
         prop_assert!(step > 0.0 && step <= 1.0001 * distance * libm::ldexp(1.0, -23));
         let forward = DepthCurve::perspective(near, 1e6 * near, Convention::WEBGPU).expect("valid");
         let coarse = forward.resolution(distance, DepthFormat::Float32).expect("in front");
-        prop_assert!(distance < 4.0 * near || coarse >= 0.4 * distance * distance / near * libm::ldexp(1.0, -24));
+        prop_assert!(
+            distance < 4.0 * near
+                || coarse >= 0.4 * distance * distance / near * libm::ldexp(1.0, -24)
+        );
     }
 
     #[test]
@@ -83,7 +113,12 @@ proptest! {
     }
 
     #[test]
-    fn a_third_row_can_be_solved_for_any_range(z1 in 0.1_f64..5.0, z2 in 5.5_f64..90.0, v1 in -1.0..1.0, v2 in -1.0..1.0) {
+    fn a_third_row_can_be_solved_for_any_range(
+        z1 in 0.1_f64..5.0,
+        z2 in 5.5_f64..90.0,
+        v1 in -1.0..1.0,
+        v2 in -1.0..1.0,
+    ) {
         let (a, b) = third_row((-z1, v1), (-z2, v2)).expect("two planes");
         prop_assert!((a - b / z1 - v1).abs() < 1e-12 && (a - b / z2 - v2).abs() < 1e-12);
     }

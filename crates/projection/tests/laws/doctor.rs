@@ -1,4 +1,5 @@
-//! Misprints that are projection matrices: the printed form fails, the right one passes, and the doctor knows both.
+//! Misprints that are projection matrices: the printed form fails, the right one passes, and the
+//! doctor knows both.
 
 use crate::samples::{self, convention, distance, frustum, orthographic, perspective};
 use glam::{DMat4, DVec4};
@@ -161,7 +162,7 @@ fn m17_half_of_the_tangent_is_not_the_tangent_of_the_half() {
     assert!(
         (slip.y_axis.y - 1.155).abs() < 5e-4 && (wanted.matrix().y_axis.y - 1.732).abs() < 5e-4
     );
-    let top = NEAR * 30_f64.to_radians().tan();
+    let top = NEAR * libm::tan(30_f64.to_radians());
     assert!((image(wanted.matrix(), 0.0, top, -NEAR).expect("in front").y() - 1.0).abs() < 1e-12);
     assert!((image(slip, 0.0, top, -NEAR).expect("in front").y() - 1.0).abs() > 0.3);
 }
@@ -265,7 +266,7 @@ fn every_finding_has_a_sentence_and_a_remedy() {
     for misprint in Misprint::ALL {
         assert!(misprint.finding().len() > 10 && misprint.remedy().len() > 10);
     }
-    assert_eq!(Misprint::HalfOfTangent.inventory_id(), Some("M17"));
+    assert_eq!(Misprint::HalfOfTangent.id(), Some("M17"));
 }
 
 proptest! {
@@ -273,7 +274,8 @@ proptest! {
 
     #[test]
     fn healthy_matrices_have_no_symptoms(p in perspective(), o in orthographic()) {
-        let bounded = Perspective::new(Fov::Vertical(p.fov_y()), p.aspect(), p.near(), p.far()).expect("valid");
+        let bounded = Perspective::new(Fov::Vertical(p.fov_y()), p.aspect(), p.near(), p.far())
+            .expect("valid");
         prop_assert_eq!(symptoms(bounded.view_to_clip(Convention::OPENGL).raw()).next(), None);
         let w = o.window();
         let ahead = Orthographic::from_window(w, 0.0, (o.far() - o.near()).abs()).expect("valid");
@@ -282,14 +284,21 @@ proptest! {
     }
 
     #[test]
-    fn each_slip_is_told_from_the_others(f in frustum(), p in perspective(), o in orthographic(), factor in 0.1..9.0) {
+    fn each_slip_is_told_from_the_others(
+        f in frustum(),
+        p in perspective(),
+        o in orthographic(),
+        factor in 0.1..9.0,
+    ) {
         for wanted in [Wanted::Frustum(f), Wanted::Perspective(p), Wanted::Orthographic(o)] {
             prop_assert_eq!(misprint_of(wanted.matrix() * factor, wanted), None);
             for misprint in Misprint::ALL {
                 let Some(slip) = misprint.printed(wanted) else { continue };
-                // Where the slip changes nothing or equals another one, as for centred windows, any name will do.
+                // Where the slip changes nothing or equals another one, as for centred windows, any
+                // name will do.
                 if let Some(found) = misprint_of(slip * factor, wanted) {
-                    let same = found.printed(wanted).is_some_and(|other| distance(other, slip) < 1e-5);
+                    let same =
+                        found.printed(wanted).is_some_and(|other| distance(other, slip) < 1e-5);
                     prop_assert!(found == misprint || same, "{misprint:?} is taken for {found:?}");
                 }
             }
@@ -297,7 +306,10 @@ proptest! {
     }
 
     #[test]
-    fn nothing_makes_the_doctor_panic(entries in prop::array::uniform16(-2.0_f64..2.0), c in convention()) {
+    fn nothing_makes_the_doctor_panic(
+        entries in prop::array::uniform16(-2.0_f64..2.0),
+        c in convention(),
+    ) {
         let snapped = entries.map(|entry| if entry.abs() < 1.0 { 0.0 } else { entry.round() });
         for matrix in [entries, snapped, entries.map(|entry| 1.0 / (entry - entry))] {
             let matrix = DMat4::from_cols_array(&matrix);

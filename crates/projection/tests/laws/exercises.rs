@@ -1,4 +1,5 @@
-//! The textbook's exercises and remarks that are about projections (exercises 2 to 9; C14, C23, C39..C45, C48, C55).
+//! The textbook's exercises and remarks that are about projections (exercises 2 to 9; C14, C23,
+//! C39..C45, C48, C55).
 
 use glam::{DMat4, DVec4};
 use homog::{Affine, Clip, HPoint, Point, Vector, View};

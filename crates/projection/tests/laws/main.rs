@@ -8,6 +8,7 @@ mod decomposition;
 mod depth;
 mod doctor;
 mod exercises;
+mod extremes;
 mod parity;
 mod samples;
 mod vanishing;

@@ -1,8 +1,9 @@
 //! The same numbers as glam's builders, where glam has them (C93).
 //!
-//! Two of glam 0.34's builders are compared for centred windows only: its left-handed `frustum` keeps the sign of the
-//! right-handed offset and its Vulkan `orthographic` does not turn the y offset, so that corners of off-centre windows
-//! miss the corners of the canonical volume. That ours meet them is checked in `builders`.
+//! Two of glam 0.34's builders are compared for centred windows only: its left-handed `frustum`
+//! keeps the sign of the right-handed offset and its Vulkan `orthographic` does not turn the y
+//! offset, so that corners of off-centre windows miss the corners of the canonical volume. That
+//! ours meet them is checked in `builders`.
 
 use crate::samples::{self, distance, frustum, orthographic, perspective};
 use glam::DMat4;
@@ -91,6 +92,10 @@ proptest! {
         endless(p, Convention::DIRECT3D, lh::proj::directx::perspective_infinite);
         endless(p, Convention::VULKAN.reversed(), rh::proj::vulkan::perspective_infinite_reverse);
         endless(p, Convention::WEBGPU.reversed(), rh::proj::directx::perspective_infinite_reverse);
-        endless(p, Convention::DIRECT3D.reversed(), lh::proj::directx::perspective_infinite_reverse);
+        endless(
+            p,
+            Convention::DIRECT3D.reversed(),
+            lh::proj::directx::perspective_infinite_reverse,
+        );
     }
 }

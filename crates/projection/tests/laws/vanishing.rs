@@ -1,4 +1,5 @@
-//! Vanishing points: where lines run to, how many axes have one, and pictures constructed from chosen ones.
+//! Vanishing points: where lines run to, how many axes have one, and pictures constructed from
+//! chosen ones.
 
 use crate::samples::{self, convention, direction, frustum, npoint, oblique, point, rotation};
 use homog::{Affine, Point, Projective, Vector, View, World};
@@ -12,23 +13,41 @@ proptest! {
     #![proptest_config(samples::cases(96))]
 
     #[test]
-    fn lines_run_to_their_vanishing_point(f in frustum(), c in convention(), p in point(), d in direction()) {
+    fn lines_run_to_their_vanishing_point(
+        f in frustum(),
+        c in convention(),
+        p in point(),
+        d in direction(),
+    ) {
         let map = f.view_to_clip(c);
-        let VanishingPoint::At { point: goal, ahead } = vanishing_point(map, d).expect("a direction") else {
+        let VanishingPoint::At { point: goal, ahead } =
+            vanishing_point(map, d).expect("a direction")
+        else {
             return Ok(());
         };
         let way = if ahead { d } else { -d };
         let gap = |s: f64| (map.point(p + way * s).divide().expect("in front") - goal).length();
         let (near, far) = (gap(1e4 / d.z().abs()), gap(1e7 / d.z().abs()));
-        prop_assert!(far <= near * 1e-2 + 1e-6 * (1.0 + (goal - Point::ORIGIN).length()), "{near} then {far}");
+        prop_assert!(
+            far <= near * 1e-2 + 1e-6 * (1.0 + (goal - Point::ORIGIN).length()),
+            "{near} then {far}"
+        );
     }
 
     #[test]
-    fn both_senses_of_a_direction_share_the_point(f in frustum(), c in convention(), d in direction()) {
+    fn both_senses_of_a_direction_share_the_point(
+        f in frustum(),
+        c in convention(),
+        d in direction(),
+    ) {
         let map = f.view_to_clip(c);
-        let (one, other) = (vanishing_point(map, d).expect("valid"), vanishing_point(map, -d).expect("valid"));
+        let (one, other) =
+            (vanishing_point(map, d).expect("valid"), vanishing_point(map, -d).expect("valid"));
         prop_assert_eq!(one.point(), other.point());
-        prop_assert_eq!(vanishing_point(map, d * 1e300).expect("valid").point().is_some(), one.point().is_some());
+        prop_assert_eq!(
+            vanishing_point(map, d * 1e300).expect("valid").point().is_some(),
+            one.point().is_some()
+        );
     }
 
     #[test]
@@ -43,49 +62,80 @@ proptest! {
     fn non_zero_entries_count_the_principal_vanishing_points(n in npoint()) {
         let found = principal_vanishing_points(n.depth_kept()).expect("finite");
         prop_assert_eq!(found.count(), n.count());
-        let class = [PointPerspective::OnePoint, PointPerspective::TwoPoint, PointPerspective::ThreePoint];
+        let class =
+            [PointPerspective::OnePoint, PointPerspective::TwoPoint, PointPerspective::ThreePoint];
         prop_assert_eq!(found.class(), class[n.count() - 1]);
         let [p, q, r] = n.bottom_row();
-        let expected = [Point::new(1.0 / p, 0.0, 0.0), Point::new(0.0, 1.0 / q, 0.0), Point::new(0.0, 0.0, 1.0 / r)];
+        let expected = [
+            Point::new(1.0 / p, 0.0, 0.0),
+            Point::new(0.0, 1.0 / q, 0.0),
+            Point::new(0.0, 0.0, 1.0 / r),
+        ];
         for (axis, due) in found.axes.iter().zip(expected) {
             if let Some(at) = axis.point() {
                 prop_assert!((at - due).length() < 1e-12 * (due - Point::ORIGIN).length());
             }
         }
         let again = NPoint::by_vanishing_points(
-            (p != 0.0).then_some(1.0 / p), (q != 0.0).then_some(1.0 / q), (r != 0.0).then_some(1.0 / r),
-        ).expect("the same");
+            (p != 0.0).then_some(1.0 / p),
+            (q != 0.0).then_some(1.0 / q),
+            (r != 0.0).then_some(1.0 / r),
+        )
+        .expect("the same");
         prop_assert!((again.bottom_row()[0] - p).abs() < 1e-15);
     }
 
     #[test]
-    fn turning_the_object_decides_between_one_two_and_three_points(turn in rotation(), yaw in 0.1..1.4) {
-        let lens = Perspective::new(Fov::Vertical(1.0), 1.5, 0.1, 10.0).expect("valid").view_to_clip(Convention::OPENGL);
+    fn turning_the_object_decides_between_one_two_and_three_points(
+        turn in rotation(),
+        yaw in 0.1..1.4,
+    ) {
+        let lens = Perspective::new(Fov::Vertical(1.0), 1.5, 0.1, 10.0)
+            .expect("valid")
+            .view_to_clip(Convention::OPENGL);
         let class = |turn: Affine<View, View>| {
             principal_vanishing_points(turn.then_project(lens)).expect("finite").class()
         };
         prop_assert_eq!(class(Affine::IDENTITY), PointPerspective::OnePoint);
         prop_assert_eq!(class(Affine::rotation_y(yaw)), PointPerspective::TwoPoint);
-        let skew = [Vector::X, Vector::Y, Vector::Z].iter().all(|axis| turn.vector(*axis).z().abs() > 1e-6);
+        let skew = [Vector::X, Vector::Y, Vector::Z]
+            .iter()
+            .all(|axis| turn.vector(*axis).z().abs() > 1e-6);
         prop_assume!(skew);
         prop_assert_eq!(class(turn), PointPerspective::ThreePoint);
     }
 
     #[test]
-    fn constructed_pictures_have_the_chosen_vanishing_points(turn in rotation(), px in -2.0_f64..2.0, py in -2.0_f64..2.0, distance in 0.5_f64..4.0) {
+    fn constructed_pictures_have_the_chosen_vanishing_points(
+        turn in rotation(),
+        px in -2.0_f64..2.0,
+        py in -2.0_f64..2.0,
+        distance in 0.5_f64..4.0,
+    ) {
         // Any attitude gives three points; the construction finds the eye that belongs to them.
         let axes = [Vector::<View>::X, Vector::Y, Vector::Z].map(|axis| turn.vector(axis));
         prop_assume!(axes.iter().all(|axis| axis.z().abs() > 0.05));
-        let at = |axis: Vector<View>| (px - distance * axis.x() / axis.z(), py - distance * axis.y() / axis.z());
-        let drawing = ConstructedPerspective::three_point(at(axes[0]), at(axes[1]), at(axes[2])).expect("an eye exists");
+        let at = |axis: Vector<View>| {
+            (px - distance * axis.x() / axis.z(), py - distance * axis.y() / axis.z())
+        };
+        let drawing = ConstructedPerspective::three_point(at(axes[0]), at(axes[1]), at(axes[2]))
+            .expect("an eye exists");
         prop_assert!((drawing.distance() - distance).abs() < 1e-7 * distance);
         let principal = drawing.principal_point();
-        prop_assert!((principal.0 - px).abs() < 1e-7 * distance && (principal.1 - py).abs() < 1e-7 * distance);
+        prop_assert!(
+            (principal.0 - px).abs() < 1e-7 * distance
+                && (principal.1 - py).abs() < 1e-7 * distance
+        );
         check(drawing, [Some(at(axes[0])), Some(at(axes[1])), Some(at(axes[2]))])?;
     }
 
     #[test]
-    fn two_points_fix_a_horizon(x in -5.0..-0.5, z in 0.5..5.0, y in -1.0..1.0, fraction in 0.05..0.95) {
+    fn two_points_fix_a_horizon(
+        x in -5.0..-0.5,
+        z in 0.5..5.0,
+        y in -1.0..1.0,
+        fraction in 0.05..0.95,
+    ) {
         let drawing = ConstructedPerspective::two_point((x, y), (z, y), fraction).expect("valid");
         check(drawing, [Some((x, y)), None, Some((z, y))])?;
         let one = ConstructedPerspective::one_point((x, y), 2.0).expect("valid");

@@ -35,7 +35,13 @@ proptest! {
     #![proptest_config(samples::cases(96))]
 
     #[test]
-    fn a_tile_shows_its_part_of_the_whole(f in frustum(), p in perspective(), o in orthographic(), t in tile(), c in convention()) {
+    fn a_tile_shows_its_part_of_the_whole(
+        f in frustum(),
+        p in perspective(),
+        o in orthographic(),
+        t in tile(),
+        c in convention(),
+    ) {
         let back = tile_to_whole(t, c);
         for (tiled, whole) in [
             (f.tile(t).expect("valid").view_to_clip(c), f.view_to_clip(c)),
@@ -49,15 +55,25 @@ proptest! {
     #[test]
     fn neighbouring_tiles_share_their_edge_exactly(f in frustum(), cut in 1_u32..99) {
         let (full, at) = ((100.0, 80.0), f64::from(cut));
-        let left = f.tile(Tile { full, corner: (0.0, 0.0), size: (at, 80.0) }).expect("valid").window();
-        let right = f.tile(Tile { full, corner: (at, 0.0), size: (100.0 - at, 80.0) }).expect("valid").window();
+        let left =
+            f.tile(Tile { full, corner: (0.0, 0.0), size: (at, 80.0) }).expect("valid").window();
+        let right = f
+            .tile(Tile { full, corner: (at, 0.0), size: (100.0 - at, 80.0) })
+            .expect("valid")
+            .window();
         prop_assert_eq!(left.right(), right.left());
         prop_assert_eq!((left.left(), right.right()), (f.window().left(), f.window().right()));
         prop_assert_eq!((left.top(), left.bottom()), (f.window().top(), f.window().bottom()));
     }
 
     #[test]
-    fn jitter_moves_the_picture_against_the_sample(f in frustum(), c in convention(), dx in -0.5..0.5, dy in -0.5..0.5, p in point()) {
+    fn jitter_moves_the_picture_against_the_sample(
+        f in frustum(),
+        c in convention(),
+        dx in -0.5..0.5,
+        dy in -0.5..0.5,
+        p in point(),
+    ) {
         let image = (640.0, 480.0);
         let moved = f.jittered(Jitter { image, offset: (dx, dy) }).expect("valid").view_to_clip(c);
         let (before, after) = (f.view_to_clip(c).point(p), moved.point(p));
@@ -70,20 +86,35 @@ proptest! {
     }
 
     #[test]
-    fn a_shift_keeps_angles_of_planes_and_the_eye(p in perspective(), x in -2.0..2.0, y in -2.0..2.0) {
+    fn a_shift_keeps_angles_of_planes_and_the_eye(
+        p in perspective(),
+        x in -2.0..2.0,
+        y in -2.0..2.0,
+    ) {
         let shifted = p.shifted(x, y).expect("valid");
         let (w, from) = (shifted.window(), p.to_frustum().window());
-        prop_assert!((w.width() / from.width() - 1.0).abs() < 1e-12 && (w.aspect() / p.aspect() - 1.0).abs() < 1e-12);
-        prop_assert!((w.centre().0 - x * from.width()).abs() < 1e-12 * (1.0 + x.abs()) * from.width());
+        prop_assert!(
+            (w.width() / from.width() - 1.0).abs() < 1e-12
+                && (w.aspect() / p.aspect() - 1.0).abs() < 1e-12
+        );
+        prop_assert!(
+            (w.centre().0 - x * from.width()).abs() < 1e-12 * (1.0 + x.abs()) * from.width()
+        );
         let volume = ViewVolume::new(shifted.view_to_clip(Convention::OPENGL), Convention::OPENGL);
         let eye = volume.eye().expect("regular").divide().expect("finite");
         prop_assert!((eye - Point::ORIGIN).length() < 1e-9 * p.near());
     }
 
     #[test]
-    fn four_angles_are_those_to_the_edges(l in -1.5_f64..1.4, width in 0.05..1.0, d in -1.5_f64..1.4, height in 0.05..1.0) {
+    fn four_angles_are_those_to_the_edges(
+        l in -1.5_f64..1.4,
+        width in 0.05..1.0,
+        d in -1.5_f64..1.4,
+        height in 0.05..1.0,
+    ) {
         let (r, u) = (f64::min(l + width, 1.5), f64::min(d + height, 1.5));
-        let eye = FourAngles { left: l, right: r, down: d, up: u }.frustum(0.1, 10.0).expect("valid");
+        let eye =
+            FourAngles { left: l, right: r, down: d, up: u }.frustum(0.1, 10.0).expect("valid");
         let (s, opening) = (eye.slopes(), |a, b| opening_angle_of(a, b, 1.0).expect("valid"));
         prop_assert!((opening(s.left(), s.right()) - (r - l)).abs() < 1e-12);
         prop_assert!((opening(s.bottom(), s.top()) - (u - d)).abs() < 1e-12);
@@ -91,21 +122,38 @@ proptest! {
     }
 
     #[test]
-    fn corners_planes_and_containment_agree(f in frustum(), o in orthographic(), c in convention(), x in -1.2..1.2, y in -1.2..1.2, t in -0.2..1.2) {
+    fn corners_planes_and_containment_agree(
+        f in frustum(),
+        o in orthographic(),
+        c in convention(),
+        x in -1.2..1.2,
+        y in -1.2..1.2,
+        t in -0.2..1.2,
+    ) {
         for map in [f.view_to_clip(c), o.view_to_clip(c)] {
             let volume = ViewVolume::new(map, c);
             let corners = volume.corners().expect("regular");
-            for (corner, plane) in [(0, 4), (0, 0), (1, 1), (1, 2), (2, 3), (6, 5), (6, 1), (4, 0)] {
+            for (corner, plane) in [(0, 4), (0, 0), (1, 1), (1, 2), (2, 3), (6, 5), (6, 1), (4, 0)]
+            {
                 let (corner, plane) = (corners[corner], volume.planes()[plane]);
                 let size = plane.raw().length() * corner.raw().length();
                 prop_assert!(plane.evaluate(corner).abs() <= 1e-9 * size);
             }
             let depth = c.near_depth() + t * (c.far_depth() - c.near_depth());
             let ndc = Point::<Ndc>::new(x, y, depth);
-            let Some(seen) = map.inverse().expect("regular").hpoint(HPoint::<Clip>::new(x, y, depth, 1.0)).divide() else {
+            let Some(seen) = map
+                .inverse()
+                .expect("regular")
+                .hpoint(HPoint::<Clip>::new(x, y, depth, 1.0))
+                .divide()
+            else {
                 continue;
             };
-            let margin = (1.0 - f64::abs(x)).abs().min((1.0 - f64::abs(y)).abs()).min(f64::abs(t)).min(f64::abs(1.0 - t));
+            let margin = (1.0 - f64::abs(x))
+                .abs()
+                .min((1.0 - f64::abs(y)).abs())
+                .min(f64::abs(t))
+                .min(f64::abs(1.0 - t));
             if margin > 1e-6 && map.point(seen).w() > 0.0 && t < 1.0 {
                 prop_assert_eq!(volume.contains(seen), c.contains(ndc));
             }
@@ -114,7 +162,11 @@ proptest! {
 
     #[test]
     fn an_inclined_near_plane_cuts_there_and_nothing_else_changes(
-        p in perspective(), o in orthographic(), c in convention(), n in direction(), q in point(),
+        p in perspective(),
+        o in orthographic(),
+        c in convention(),
+        n in direction(),
+        q in point(),
     ) {
         for map in [p.view_to_clip(c), o.view_to_clip(c)] {
             let plane = Plane::through(q, Normal::from_raw(n.raw()));
@@ -124,7 +176,8 @@ proptest! {
     }
 }
 
-/// Points on the plane get the near depth, points before it lie on the visible side, no corner beyond far.
+/// Points on the plane get the near depth, points before it lie on the visible side, no corner
+/// beyond far.
 fn check_cut(
     map: Projective<View, Clip>,
     cut: Projective<View, Clip>,

@@ -1,0 +1,51 @@
+//! Tells what a 4×4 matrix is, and whether it looks like a known misprint.
+//!
+//! ```text
+//! cargo run -p projection --example doctor                 the slides' Ortho, as printed
+//! cargo run -p projection --example doctor -- 1 0 0 0 …    sixteen numbers, row by row
+//! ```
+
+#![allow(clippy::print_stdout, reason = "an example speaks on its standard output")]
+
+use glam::DMat4;
+use projection::{readings, symptoms};
+
+/// Ortho(−1, 3, −2, 1, 2, 6) with + (far + near)/(far − near) at the end of its third row.
+const SLIDE: [f64; 16] =
+    [0.5, 0.0, 0.0, -0.5, 0.0, 2.0 / 3.0, 0.0, 1.0 / 3.0, 0.0, 0.0, -0.5, 2.0, 0.0, 0.0, 0.0, 1.0];
+
+fn main() {
+    let given: Vec<f64> =
+        std::env::args().skip(1).filter_map(|number| number.parse().ok()).collect();
+    let rows: [f64; 16] = given.try_into().unwrap_or(SLIDE);
+    let matrix = DMat4::from_cols_array(&rows).transpose();
+    show("The matrix", matrix);
+
+    println!("It can be read as");
+    for (convention, found) in readings(matrix) {
+        println!(
+            "  near at {:+}, far at {:+}, {:?}, y {:?}:",
+            convention.near_depth(),
+            convention.far_depth(),
+            convention.handedness(),
+            convention.ndc_y()
+        );
+        println!("    {:?}, times {}", found.kind, found.factor);
+    }
+    for symptom in symptoms(matrix) {
+        let id = symptom.misprint.id().unwrap_or("not numbered");
+        println!("It looks like a misprint ({id}): {}.", symptom.misprint.finding());
+        println!("Remedy: {}.", symptom.misprint.remedy());
+        if let Some(remedied) = symptom.remedied {
+            show("Then it is", remedied);
+        }
+    }
+}
+
+fn show(title: &str, matrix: DMat4) {
+    println!("{title}:");
+    for row in 0..4 {
+        let [a, b, c, d] = matrix.row(row).to_array();
+        println!("  {a:9.4} {b:9.4} {c:9.4} {d:9.4}");
+    }
+}

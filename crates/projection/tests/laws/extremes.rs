@@ -1,0 +1,247 @@
+//! Any numbers whatever: a builder refuses them, or all it makes is finite. Nothing panics.
+
+use crate::samples::{self, convention, conventions};
+use glam::DMat4;
+use homog::{Normal, Plane, Point, Vector, View};
+use projection::{
+    ApexMovedFrustum, Axonometric, Classical, ConstructedPerspective, Convention, DepthCurve,
+    DepthFormat, Film, FourAngles, Fov, Frustum, Jitter, NPoint, Oblique, Orthographic,
+    Perspective, Planometric, Projector, Tile, ViewVolume, Window, chapter, decompose,
+    oblique_near_plane, opening_angle_of, principal_vanishing_points, symptoms, third_row,
+};
+use proptest::prelude::*;
+
+const SPECIAL: [f64; 9] =
+    [0.0, -0.0, 1.0, -1.0, f64::MAX, f64::MIN_POSITIVE, 5e-324, f64::INFINITY, f64::NAN];
+
+/// Every sort of number, with the usual ones often enough that builders accept.
+fn any_number() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        4 => -10.0..10.0,
+        2 => (-320.0..310.0, any::<bool>()).prop_map(|(exponent, negative): (f64, bool)| {
+            let size = libm::exp10(exponent);
+            if negative { -size } else { size }
+        }),
+        1 => prop::num::f64::ANY,
+        1 => prop::sample::select(SPECIAL.to_vec()),
+    ]
+}
+
+/// Like the above, positive.
+fn any_size() -> impl Strategy<Value = f64> {
+    any_number().prop_map(f64::abs)
+}
+
+fn finite(name: &str, matrix: DMat4) {
+    assert!(matrix.is_finite(), "{name}: {matrix}");
+}
+
+proptest! {
+    #![proptest_config(samples::cases(512))]
+
+    #[test]
+    fn pinholes_and_boxes(
+        e in prop::array::uniform4(any_number()),
+        near in any_size(),
+        far in any_size(),
+    ) {
+        let [l, r, b, t] = e;
+        for c in conventions() {
+            if let Ok(f) = Frustum::new(l, r, b, t, near, far) {
+                finite("frustum", f.view_to_clip(c).raw());
+                finite("frustum inverse", f.clip_to_view(c).raw());
+                let factors = f.factors(c);
+                finite("depth factor", factors.depth.raw());
+            }
+            if let Ok(o) = Orthographic::new(l, r, b, t, near, far) {
+                finite("box", o.view_to_clip(c).raw());
+                finite("box inverse", o.clip_to_view(c).raw());
+            }
+            if let Ok(m) = ApexMovedFrustum::new(l, r, b, t, near, far) {
+                finite("moved", m.view_to_clip(c).raw());
+                finite("moved inverse", m.clip_to_view(c).raw());
+            }
+        }
+        for matrix in [
+            chapter::m_orth(l, r, b, t, near, far).map(homog::Affine::raw),
+            chapter::m_orth_inverse(l, r, b, t, near, far).map(homog::Affine::raw),
+            chapter::m_per(l, r, b, t, -near, -far).map(homog::Projective::raw),
+            chapter::m_per_inverse(l, r, b, t, -near, -far).map(homog::Projective::raw),
+            chapter::p(l, r).map(homog::Projective::raw),
+            chapter::p_inverse(l, r).map(homog::Projective::raw),
+            chapter::p_inverse_scaled(l, r).map(homog::Projective::raw),
+        ]
+        .into_iter()
+        .flatten()
+        {
+            finite("chapter", matrix);
+        }
+    }
+
+    #[test]
+    fn lenses(
+        angle in any_number(),
+        aspect in any_size(),
+        film in any_size(),
+        near in any_size(),
+        far in any_size(),
+        c in convention(),
+    ) {
+        let fovs = [
+            Fov::Vertical(angle),
+            Fov::Horizontal(angle),
+            Fov::Diagonal(angle),
+            Fov::FocalLength { focal: angle, film: Film::Height(film) },
+            Fov::FocalLength { focal: angle, film: Film::Width(film) },
+            Fov::FocalLength { focal: angle, film: Film::Diagonal(film) },
+        ];
+        for lens in fovs.into_iter().filter_map(|fov| Perspective::new(fov, aspect, near, far).ok())
+        {
+            finite("lens", lens.view_to_clip(c).raw());
+            finite("lens inverse", lens.clip_to_view(c).raw());
+            finite("its frustum", lens.to_frustum().view_to_clip(c).raw());
+            prop_assert!(
+                lens.fov_x().is_finite() && lens.fov_y().is_finite() && lens.aspect().is_finite()
+            );
+            let tile = Tile { full: (film, angle), corner: (near, angle), size: (aspect, film) };
+            let moved = [
+                lens.tile(tile),
+                lens.shifted(angle, film),
+                lens.jittered(Jitter { image: (film, far), offset: (angle, near) }),
+            ];
+            for frustum in moved.into_iter().flatten() {
+                finite("moved window", frustum.view_to_clip(c).raw());
+            }
+        }
+        let angles = FourAngles { left: angle, right: aspect, down: -film, up: near };
+        if let Ok(eye) = angles.frustum(near, far) {
+            finite("four angles", eye.view_to_clip(c).raw());
+        }
+        if let Ok(theta) = opening_angle_of(angle, aspect, film) {
+            prop_assert!(theta.is_finite());
+        }
+        if let Ok((a, b)) = third_row((angle, aspect), (film, near)) {
+            prop_assert!(a.is_finite() && b.is_finite());
+        }
+    }
+
+    #[test]
+    fn classical_projections(
+        a in any_number(),
+        b in any_number(),
+        d in any_number(),
+        z in any_number(),
+        w in any_size(),
+        c in convention(),
+    ) {
+        let made: [Result<Classical, _>; 9] = [
+            Axonometric::by_angles(a, b).map(Into::into),
+            Axonometric::by_normal(Normal::new(a, b, d)).map(Into::into),
+            Axonometric::by_foreshortening(a, b, d).map(Into::into),
+            Oblique::new(a, b).map(Into::into),
+            Oblique::by_angle(a, b).map(Into::into),
+            Oblique::by_direction(Vector::new(a, b, d), z).map(Into::into),
+            Planometric::new(a, b).map(Into::into),
+            NPoint::new(a, b, d).map(Into::into),
+            NPoint::by_vanishing_points(Some(a), Some(b), None).map(Into::into),
+        ];
+        let volume = Orthographic::new(-w, 2.0 * w, -1.0, 1.0, -0.1, 0.1);
+        for classical in made.into_iter().flatten() {
+            finite("onto plane", classical.onto_plane().raw());
+            finite("depth kept", classical.depth_kept().raw());
+            finite("inverse", classical.depth_kept_inverse().raw());
+            let _ = (classical.class().name(), decompose(classical.depth_kept().raw(), c));
+            if let Ok(map) = volume.and_then(|volume| classical.view_to_clip(volume, c)) {
+                let _ = (
+                    decompose(map.raw(), c),
+                    symptoms(map.raw()).count(),
+                    principal_vanishing_points(map),
+                );
+            }
+        }
+        if let Ok(moved) = Axonometric::isometric().about(Point::new(a, b, d)) {
+            finite("about", moved.onto_plane().raw());
+            finite("about, inverse", moved.depth_kept_inverse().raw());
+        }
+        let plane = Plane::<View>::from_raw(glam::DVec4::new(a, b, d, z));
+        for projector in [
+            Projector::from_eye(Point::new(w, a, z), plane),
+            Projector::along(Vector::new(z, d, w), plane),
+        ]
+        .into_iter()
+        .flatten()
+        {
+            finite("projector", projector.onto_plane().raw());
+            finite("projector, depth kept", projector.depth_kept().raw());
+        }
+        let window = Window::centred(1.0, 1.0).expect("valid");
+        for drawing in [
+            ConstructedPerspective::one_point((a, b), w),
+            ConstructedPerspective::two_point((a, b), (d, z), 0.3),
+            ConstructedPerspective::three_point((a, b), (d, z), (w, 1.0)),
+        ]
+        .into_iter()
+        .flatten()
+        {
+            finite("attitude", drawing.world_to_view().raw());
+            if let Ok(frustum) = drawing.frustum(window, 1.0, 2.0) {
+                finite("its frustum", frustum.view_to_clip(c).raw());
+            }
+        }
+    }
+
+    #[test]
+    fn depth_and_planes(
+        near in any_size(),
+        far in any_size(),
+        at in any_number(),
+        n in prop::array::uniform4(any_number()),
+        c in convention(),
+    ) {
+        for curve in [DepthCurve::perspective(near, far, c), DepthCurve::parallel(near, far, c)]
+            .into_iter()
+            .flatten()
+        {
+            let numbers = [
+                curve.depth(at),
+                curve.distance(at),
+                curve.slope(at),
+                Some(curve.half_range_distance()),
+                curve.resolution(at, DepthFormat::Float32).ok(),
+                curve.resolution(at, DepthFormat::FixedPoint(24)).ok(),
+            ];
+            for (i, number) in numbers.into_iter().enumerate() {
+                prop_assert!(number.is_none_or(f64::is_finite), "answer {i} is {number:?}");
+            }
+        }
+        let plane = Plane::from_raw(n.into());
+        let Ok(lens) = Perspective::new(Fov::Vertical(1.0), 1.0, near, far) else { return Ok(()) };
+        if let Ok(cut) = oblique_near_plane(lens.view_to_clip(c), c, plane) {
+            finite("inclined", cut.raw());
+        }
+        let volume = ViewVolume::new(lens.view_to_clip(c), c);
+        let _ = (
+            volume.corners(),
+            volume.planes(),
+            volume.contains(Point::new(n[0], n[1], n[2])),
+            volume.eye(),
+        );
+    }
+
+    #[test]
+    fn conventions_only_take_depths_between_minus_one_and_one(
+        near in any_number(),
+        far in any_number(),
+    ) {
+        if let Ok(c) = Convention::OPENGL.with_depths(near, far) {
+            prop_assert!(near.abs() <= 1.0 && far.abs() <= 1.0 && near != far);
+            finite("conversion", c.clip_to_clip(Convention::OPENGL).raw());
+        }
+    }
+
+    #[test]
+    fn any_matrix(entries in prop::array::uniform16(any_number()), c in convention()) {
+        let matrix = DMat4::from_cols_array(&entries);
+        let _ = (decompose(matrix, c), symptoms(matrix).count());
+    }
+}
