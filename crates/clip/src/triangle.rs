@@ -153,38 +153,41 @@ fn corners([a, b, c]: [HPoint<Clip>; 3]) -> [ClipVertex; 3] {
 /// Every plane looks at every vertex, also where the outcodes of this triangle would allow to leave it out: so the fate of
 /// an edge depends on the edge alone, and a neighbour decides alike.
 fn cut(triangle: [HPoint<Clip>; 3], volume: &Volume) -> ClippedPolygon {
-    let mut ring = Room::default();
+    let (mut one, mut other) = (Room::default(), Room::default());
+    let (mut ring, mut rest) = (&mut one, &mut other);
     corners(triangle).into_iter().for_each(|corner| ring.push(corner));
     let mut fates = Fates::default();
     for index in volume.present().planes() {
-        let Some(rest) = cut_by(volume, index, ring.vertices()) else { continue };
+        if !cut_by(volume, index, ring.vertices(), rest) {
+            continue;
+        }
         if rest.count < 3 {
             fates.rejected = fates.rejected.with(index);
             return ClippedPolygon { ring: Ring::Nothing, fates };
         }
         fates.cut = fates.cut.with(index);
-        ring = rest;
+        core::mem::swap(&mut ring, &mut rest);
     }
     for vertex in ring.vertices_mut() {
         vertex.point = HPoint::from_raw(volume.settle(vertex.point.raw()));
     }
     // The zero vector is in every closed volume but is no point. Only triangles without an area in the image reach it.
     let is_point = |vertex: &ClipVertex| vertex.point.w() > 0.0;
-    let ring = if ring.vertices().iter().all(is_point) { Ring::Cut(ring) } else { Ring::Nothing };
+    let ring = if ring.vertices().iter().all(is_point) { Ring::Cut(*ring) } else { Ring::Nothing };
     ClippedPolygon { ring, fates }
 }
 
-/// The ring behind a plane; `None` if it is the same.
-fn cut_by(volume: &Volume, index: PlaneIndex, ring: &[ClipVertex]) -> Option<Room> {
+/// Puts the ring behind a plane into `rest`; false if it is the same.
+fn cut_by(volume: &Volume, index: PlaneIndex, ring: &[ClipVertex], rest: &mut Room) -> bool {
     let mut distances = [0.0; MAX_VERTICES];
     let distances = &mut distances[..ring.len()];
     for (distance, vertex) in distances.iter_mut().zip(ring) {
         *distance = volume.distance(index, vertex.point.raw());
     }
     if distances.iter().all(|&distance| distance >= 0.0) {
-        return None;
+        return false;
     }
-    let mut rest = Room::default();
+    rest.count = 0;
     walk(distances, |step| {
         rest.push(match step {
             Step::Keep(i) => ring[i],
@@ -195,7 +198,7 @@ fn cut_by(volume: &Volume, index: PlaneIndex, ring: &[ClipVertex]) -> Option<Roo
             }
         });
     });
-    Some(rest)
+    true
 }
 
 /// Room for the vertices, on the stack.

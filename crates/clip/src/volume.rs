@@ -76,7 +76,7 @@ impl Volume {
         planes[3] = DVec4::new(0.0, -1.0, 0.0, 1.0);
         planes[4] = near;
         planes[5] = far;
-        Self { planes, present: Outcode::from_bits(0b11_1111) }
+        Self { planes, present: Outcode::from_bits(BOX) }
     }
 
     /// The volume without its far plane, for projections that see to infinity (IF-1 to IF-3).
@@ -139,28 +139,47 @@ impl Volume {
     }
 
     /// The planes a point is outside of (CL-1). Whatever is not finite is outside of all of them.
+    #[inline]
     #[must_use]
     pub fn outcode(&self, point: HPoint<Clip>) -> Outcode {
-        let raw = point.raw();
-        // Beyond this, and for NaN, sums may not have the right sign.
+        /// Beyond this, and for NaN, sums may not have the right sign.
         const SAFE: f64 = 1e300;
+        let raw = point.raw();
         let size = raw.abs().element_sum();
-        if size < SAFE {
-            return self.outcode_of(raw);
-        }
-        if point.is_finite() { self.outcode_of(raw * 1e-100) } else { self.present }
+        if size < SAFE { self.outcode_of(raw) } else { self.outcode_of_huge(raw) }
     }
 
-    /// Branch-free for the box, which is what arrays of points need.
+    #[cold]
+    fn outcode_of_huge(&self, point: DVec4) -> Outcode {
+        if point.is_finite() { self.outcode_of(point * 1e-100) } else { self.present }
+    }
+
+    /// Branch-free for the box, which is what arrays of points need. The sums are those of [`Self::distance`] without the
+    /// coefficients that are 0.
+    #[inline]
     fn outcode_of(&self, point: DVec4) -> Outcode {
+        let [kx, ky] = [self.planes[0].w * point.w, self.planes[2].w * point.w];
+        let along_z = |plane: DVec4| plane.z * point.z + plane.w * point.w;
+        let distances = [
+            kx + point.x,
+            kx - point.x,
+            ky + point.y,
+            ky - point.y,
+            along_z(self.planes[4]),
+            along_z(self.planes[5]),
+        ];
         let mut bits = 0;
-        for (i, plane) in self.planes[..PlaneIndex::BOX.len()].iter().enumerate() {
-            bits |= u16::from(plane.dot(point) < 0.0) << i;
+        for (i, distance) in distances.into_iter().enumerate() {
+            bits |= u16::from(distance < 0.0) << i;
         }
-        let boxed = Outcode::from_bits(bits) & self.present;
-        let added = Outcode::from_bits(self.present.bits() & !0b11_1111);
-        let outside = |plane: &PlaneIndex| self.planes[plane.index()].dot(point) < 0.0;
-        added.planes().filter(outside).fold(boxed, Outcode::with)
+        let boxed = Outcode::from_bits(bits & self.present.bits());
+        if self.present.bits() & !BOX == 0 { boxed } else { boxed | self.outcode_of_added(point) }
+    }
+
+    fn outcode_of_added(&self, point: DVec4) -> Outcode {
+        let added = Outcode::from_bits(self.present.bits() & !BOX);
+        let outside = |&plane: &PlaneIndex| self.distance(plane, point) < 0.0;
+        added.planes().filter(outside).fold(Outcode::INSIDE, Outcode::with)
     }
 
     /// True if the point is inside or on the border, finite, and not the zero vector, which is no point.
@@ -200,6 +219,9 @@ impl fmt::Display for Volume {
         })
     }
 }
+
+/// The bits of the six planes of the box.
+const BOX: u16 = 0b11_1111;
 
 const W_PLUS_Z: DVec4 = DVec4::new(0.0, 0.0, 1.0, 1.0);
 const W_MINUS_Z: DVec4 = DVec4::new(0.0, 0.0, -1.0, 1.0);
