@@ -316,31 +316,40 @@ fn lens(found: Placement, convention: Convention) -> Result<Decomposed, Decompos
         (centre.y - 1.0) / scale.y,
         (centre.y + 1.0) / scale.y,
     )?;
-    let placement = found.map();
-    if !placed::negligible(depth.truncate().with_z(0.0), DVec4::splat(depth.truncate().length())) {
-        // z' − w·near, with w the distance ahead, −z: the near plane, positive where it is visible.
-        let plane = depth + DVec4::Z * convention.near_depth();
-        let inwards = (convention.far_depth() - convention.near_depth()).signum();
-        let near_plane = Plane::from_raw(plane * (inwards / plane.truncate().length()));
-        return Ok(Decomposed::ObliqueNear { placement, slopes, near_plane });
+    let along = depth.truncate();
+    if !placed::negligible(along.with_z(0.0), DVec4::splat(along.length())) {
+        let near_plane = inclined(depth, convention);
+        return Ok(Decomposed::ObliqueNear { placement: found.map(), slopes, near_plane });
     }
     let (near, far) = planes(-depth.z, depth.w, convention)?;
     let frustum = Frustum::from_slopes(slopes, near, far)?;
-    let (eye, window) = (found.eye, frustum.window());
-    let size = DVec4::new(window.width(), window.height(), near, 0.0);
-    if found.is_upright() && placed::negligible(eye, size) {
-        return Ok(Decomposed::Frustum(frustum));
+    Ok(named(found, frustum)
+        .unwrap_or(Decomposed::PlacedFrustum { placement: found.map(), frustum }))
+}
+
+/// The near plane of a depth row: where z' = w·near depth, with w the distance ahead, −z.
+fn inclined(depth: DVec4, convention: Convention) -> Plane<View> {
+    let plane = depth + DVec4::Z * convention.near_depth();
+    let inwards = (convention.far_depth() - convention.near_depth()).signum();
+    Plane::from_raw(plane * (inwards / plane.truncate().length()))
+}
+
+/// The projection from an unturned camera that has a name: its eye at the origin, or beside it
+/// with a centred window.
+fn named(found: Placement, frustum: Frustum) -> Option<Decomposed> {
+    let (eye, w, near) = (found.eye, frustum.window(), frustum.near());
+    let size = DVec4::new(w.width(), w.height(), near, 0.0);
+    if !found.is_upright() || !placed::negligible(DVec3::Z * eye.z, size) {
+        return None;
     }
-    if !found.is_upright() {
-        return Ok(Decomposed::PlacedFrustum { placement, frustum });
+    if placed::negligible(eye, size) {
+        return Some(Decomposed::Frustum(frustum));
     }
-    let centred = placed::negligible(centre.extend(0.0), DVec4::ONE);
-    if centred && placed::negligible(DVec3::Z * eye.z, size) {
-        let (l, r) = (window.left() + eye.x, window.right() + eye.x);
-        let (b, t) = (window.bottom() + eye.y, window.top() + eye.y);
-        return Ok(Decomposed::ApexMoved(ApexMovedFrustum::new(l, r, b, t, near, far)?));
-    }
-    Ok(Decomposed::PlacedFrustum { placement, frustum })
+    let centred = placed::negligible(found.centre.extend(0.0), DVec4::ONE);
+    let (l, r) = (w.left() + eye.x, w.right() + eye.x);
+    let (b, t) = (w.bottom() + eye.y, w.top() + eye.y);
+    let moved = ApexMovedFrustum::new(l, r, b, t, near, frustum.far()).ok()?;
+    centred.then_some(Decomposed::ApexMoved(moved))
 }
 
 /// The distances at which factor + offset/D is the near and the far depth.

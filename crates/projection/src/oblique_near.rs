@@ -37,36 +37,31 @@ pub fn oblique_near_plane(
     convention: Convention,
     plane: Plane<View>,
 ) -> Result<Projective<View, Clip>, ProjectionError> {
-    let volume = ViewVolume::new(view_to_clip, convention);
     let unusable = ProjectionError::Unrepresentable { what: "projection" };
     let clip_to_view = view_to_clip.inverse().ok_or(unusable)?;
+    let eye = ViewVolume::new(view_to_clip, convention).eye().ok_or(unusable)?;
     let plane = normalised(plane)?;
-    let towards_eye = volume.eye().ok_or(unusable)?;
-    let side = plane.evaluate(towards_eye);
+    let side = plane.evaluate(eye);
     if side.is_nan() || side >= 0.0 {
-        let allowed = "a plane with the eye behind it";
-        return Err(ProjectionError::OutOfRange {
-            parameter: "plane at the eye",
-            value: side,
-            allowed,
-        });
+        return Err(misplaced("plane at the eye", side, "below 0: the eye behind it"));
     }
+    // The corner that lies farthest behind the plane shall keep the far depth.
     let seen = clip_to_view.raw().transpose() * plane.raw();
     let corner = DVec4::new(seen.x.signum(), seen.y.signum(), convention.far_depth(), 1.0);
     let farthest = plane.evaluate(clip_to_view.hpoint(HPoint::from_raw(corner)));
     if farthest.is_nan() || farthest <= 0.0 {
-        let allowed = "a plane that leaves something visible";
-        return Err(ProjectionError::OutOfRange {
-            parameter: "plane at the far corner",
-            value: farthest,
-            allowed,
-        });
+        let allowed = "above 0: something visible before it";
+        return Err(misplaced("plane at the far corner", farthest, allowed));
     }
-    let mut rows = view_to_clip.raw().transpose();
     let depths = convention.far_depth() - convention.near_depth();
+    let mut rows = view_to_clip.raw().transpose();
     rows.z_axis = rows.w_axis * convention.near_depth() + plane.raw() * (depths / farthest);
     let result = rows.transpose();
     result.is_finite().then_some(Projective::from_raw(result)).ok_or(unusable)
+}
+
+fn misplaced(parameter: &'static str, value: f64, allowed: &'static str) -> ProjectionError {
+    ProjectionError::OutOfRange { parameter, value, allowed }
 }
 
 /// The same plane with a normal of length 1.
