@@ -361,7 +361,7 @@ fn vanishes<S: Space>(ours: VanishingPoint<S>, out: &Value, at: &str) -> Check {
         VanishingPoint::AtInfinity { direction } if infinite => {
             let [x, y] = numbers::<2>(&out["direction"])?;
             let cross = direction.x() * y - direction.y() * x;
-            let size = direction.length() * x.hypot(y);
+            let size = direction.length() * (x * x + y * y).sqrt();
             close("direction, across", cross / size, 0.0, TOLERANCE)
         }
         other => Err(format!("is {other:?}")),
