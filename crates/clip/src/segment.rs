@@ -112,7 +112,7 @@ impl Crossing {
             Blend::FromInner(t) => inner + (outer - inner) * t,
             Blend::FromOuter(t) => outer + (inner - outer) * t,
         };
-        HPoint::from_raw(volume.settle(volume.land(self.plane, point)) / scale)
+        HPoint::from_raw(volume.settle(volume.land(self.plane, point) / scale))
     }
 }
 
@@ -126,18 +126,22 @@ struct Span {
 impl Span {
     /// The span inside the volume, or the planes that reject it.
     fn of(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Result<Self, Outcode> {
-        let rejected = volume.outcode(p) & volume.outcode(q);
+        let (p_outside, q_outside) = (volume.outcode(p), volume.outcode(q));
+        let rejected = p_outside & q_outside;
         if !rejected.is_inside() || !p.is_finite() || !q.is_finite() {
             return Err(rejected);
         }
         let scale = safe_scale(&[p.raw(), q.raw()]);
         let (p, q) = (p.raw() * scale, q.raw() * scale);
         let mut span = Self::default();
-        for plane in volume.present().planes() {
+        for plane in (p_outside | q_outside).planes() {
             let (a, b) = (volume.distance(plane, p), volume.distance(plane, q));
-            if a < 0.0 && b >= 0.0 {
+            // What is a hair outside may come out at distance 0 when huge points are scaled down.
+            if p_outside.contains(plane) {
+                let (a, b) = (a.min(-f64::MIN_POSITIVE), b.max(0.0));
                 span.enter_by(Crossing { t: a / (a - b), blend: blend(b, a), plane });
-            } else if b < 0.0 && a >= 0.0 {
+            } else {
+                let (a, b) = (a.max(0.0), b.min(-f64::MIN_POSITIVE));
                 span.exit_by(Crossing { t: a / (a - b), blend: blend(a, b), plane });
             }
         }

@@ -121,18 +121,7 @@ pub fn clip_triangle(triangle: [HPoint<Clip>; 3], volume: &Volume) -> ClippedPol
     if Outcode::accepts(&codes) {
         return keep(triangle);
     }
-    let scale = safe_scale(&triangle.map(HPoint::raw));
-    if scale == 1.0 {
-        return cut(triangle, volume);
-    }
-    let scaled = triangle.map(|point| HPoint::from_raw(point.raw() * scale));
-    let mut polygon = cut(scaled, volume);
-    if let Ring::Cut(room) = &mut polygon.ring {
-        for vertex in room.vertices_mut() {
-            vertex.point = HPoint::from_raw(vertex.point.raw() / scale);
-        }
-    }
-    polygon
+    cut(triangle, volume)
 }
 
 fn keep(triangle: [HPoint<Clip>; 3]) -> ClippedPolygon {
@@ -155,7 +144,9 @@ fn corners([a, b, c]: [HPoint<Clip>; 3]) -> [ClipVertex; 3] {
 fn cut(triangle: [HPoint<Clip>; 3], volume: &Volume) -> ClippedPolygon {
     let (mut one, mut other) = (Room::default(), Room::default());
     let (mut ring, mut rest) = (&mut one, &mut other);
-    corners(triangle).into_iter().for_each(|corner| ring.push(corner));
+    let scale = safe_scale(&triangle.map(HPoint::raw));
+    let scaled = triangle.map(|point| HPoint::from_raw(point.raw() * scale));
+    corners(scaled).into_iter().for_each(|corner| ring.push(corner));
     let mut fates = Fates::default();
     for index in volume.present().planes() {
         if !cut_by(volume, index, ring.vertices(), rest) {
@@ -169,7 +160,7 @@ fn cut(triangle: [HPoint<Clip>; 3], volume: &Volume) -> ClippedPolygon {
         core::mem::swap(&mut ring, &mut rest);
     }
     for vertex in ring.vertices_mut() {
-        vertex.point = HPoint::from_raw(volume.settle(vertex.point.raw()));
+        vertex.point = HPoint::from_raw(volume.settle(vertex.point.raw() / scale));
     }
     // The zero vector is in every closed volume but is no point. Only triangles without an area in the image reach it.
     let is_point = |vertex: &ClipVertex| vertex.point.w() > 0.0;

@@ -10,6 +10,7 @@
 //! | [`Volume::ZERO_ONE`] | z ≥ 0 | w − z ≥ 0 | 0 … 1 |
 //! | [`Volume::ZERO_ONE_REVERSED`] | w − z ≥ 0 | z ≥ 0 | 1 … 0 |
 
+use crate::walk::SCALE_DOWN;
 use crate::{MAX_PLANES, Outcode, PlaneIndex};
 use core::fmt;
 use glam::DVec4;
@@ -151,7 +152,7 @@ impl Volume {
 
     #[cold]
     fn outcode_of_huge(&self, point: DVec4) -> Outcode {
-        if point.is_finite() { self.outcode_of(point * 1e-100) } else { self.present }
+        if point.is_finite() { self.outcode_of(point * SCALE_DOWN) } else { self.present }
     }
 
     /// Branch-free for the box, which is what arrays of points need. The sums are those of [`Self::distance`] without the

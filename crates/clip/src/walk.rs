@@ -64,10 +64,10 @@ pub(crate) fn blend(inner: f64, outer: f64) -> Blend {
 
 /// A power of two that makes sums and differences of these coordinates safe from overflow: 1 for all but huge ones.
 pub(crate) fn safe_scale<'a>(points: impl IntoIterator<Item = &'a DVec4>) -> f64 {
-    const HUGE: f64 = 1e270;
+    const HUGE: f64 = 1e290;
     let is_huge = points.into_iter().any(|p| p.abs().max_element() > HUGE);
-    if is_huge { DOWN } else { 1.0 }
+    if is_huge { SCALE_DOWN } else { 1.0 }
 }
 
-/// 2⁻²⁵⁶.
-const DOWN: f64 = f64::from_bits((1023 - 256) << 52);
+/// 2⁻⁶⁴: enough for a guard band of 2²⁰ and four terms, and exact.
+pub(crate) const SCALE_DOWN: f64 = f64::from_bits((1023 - 64) << 52);

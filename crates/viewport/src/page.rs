@@ -11,7 +11,7 @@
 //!   └─────────────────┘
 //! ```
 
-use crate::error::finite;
+use crate::error::{finite, positive};
 use crate::{Rectangle, ViewportError};
 
 impl Rectangle {
@@ -30,14 +30,16 @@ impl Rectangle {
     /// Without a gap neighbours share their borders exactly, so that the cells cover the rectangle without a seam.
     ///
     /// # Errors
-    /// If there are no columns or rows, or the gap is not finite, or the gaps leave no room.
+    /// If there are no columns or rows, or the gap is negative or not finite, or the gaps leave no room.
     pub fn grid(
         &self,
         columns: u32,
         rows: u32,
         gap: f64,
     ) -> Result<impl Iterator<Item = Self> + use<>, ViewportError> {
-        finite("gap", gap)?;
+        if finite("gap", gap)? != 0.0 {
+            positive("gap", gap)?;
+        }
         let across = Division::new("columns", columns, gap, self.x(), self.width())?;
         let along = Division::new("rows", rows, gap, self.y(), self.height())?;
         Ok((0..rows).flat_map(move |row| {
@@ -150,7 +152,7 @@ mod tests {
         let page = Rectangle::of_size(100.0, 100.0).expect("a page");
         assert!(page.grid(0, 1, 0.0).is_err());
         assert!(page.grid(3, 1, 50.0).is_err());
-        assert!(page.grid(1, 1, f64::NAN).is_err());
+        assert!(page.grid(1, 1, f64::NAN).is_err() && page.grid(2, 1, -1.0).is_err());
         assert!(page.grid(1, u32::MAX, 0.0).is_ok());
         assert!(page.shrunk(50.0).is_err());
         assert!(page.inset(0.0, [1.0, 1.0]).is_err());
