@@ -46,6 +46,7 @@ impl Document {
         let joints = document.accessor(&[0; 12], joint);
         let weight = json!({"componentType": 5126, "type": "VEC4", "count": 3});
         let weights = document.accessor(&floats(&[1.0, 0.0, 0.0, 0.0].repeat(3)), weight);
+        let moved = document.accessor(&floats(&[0.5; 9]), vec3(3));
         let identity: Vec<f32> = (0..16).map(|at| if at % 5 == 0 { 1.0 } else { 0.0 }).collect();
         let matrix = json!({"componentType": 5126, "type": "MAT4", "count": 1});
         let bind = document.accessor(&floats(&identity), matrix);
@@ -57,11 +58,13 @@ impl Document {
         document.json["accessors"][0]["sparse"] = json!({"count": 1,
             "indices": {"bufferView": at, "componentType": 5123}, "values": {"bufferView": 0, "byteOffset": 0}});
         document.json["meshes"][0]["name"] = json!("triangle");
+        document.json["meshes"][0]["weights"] = json!([0.5]);
         document.json["meshes"][0]["primitives"][0] = json!({"indices": 1, "material": 0, "mode": 4,
+            "targets": [{"POSITION": moved, "NORMAL": moved}],
             "attributes": {"POSITION": 0, "NORMAL": normals, "TEXCOORD_0": uvs, "COLOR_0": colors,
                 "JOINTS_0": joints, "WEIGHTS_0": weights}});
         document.json["nodes"] = json!([
-            {"mesh": 0, "skin": 0, "children": [1, 2], "name": "top"},
+            {"mesh": 0, "skin": 0, "weights": [1], "children": [1, 2], "name": "top"},
             {"translation": [0, 0, 1], "rotation": [0, 0, 0, 1], "scale": [1, 1, 1]},
             {"camera": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}]);
         document.json["skins"] =

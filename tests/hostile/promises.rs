@@ -58,6 +58,8 @@ fn check_primitive(model: &Model, primitive: &Primitive) -> Result<(), String> {
         primitive.weights.as_ref().map(Vec::len),
     ];
     let uvs = primitive.uvs.iter().map(Vec::len);
+    let targets = primitive.targets.iter().flat_map(|t| [&t.positions, &t.normals]).flatten();
+    must(targets.map(Vec::len).all(|n| n == vertices), "a target has another length")?;
     must(
         lengths.into_iter().flatten().chain(uvs).all(|n| n == vertices),
         "an array has another length",

@@ -13,6 +13,7 @@
 
 mod accessor;
 mod animation;
+mod attribute;
 mod buffers;
 mod camera;
 mod container;
@@ -104,6 +105,7 @@ fn build(
         ..Model::default()
     };
     drop_lost_references(&mut model, &usable);
+    material::warn_of_missing_texcoords(&model, warnings);
     scene::check_items(&model, source.limits)?;
     let shown = shown_meshes(&model);
     let Model { meshes, materials, textures, .. } = &model;

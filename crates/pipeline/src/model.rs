@@ -13,7 +13,7 @@ mod shown;
 pub use image::{Filter, Image, Mipmap, Sampler, Texture, Wrap};
 pub use instance::Instance;
 pub use material::{AlphaMode, Material, TextureUse};
-pub use mesh::{Mesh, Primitive, Topology};
+pub use mesh::{Mesh, MorphTarget, Primitive, Topology};
 pub use posed::Posed;
 
 use homog::{Affine, Model as ModelSpace};
@@ -64,6 +64,8 @@ pub struct Node {
     pub children: Vec<usize>,
     /// The mesh that is shown here.
     pub mesh: Option<usize>,
+    /// How much of each morph target of the mesh is shown here, if not as much as the mesh says.
+    pub weights: Option<Vec<f32>>,
     /// The skin that bends the mesh.
     pub skin: Option<usize>,
     /// The camera that looks from here along −z with y up.

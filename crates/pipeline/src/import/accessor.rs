@@ -54,6 +54,12 @@ impl<'a> Source<'a> {
         })
     }
 
+    /// Whether an accessor exists and has no bytes.
+    pub(super) fn is_empty(&self, accessor: usize) -> bool {
+        let json = self.root.accessors.get(accessor);
+        json.is_some_and(|json| json.buffer_view.is_none() && json.sparse.is_none())
+    }
+
     /// The first `N` components of every element as floats.
     pub(super) fn floats<const N: usize>(&self, of: &Elements<'_>) -> Result<Vec<[f32; N]>, Fault> {
         self.charge(of.accessor, of.count, 4 * N)?;

@@ -2,7 +2,7 @@
 
 use super::error::Fault;
 use super::warnings::Warnings;
-use crate::model::{AlphaMode, Material, TextureUse};
+use crate::model::{AlphaMode, Material, Model, TextureUse};
 use gltf::json::material::AlphaMode as JsonAlphaMode;
 use gltf::json::validation::Checked;
 use gltf::json::{Root, texture};
@@ -118,6 +118,21 @@ impl Reader<'_, '_> {
             uv_set: uv_set.map_or(info.tex_coord as usize, |set| set as usize),
             uv_map: transform.map_or(TextureUse::KEEP_UV, uv_map),
         })
+    }
+}
+
+/// Warns of primitives that lack the texture coordinates their material asks for.
+pub(super) fn warn_of_missing_texcoords(model: &Model, warnings: &mut Warnings) {
+    for (at, mesh) in model.meshes.iter().enumerate() {
+        for (part, primitive) in mesh.primitives.iter().enumerate() {
+            let material = primitive.material.map(|material| &model.materials[material]);
+            let used = material.and_then(|material| material.base_color_texture);
+            let missing = used.filter(|used| used.uv_set >= primitive.uvs.len());
+            if let Some(TextureUse { uv_set, .. }) = missing.filter(|_| primitive.count() > 0) {
+                let message = format!("its texture needs TEXCOORD_{uv_set}; it is shown without");
+                warnings.add(&format!("/meshes/{at}/primitives/{part}"), message);
+            }
+        }
     }
 }
 

@@ -4,13 +4,13 @@
 //! its look: one that cannot be read is left out with a warning.
 
 use super::accessor::Source;
+use super::attribute::{Attributes, INDICES, JOINTS, NORMAL, POSITION, Span, WEIGHTS};
 use super::elements::Elements;
 use super::error::{Fault, FaultKind};
 use super::warnings::Warnings;
 use super::{normals, topology};
-use crate::model::{Mesh, Primitive};
+use crate::model::{Mesh, MorphTarget, Primitive};
 use gltf::json;
-use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::mesh::Semantic;
 use gltf::json::validation::Checked;
 use std::ops::Range;
@@ -34,7 +34,8 @@ pub(super) fn meshes(source: &Source<'_>, warnings: &mut Warnings) -> Result<Vec
                 primitive => primitive?,
             });
         }
-        meshes.push(Mesh { name: json.name.clone(), primitives });
+        let weights = json.weights.clone().unwrap_or_default();
+        meshes.push(Mesh { name: json.name.clone(), primitives, weights });
     }
     Ok(meshes)
 }
@@ -61,7 +62,8 @@ impl<'a> Reader<'a, '_> {
         let used = shift_to_zero(&mut primitive.indices);
         primitive.positions = self.source.floats(&positions.only(used.clone()))?;
         self.drop_lost_places(&mut primitive);
-        self.attributes(&mut primitive, vertices, &used)?;
+        self.attributes(&mut primitive, Span { vertices, used })?;
+        self.mend_normals(&mut primitive);
         primitive.material = self.material();
         Ok(primitive)
     }
@@ -72,23 +74,18 @@ impl<'a> Reader<'a, '_> {
             self.warnings.add(&self.pointer, "there are no positions; the primitive is left out");
             return Ok(None);
         };
-        if self.is_draco() && self.is_empty(accessor) {
+        if self.is_draco() && self.source.is_empty(accessor) {
             return Err(Fault::no_data(&self.pointer, "the data is compressed by Draco"));
         }
-        use ComponentType::{F32, I8, I16, U8, U16};
-        let format = Format { shapes: &[Type::Vec3], components: &[F32, I8, U8, I16, U16] };
-        Ok(Some(self.elements("POSITION", accessor, &format)?))
+        let pointer = format!("{}/attributes/POSITION", self.pointer);
+        let elements = self.source.elements(accessor, &pointer)?;
+        POSITION.check(&elements, &pointer)?;
+        Ok(Some(elements))
     }
 
     fn is_draco(&self) -> bool {
         let extensions = self.json.extensions.as_ref();
         extensions.is_some_and(|e| e.others.contains_key("KHR_draco_mesh_compression"))
-    }
-
-    /// Whether an accessor exists and has no data of its own.
-    fn is_empty(&self, accessor: usize) -> bool {
-        let accessor = self.source.root.accessors.get(accessor);
-        accessor.is_some_and(|json| json.buffer_view.is_none() && json.sparse.is_none())
     }
 
     /// The vertices in the order in which they are drawn; without indices that of the file.
@@ -98,11 +95,9 @@ impl<'a> Reader<'a, '_> {
             self.source.charge(accessor, vertices, 4)?;
             return Ok((0..u32::try_from(vertices).unwrap_or(u32::MAX)).collect());
         };
-        use ComponentType::{U8, U16, U32};
-        let format = Format { shapes: &[Type::Scalar], components: &[U8, U16, U32] };
         let pointer = format!("{}/indices", self.pointer);
         let elements = self.source.elements(accessor.value(), &pointer)?;
-        format.check(&elements, "indices", &pointer)?;
+        INDICES.check(&elements, &pointer)?;
         self.source.indices(&elements)
     }
 
@@ -132,84 +127,41 @@ impl<'a> Reader<'a, '_> {
         self.warnings.add(&format!("{}/attributes/POSITION", self.pointer), message);
     }
 
-    /// Reads the attributes of the vertices in the range `used`; each should have as many elements as there are
-    /// `vertices`.
-    fn attributes(
-        &mut self,
-        primitive: &mut Primitive,
-        vertices: usize,
-        used: &Range<usize>,
-    ) -> Result<(), Fault> {
-        use ComponentType::{F32, I8, I16, U8, U16};
-        let source = self.source;
-        let span = Span { vertices, used: used.clone() };
-        let normal = Format { shapes: &[Type::Vec3], components: &[F32, I8, I16] };
-        primitive.normals =
-            self.optional(Semantic::Normals, &normal, &span, |e| source.floats(&e))?;
-        self.mend_normals(primitive);
-        let uv = Format { shapes: &[Type::Vec2], components: &[F32, I8, U8, I16, U16] };
+    /// Reads everything about the vertices but their positions.
+    fn attributes(&mut self, primitive: &mut Primitive, span: Span) -> Result<(), Fault> {
+        let json = self.json;
+        let named = |semantic: Semantic| {
+            let pointer = format!("{}/attributes/{}", self.pointer, semantic.to_string());
+            (json.attributes.get(&Checked::Valid(semantic)).map(json::Index::value), pointer)
+        };
+        let mut attributes = Attributes {
+            source: self.source,
+            span,
+            has_data_elsewhere: self.is_draco(),
+            warnings: &mut *self.warnings,
+        };
+        let (normal, pointer) = named(Semantic::Normals);
+        primitive.normals = attributes.read(normal, &pointer, &NORMAL, |s, e| s.floats(&e))?;
         for set in 0..UV_SETS {
-            let read =
-                self.optional(Semantic::TexCoords(set), &uv, &span, |e| source.floats(&e))?;
-            let Some(mut uvs) = read else { break };
-            self.mend_uvs(set, &mut uvs);
+            let (texcoord, pointer) = named(Semantic::TexCoords(set));
+            let Some(uvs) = attributes.texcoords(texcoord, &pointer)? else { break };
             primitive.uvs.push(uvs);
         }
-        let color = Format { shapes: &[Type::Vec3, Type::Vec4], components: &[F32, U8, U16] };
-        primitive.colors =
-            self.optional(Semantic::Colors(0), &color, &span, |e| colors(source, e))?;
-        let joint = Format { shapes: &[Type::Vec4], components: &[U8, U16] };
-        primitive.joints =
-            self.optional(Semantic::Joints(0), &joint, &span, |e| source.shorts(&e))?;
-        let weight = Format { shapes: &[Type::Vec4], components: &[F32, U8, U16] };
-        primitive.weights =
-            self.optional(Semantic::Weights(0), &weight, &span, |e| source.floats(&e))?;
+        let (color, pointer) = named(Semantic::Colors(0));
+        primitive.colors = attributes.colors(color, &pointer)?;
+        let (joints, pointer) = named(Semantic::Joints(0));
+        primitive.joints = attributes.read(joints, &pointer, &JOINTS, |s, e| s.shorts(&e))?;
+        let (weights, pointer) = named(Semantic::Weights(0));
+        primitive.weights = attributes.read(weights, &pointer, &WEIGHTS, |s, e| s.floats(&e))?;
+        for (at, json) in json.targets.iter().flatten().enumerate() {
+            let pointer = format!("{}/targets/{at}", self.pointer);
+            primitive.targets.push(target(&mut attributes, json, &pointer)?);
+        }
         Ok(())
-    }
-
-    /// An attribute that the picture can do without.
-    fn optional<T>(
-        &mut self,
-        semantic: Semantic,
-        format: &Format,
-        span: &Span,
-        read: impl Fn(Elements<'_>) -> Result<Vec<T>, Fault>,
-    ) -> Result<Option<Vec<T>>, Fault> {
-        let name = semantic.to_string();
-        let Some(accessor) = self.attribute(semantic) else { return Ok(None) };
-        if self.is_draco() && self.is_empty(accessor) {
-            return Ok(None);
-        }
-        let checked = self.elements(&name, accessor, format).and_then(|elements| {
-            if elements.count == span.vertices {
-                return read(elements.only(span.used.clone()));
-            }
-            let problem = format!("{} values for {} vertices", elements.count, span.vertices);
-            Err(Fault::invalid(&format!("{}/attributes/{name}", self.pointer), problem))
-        });
-        match checked {
-            Err(fault) if fault.is_soft() => {
-                self.warnings.soft(&fault, &format!("the attribute {name} is left out"));
-                Ok(None)
-            }
-            values => values.map(Some),
-        }
     }
 
     fn attribute(&self, semantic: Semantic) -> Option<usize> {
         self.json.attributes.get(&Checked::Valid(semantic)).map(json::Index::value)
-    }
-
-    fn elements(
-        &self,
-        name: &str,
-        accessor: usize,
-        format: &Format,
-    ) -> Result<Elements<'a>, Fault> {
-        let pointer = format!("{}/attributes/{name}", self.pointer);
-        let elements = self.source.elements(accessor, &pointer)?;
-        format.check(&elements, name, &pointer)?;
-        Ok(elements)
     }
 
     fn mend_normals(&mut self, primitive: &mut Primitive) {
@@ -227,19 +179,6 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    fn mend_uvs(&mut self, set: u32, uvs: &mut [[f32; 2]]) {
-        let mut mended = 0;
-        for uv in uvs.iter_mut().filter(|uv| !(uv[0].is_finite() && uv[1].is_finite())) {
-            *uv = [0.0; 2];
-            mended += 1;
-        }
-        if mended > 0 {
-            let pointer = format!("{}/attributes/TEXCOORD_{set}", self.pointer);
-            self.warnings
-                .add(&pointer, format!("{mended} texture coordinates are no numbers; they are 0"));
-        }
-    }
-
     fn material(&mut self) -> Option<usize> {
         let material = self.json.material?.value();
         let count = self.source.root.materials.len();
@@ -253,10 +192,18 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-/// The vertices of a primitive, and which of them are used.
-struct Span {
-    vertices: usize,
-    used: Range<usize>,
+/// The differences of one morph target.
+fn target(
+    attributes: &mut Attributes<'_, '_>,
+    json: &json::mesh::MorphTarget,
+    pointer: &str,
+) -> Result<MorphTarget, Fault> {
+    let mut read = |accessor: Option<json::Index<_>>, name: &str| {
+        let accessor = accessor.map(|accessor| accessor.value());
+        attributes.read(accessor, &format!("{pointer}/{name}"), &POSITION, |s, e| s.floats(&e))
+    };
+    let positions = read(json.positions, "POSITION")?;
+    Ok(MorphTarget { positions, normals: read(json.normals, "NORMAL")? })
 }
 
 /// Counts the indices from the lowest one on; gives the range they came from. Parts of a model often share one long
@@ -278,54 +225,4 @@ fn retain_items(primitive: &mut Primitive, keep: impl Fn(&[u32]) -> bool) -> usi
     let items = indices.chunks_exact(topology.corners());
     *indices = items.filter(|item| keep(item)).flatten().copied().collect();
     (before - indices.len()) / topology.corners()
-}
-
-/// Colours of three or four components as four, each in [0, 1]. Integers are normalised even if the file forgot to say
-/// so: there is no other way to read them.
-fn colors(source: &Source<'_>, mut elements: Elements<'_>) -> Result<Vec<[f32; 4]>, Fault> {
-    elements.normalized = true;
-    let mut colors: Vec<[f32; 4]> = source.floats(&elements)?;
-    for color in &mut colors {
-        if elements.shape == Type::Vec3 {
-            color[3] = 1.0;
-        }
-        // What is not a number becomes 0.
-        *color = color.map(|x| if x > 0.0 { x.min(1.0) } else { 0.0 });
-    }
-    Ok(colors)
-}
-
-/// The formats an attribute may have.
-struct Format {
-    shapes: &'static [Type],
-    components: &'static [ComponentType],
-}
-
-impl Format {
-    fn check(&self, elements: &Elements<'_>, name: &str, pointer: &str) -> Result<(), Fault> {
-        if self.shapes.contains(&elements.shape) && self.components.contains(&elements.component) {
-            return Ok(());
-        }
-        let list = |words: Vec<String>| words.join(" or ");
-        let shapes = list(self.shapes.iter().map(|s| shape_name(*s).to_owned()).collect());
-        let components = list(self.components.iter().map(|c| c.as_gl_enum().to_string()).collect());
-        let problem = format!(
-            "{name} must be {shapes} of component type {components}, not {} of {}",
-            shape_name(elements.shape),
-            elements.component.as_gl_enum()
-        );
-        Err(Fault::invalid(pointer, problem))
-    }
-}
-
-fn shape_name(shape: Type) -> &'static str {
-    match shape {
-        Type::Scalar => "SCALAR",
-        Type::Vec2 => "VEC2",
-        Type::Vec3 => "VEC3",
-        Type::Vec4 => "VEC4",
-        Type::Mat2 => "MAT2",
-        Type::Mat3 => "MAT3",
-        Type::Mat4 => "MAT4",
-    }
 }

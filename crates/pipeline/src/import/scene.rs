@@ -47,6 +47,7 @@ fn node(document: &Document, at: usize, warnings: &mut Warnings) -> Result<Node,
         parent: None,
         children,
         mesh,
+        weights: json.weights.clone(),
         skin,
         camera,
     })

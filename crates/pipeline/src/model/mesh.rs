@@ -7,6 +7,8 @@ pub struct Mesh {
     pub name: Option<String>,
     /// The parts, each with one material.
     pub primitives: Vec<Primitive>,
+    /// How much of each morph target is shown, unless a node says otherwise; targets beyond the list are not shown.
+    pub weights: Vec<f32>,
 }
 
 /// Vertices with one material, and what to draw of them.
@@ -31,8 +33,20 @@ pub struct Primitive {
     pub joints: Option<Vec<[u16; 4]>>,
     /// The weights of those joints.
     pub weights: Option<Vec<[f32; 4]>>,
+    /// Differences that can be added to positions and normals.
+    pub targets: Vec<MorphTarget>,
     /// The material's number in the model; `None` for the default material.
     pub material: Option<usize>,
+}
+
+/// Differences that are added, each times a weight, to the vertices of a primitive. Arrays that are present have one
+/// entry per vertex.
+#[derive(Clone, Debug, Default)]
+pub struct MorphTarget {
+    /// Differences of positions.
+    pub positions: Option<Vec<[f32; 3]>>,
+    /// Differences of normals.
+    pub normals: Option<Vec<[f32; 3]>>,
 }
 
 impl Primitive {
