@@ -1,4 +1,5 @@
-//! The exercises of the chapter, and the misprints of the sources: the right form must come out, the printed one must not.
+//! The exercises of the chapter, and the misprints of the sources: the right form must come out, the printed one must
+//! not.
 
 use crate::Runner;
 use crate::chain::lookat;

@@ -1,11 +1,12 @@
 //! The shared test vectors: one JSON file a topic, computed elsewhere with exact or 50-digit arithmetic.
 //!
-//! The folder is `$VECTORS`, or `shared/vectors` beside the project. Every file of it is listed: with what its runner found,
-//! or as pending with the reason, and a file nobody knows is a failure, so that none is left out in silence. Arguments that
-//! are not flags choose files by a part of their name, as in `cargo test`.
+//! The folder is `$VECTORS`, or `shared/vectors` beside the project. Every file of it is listed: with what its runner
+//! found, or as pending with the reason, and a file nobody knows is a failure, so that none is left out in silence.
+//! Arguments that are not flags choose files by a part of their name, as in `cargo test`.
 //!
-//! A runner judges one case: `fn(in, out) -> Result<(), String>`, where the error says what differs. Cases whose exact
-//! answer rests on a tie are marked `"fragile": true` in the files; they are run, for they must not panic, but not judged.
+//! A runner judges one case: `fn(in, out) -> Result<(), String>`, where the error says what differs. Cases whose
+//! exact answer rests on a tie are marked `"fragile": true` in the files; they are run, for they must not panic, but
+//! not judged.
 
 #![allow(clippy::print_stdout, reason = "a test program speaks on its standard output")]
 #![allow(unreachable_pub, reason = "the modules of a program have no other outside")]

@@ -1,7 +1,7 @@
 //! Why clipping comes before the divide: a rail that runs from ahead of the camera to behind it.
 //!
-//! Run it with `cargo run -p clip --example behind_the_eye`. It prints where the ends of the rail come out, once divided right
-//! away and once clipped first, and draws both pictures.
+//! Run it with `cargo run -p clip --example behind_the_eye`. It prints where the ends of the rail come out, once
+//! divided right away and once clipped first, and draws both pictures.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
 
 use clip::{Volume, clip_segment};

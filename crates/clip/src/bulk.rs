@@ -1,7 +1,7 @@
 //! Arrays of points: projected and given outcodes in one pass.
 //!
-//! Most meshes are wholly visible or wholly hidden. [`Extent`] tells in two comparisons, and the triangles of the rest are
-//! sorted by the outcodes of their corners before any of them is cut:
+//! Most meshes are wholly visible or wholly hidden. [`Extent`] tells in two comparisons, and the triangles of the
+//! rest are sorted by the outcodes of their corners before any of them is cut:
 //!
 //! ```
 //! use clip::{Extent, Outcode, Volume};

@@ -15,16 +15,17 @@ use alloc::vec::Vec;
 use homog::{Plane, Point, Space};
 
 impl<S: Space> Outline<S> {
-    /// The triangles of the cut face, as seen from the side that was cut away: counter-clockwise there, with the plane's normal pointing
-    /// away from the viewer.
+    /// The triangles of the cut face, as seen from the side that was cut away: counter-clockwise there, with the
+    /// plane's normal pointing away from the viewer.
     ///
-    /// What lies within an odd number of loops is filled, whichever way they run; loops that cross each other, which those of a
-    /// solid do not, come out covered in part. The time grows with the square of the number of points.
+    /// What lies within an odd number of loops is filled, whichever way they run; loops that cross each other, which
+    /// those of a solid do not, come out covered in part. The time grows with the square of the number of points.
     ///
     /// ```
     /// use clip::Outline;
     /// use homog::{Normal, Plane, Point, World};
-    /// let square = |r: f64| [(-r, -r), (r, -r), (r, r), (-r, r)].map(|(x, y)| Point::<World>::new(x, y, 0.0)).to_vec();
+    /// let corner = |x: f64, y: f64| Point::<World>::new(x, y, 0.0);
+    /// let square = |r: f64| vec![corner(-r, -r), corner(r, -r), corner(r, r), corner(-r, r)];
     /// let frame = Outline { loops: vec![square(2.0), square(1.0)], open: vec![] };
     /// let cap = frame.cap(Plane::through(Point::ORIGIN, Normal::new(0.0, 0.0, -1.0)));
     /// let area = |[a, b, c]: [Point<World>; 3]| (b - a).cross(c - a).z() / 2.0;
@@ -42,7 +43,8 @@ impl<S: Space> Outline<S> {
     }
 }
 
-/// All points of the outline in two coordinates of the plane, turned so that they are seen from the side that was cut away.
+/// All points of the outline in two coordinates of the plane, turned so that they are seen from the side that was cut
+/// away.
 struct Chart {
     places: Vec<[f64; 2]>,
 }
@@ -136,8 +138,8 @@ impl Chart {
         outline
     }
 
-    /// The place in the outline of a corner that can be seen from a point inside: going right from the point, the nearer end of the
-    /// first edge that is met, or a corner that stands in the way of seeing it.
+    /// The place in the outline of a corner that can be seen from a point inside: going right from the point, the
+    /// nearer end of the first edge that is met, or a corner that stands in the way of seeing it.
     fn bridge(&self, outline: &[usize], point: usize) -> Option<usize> {
         let [x, y] = self.places[point];
         let mut nearest: Option<(f64, usize)> = None;

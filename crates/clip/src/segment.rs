@@ -56,7 +56,8 @@ impl ClippedSegment {
 
 /// The part of the segment from `p` to `q` inside a volume; `None` if there is none or an end is not finite.
 ///
-/// It is cut before the divide, so that segments that pass w = 0, start behind the eye or end at infinity come out right.
+/// It is cut before the divide, so that segments that pass w = 0, start behind the eye or end at infinity come out
+/// right.
 ///
 /// ```
 /// use clip::{PlaneIndex, Volume, clip_segment};
@@ -176,8 +177,8 @@ impl Span {
     fn points(self, p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Option<ClippedSegment> {
         let start = self.enter.map_or(p, |enter| enter.point(q, p, volume));
         let end = self.exit.map_or(q, |exit| exit.point(p, q, volume));
-        // The zero vector is in every closed volume but is no point. A segment that ends there runs straight at the eye:
-        // all of it has the image of its other end.
+        // The zero vector is in every closed volume but is no point. A segment that ends there runs straight at the
+        // eye: all of it has the image of its other end.
         let (start, end) = match (start.w() > 0.0, end.w() > 0.0) {
             (true, true) => (start, end),
             (true, false) => (start, start),

@@ -98,8 +98,9 @@ impl ClippedPolygon {
 /// The part of a triangle inside a volume (CL-3; Sutherland and Hodgman, 1974).
 ///
 /// It is cut in homogeneous space, before the divide, so that triangles that pass behind the eye or have vertices at
-/// infinity come out right. Nothing is allocated. A triangle with a vertex that is not finite gives nothing, and so does one
-/// of which only a vertex or an edge touches the volume from outside, or that is seen edge-on from the eye itself (w = 0).
+/// infinity come out right. Nothing is allocated. A triangle with a vertex that is not finite gives nothing, and so
+/// does one of which only a vertex or an edge touches the volume from outside, or that is seen edge-on from the eye
+/// itself (w = 0).
 ///
 /// ```
 /// use clip::{Volume, clip_triangle};
@@ -139,8 +140,8 @@ fn corners([a, b, c]: [HPoint<Clip>; 3]) -> [ClipVertex; 3] {
     ]
 }
 
-/// Every plane looks at every vertex, also where the outcodes of this triangle would allow to leave it out: so the fate of
-/// an edge depends on the edge alone, and a neighbour decides alike.
+/// Every plane looks at every vertex, also where the outcodes of this triangle would allow to leave it out: so the
+/// fate of an edge depends on the edge alone, and a neighbour decides alike.
 fn cut(triangle: [HPoint<Clip>; 3], volume: &Volume) -> ClippedPolygon {
     let (mut one, mut other) = (Room::default(), Room::default());
     let (mut ring, mut rest) = (&mut one, &mut other);

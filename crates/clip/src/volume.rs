@@ -33,7 +33,10 @@ pub enum VolumeError {
     #[error("a volume holds {MAX_PLANES} planes at most, six for the box and ten more")]
     TooManyPlanes,
     /// A guard band has a factor out of its range.
-    #[error("guard band factor {name} = {value} is not allowed: it must lie from 1 to {max}", max = Volume::MAX_GUARD_BAND)]
+    #[error(
+        "guard band factor {name} = {value} is not allowed: it must lie from 1 to {max}",
+        max = Volume::MAX_GUARD_BAND
+    )]
     GuardBand {
         /// The parameter, `kx` or `ky`.
         name: &'static str,
@@ -155,8 +158,8 @@ impl Volume {
         if point.is_finite() { self.outcode_of(point * SCALE_DOWN) } else { self.present }
     }
 
-    /// Branch-free for the box, which is what arrays of points need. The sums are those of [`Self::distance`] without the
-    /// coefficients that are 0.
+    /// Branch-free for the box, which is what arrays of points need. The sums are those of [`Self::distance`] without
+    /// the coefficients that are 0.
     #[inline]
     fn outcode_of(&self, point: DVec4) -> Outcode {
         let [kx, ky] = [self.planes[0].w * point.w, self.planes[2].w * point.w];

@@ -20,7 +20,8 @@ fn seen(x: f64, y: f64, z: f64) -> HPoint<Clip> {
     view_to_clip().point(Point::new(x, y, z))
 }
 
-/// M28, C54: clipping is against −w ≤ x, y, z ≤ w, before the division. In a cube after it a point behind the eye looks visible.
+/// M28, C54: clipping is against −w ≤ x, y, z ≤ w, before the division. In a cube after it a point behind the eye
+/// looks visible.
 #[test]
 fn misprint_m28_the_cube_exists_only_after_the_division() {
     let behind = seen(0.1, 0.1, 5.0);
@@ -32,8 +33,8 @@ fn misprint_m28_the_cube_exists_only_after_the_division() {
     assert!(ahead.x() > 1.0 && clip_point(ahead, &Volume::CHAPTER).is_some());
 }
 
-/// C36, PL-2: a segment through the plane of the eye is torn by the divide. Drawn between the divided ends it covers just what
-/// is not visible; clipped first it ends where it leaves the view.
+/// C36, PL-2: a segment through the plane of the eye is torn by the divide. Drawn between the divided ends it covers
+/// just what is not visible; clipped first it ends where it leaves the view.
 #[test]
 fn a_segment_that_passes_the_eye_ends_at_the_border_of_the_view() {
     // On the floor, from three metres ahead to three metres behind.
@@ -55,7 +56,8 @@ fn points_on_both_sides_of_the_eye_are_far_apart_in_the_picture() {
     assert!(clip_segment(seen(0.5, 0.5, -1e-9), seen(0.5, 0.5, 1e-9), &Volume::CHAPTER).is_none());
 }
 
-/// C31, C47: clipping in four dimensions and in the picture agree: the cut point divides to where the image leaves the square.
+/// C31, C47: clipping in four dimensions and in the picture agree: the cut point divides to where the image leaves
+/// the square.
 #[test]
 fn the_cut_before_the_division_is_the_cut_after_it() {
     let (p, q) = (seen(0.0, 0.0, -2.0), seen(6.0, 2.0, -4.0));
@@ -104,8 +106,8 @@ fn the_raw_sign_of_m_per_must_be_turned_first() {
     assert!(clip_point(HPoint::from_raw(-raw.raw()), &Volume::CHAPTER).is_some());
 }
 
-/// CL-1: points at infinity are directions. A line that runs to its vanishing point is visible up to the far plane, or all the way
-/// if there is none.
+/// CL-1: points at infinity are directions. A line that runs to its vanishing point is visible up to the far plane,
+/// or all the way if there is none.
 #[test]
 fn lines_to_infinity_end_at_the_far_plane_or_their_vanishing_point() {
     let ahead = view_to_clip().direction(-homog::Vector::Z);

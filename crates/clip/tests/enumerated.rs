@@ -29,8 +29,9 @@ fn signed_area(ring: &[[f64; 2]]) -> f64 {
     ring.iter().zip(next).map(|(a, b)| (a[0] * b[1] - a[1] * b[0]) / 2.0).sum()
 }
 
-/// The area of a triangle's part in [−1, 1]², found in another way: by integrating the length of its horizontal cuts, which is
-/// linear between the heights where something happens. It is exact on trapezoids, so that the midpoint rule is.
+/// The area of a triangle's part in [−1, 1]², found in another way: by integrating the length of its horizontal cuts,
+/// which is linear between the heights where something happens. It is exact on trapezoids, so that the midpoint rule
+/// is.
 fn area_by_cuts(corners: [[f64; 2]; 3]) -> f64 {
     let edges = [0, 1, 2].map(|i| (corners[i], corners[(i + 1) % 3]));
     let mut heights: Vec<f64> = vec![-1.0, 1.0];

@@ -196,7 +196,8 @@ proptest! {
         prop_assert_eq!((again.t0, again.t1, again.enter, again.exit), (0.0, 1.0, None, None));
     }
 
-    /// Length is conserved: what lies before, inside and behind makes up the whole, and nothing before or behind is inside.
+    /// Length is conserved: what lies before, inside and behind makes up the whole, and nothing before or behind is
+    /// inside.
     #[test]
     fn points_of_a_segment_are_inside_exactly_between_its_cuts(p in place(), q in place(), t in 0.0..1.0) {
         let inside = clip_point(p.lerp(q, t), &Volume::CHAPTER).is_some();
@@ -225,7 +226,11 @@ proptest! {
 
     /// A neighbour of the volume, moved by one plane at a time, is rejected by that plane.
     #[test]
-    fn a_shape_behind_one_plane_is_rejected_by_it(corners in [place(), place(), place()], axis in 0..3_usize, low: bool) {
+    fn a_shape_behind_one_plane_is_rejected_by_it(
+        corners in [place(), place(), place()],
+        axis in 0..3_usize,
+        low: bool,
+    ) {
         let moved = corners.map(|corner| {
             let mut raw = corner.raw();
             raw[axis] = if low { -1.5 - raw[axis].abs() } else { 1.5 + raw[axis].abs() };

@@ -51,8 +51,8 @@
 //! # Ok::<(), viewport::ViewportError>(())
 //! ```
 //!
-//! Bad parameters are a [`ViewportError`] that names them. Nothing here panics, and nothing that comes out of finite input is infinite or
-//! NaN.
+//! Bad parameters are a [`ViewportError`] that names them. Nothing here panics, and nothing that comes out of finite
+//! input is infinite or NaN.
 #![no_std]
 
 #[cfg(test)]

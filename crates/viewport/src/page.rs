@@ -51,8 +51,8 @@ impl Rectangle {
         }))
     }
 
-    /// A rectangle of a fraction of the width and height, at the fractions `at` of the room that is left: `inset(0.25, [1.0, 1.0])` is a
-    /// quarter of each side in the corner of greatest coordinates.
+    /// A rectangle of a fraction of the width and height, at the fractions `at` of the room that is left:
+    /// `inset(0.25, [1.0, 1.0])` is a quarter of each side in the corner of greatest coordinates.
     ///
     /// # Errors
     /// If a number is not finite, or the fraction is not greater than 0.
@@ -62,8 +62,8 @@ impl Rectangle {
         Self::new(x, self.y() + (self.height() - height) * at[1], width, height)
     }
 
-    /// The rectangle with its borders rounded to whole numbers, so that it consists of whole pixels. Rectangles that shared a
-    /// border still do.
+    /// The rectangle with its borders rounded to whole numbers, so that it consists of whole pixels. Rectangles that
+    /// shared a border still do.
     ///
     /// # Errors
     /// If nothing is left of it.

@@ -167,8 +167,8 @@ impl DrawingScale {
         Ok(Self { paper, thing })
     }
 
-    /// The largest standard scale at which a thing of this size fits on this room, both in the same unit; `None` if it is too
-    /// large for all of them, or a size is no number.
+    /// The largest standard scale at which a thing of this size fits on this room, both in the same unit; `None` if
+    /// it is too large for all of them, or a size is no number.
     #[must_use]
     pub fn largest_standard(thing: [f64; 2], room: [f64; 2]) -> Option<Self> {
         let fits = |scale: &&Self| {
@@ -189,8 +189,8 @@ impl DrawingScale {
         length * f64::from(self.paper) / f64::from(self.thing)
     }
 
-    /// How long what is this long on paper is in truth, in the same unit. The size of a viewport, taken so, is the window an
-    /// orthographic projection needs to be drawn to scale.
+    /// How long what is this long on paper is in truth, in the same unit. The size of a viewport, taken so, is the
+    /// window an orthographic projection needs to be drawn to scale.
     #[must_use]
     pub fn to_thing(self, length: f64) -> f64 {
         length * f64::from(self.thing) / f64::from(self.paper)

@@ -64,8 +64,9 @@ impl Viewport {
         Unprojector { viewport: *self, screen_to_source: Projective::from_raw(raw) }
     }
 
-    /// The map to put after the projection so that `area`, in pixels of this viewport's convention, fills the whole view: a pick
-    /// matrix, as gluPickMatrix makes it, or the sub-view of a tile. What is outside of the area is outside of the volume then.
+    /// The map to put after the projection so that `area`, in pixels of this viewport's convention, fills the whole
+    /// view: a pick matrix, as gluPickMatrix makes it, or the sub-view of a tile. What is outside of the area is
+    /// outside of the volume then.
     ///
     /// # Errors
     /// If the area is so small against the viewport that the factors are no finite numbers.
@@ -109,8 +110,8 @@ impl<S: Space> Unprojector<S> {
         self.screen_to_source.direction(Vector::Z)
     }
 
-    /// The ray of a place in the picture (UN-2), given the canonical depths of the near and the far plane: `[1.0, -1.0]` in the
-    /// chapter's volume, `[-1.0, 1.0]` in OpenGL's, `[0.0, 1.0]` in Direct3D's.
+    /// The ray of a place in the picture (UN-2), given the canonical depths of the near and the far plane: `[1.0,
+    /// -1.0]` in the chapter's volume, `[-1.0, 1.0]` in OpenGL's, `[0.0, 1.0]` in Direct3D's.
     ///
     /// `None` where there is no such ray: the map is singular or something is not finite.
     #[must_use]

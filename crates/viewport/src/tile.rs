@@ -58,8 +58,8 @@ pub fn tiles(
 }
 
 impl Viewport {
-    /// This viewport as an image that is only the tile sees it: moved by whole pixels and otherwise the same, so that the parts show
-    /// together what the whole would have shown.
+    /// This viewport as an image that is only the tile sees it: moved by whole pixels and otherwise the same, so that
+    /// the parts show together what the whole would have shown.
     #[must_use]
     pub fn for_tile(&self, tile: Tile) -> Self {
         let (area, part) = (self.area(), tile.area());

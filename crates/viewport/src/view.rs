@@ -6,10 +6,10 @@ use homog::{Affine, Ndc, Point, Screen, Vector};
 
 /// A rectangle of pixels on which the canonical square [−1, 1]² is drawn, and the range depth goes to.
 ///
-/// The rectangle is counted in whole pixels from the image's corner: `x = 10, width = 5` are pixels 10 to 14, whatever
-/// the convention. The convention decides the coordinates: those five pixels cover [10, 15] with half-integer centres and
-/// [9½, 14½] with integer ones. y counts from the lowest row if it runs up, from the topmost if it runs down; in both cases
-/// y = +1 of the canonical square is at the upper border of the picture.
+/// The rectangle is counted in whole pixels from the image's corner: `x = 10, width = 5` are pixels 10 to 14,
+/// whatever the convention. The convention decides the coordinates: those five pixels cover [10, 15] with
+/// half-integer centres and [9½, 14½] with integer ones. y counts from the lowest row if it runs up, from the topmost
+/// if it runs down; in both cases y = +1 of the canonical square is at the upper border of the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Viewport {
     area: Rectangle,

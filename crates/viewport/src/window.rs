@@ -13,7 +13,8 @@ use crate::error::interval;
 use glam::{DMat3, DVec2};
 use homog::Homography;
 
-/// A rectangle by its limits [min, max] on each axis. A mirrored one, with max < min, is allowed: it mirrors the picture.
+/// A rectangle by its limits [min, max] on each axis. A mirrored one, with max < min, is allowed: it mirrors the
+/// picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Limits {
     /// From and to on the x axis.
@@ -45,8 +46,8 @@ impl WindowToViewport {
     /// The map that takes the sides of `window` to the sides of `viewport`.
     ///
     /// # Errors
-    /// If a limit is not finite, the window or the viewport has no width or no height, or they are so far apart in size that
-    /// the factors are no finite numbers.
+    /// If a limit is not finite, the window or the viewport has no width or no height, or they are so far apart in
+    /// size that the factors are no finite numbers.
     pub fn new(window: Limits, viewport: Limits) -> Result<Self, ViewportError> {
         interval("window's x", window.x)?;
         interval("window's y", window.y)?;
@@ -94,8 +95,8 @@ impl WindowToViewport {
         self.homography().raw().transform_point2(point.into()).into()
     }
 
-    /// The three factors of the chain, in the order in which a point passes through them: T(−xw min, −yw min) to the origin,
-    /// S(sx, sy), T(xv min, yv min) to its place.
+    /// The three factors of the chain, in the order in which a point passes through them: T(−xw min, −yw min) to the
+    /// origin, S(sx, sy), T(xv min, yv min) to its place.
     ///
     /// Both signs of the first are minus; one of the sources prints T(−xw min, +yw min) (misprint M18).
     #[must_use]

@@ -1,4 +1,5 @@
-//! Exercises of the chapter and misprints of the sources that belong to viewports: the printed form fails, the right one passes.
+//! Exercises of the chapter and misprints of the sources that belong to viewports: the printed form fails, the right
+//! one passes.
 
 use glam::{DMat3, DMat4, DVec2, DVec4};
 use homog::{Affine, Hom2, Homography, Ndc, Point, Projective, Vector, View};
@@ -61,8 +62,8 @@ fn misprint_m18_the_chain_moves_the_window_to_the_origin_by_minus_and_minus() {
     assert_ne!(printed.then(scale).then(to_place).apply(corner).divide(), Some([0.0, 0.0]));
 }
 
-/// M21: gluOrtho2D takes the four borders of a window; the box of six is glOrtho's. With near −1 and far 1 they are the same map
-/// up to depth, and with any other near and far they differ in depth only.
+/// M21: gluOrtho2D takes the four borders of a window; the box of six is glOrtho's. With near −1 and far 1 they are
+/// the same map up to depth, and with any other near and far they differ in depth only.
 #[test]
 fn misprint_m21_four_borders_make_a_window_and_six_a_box() {
     let flat = orthographic([-2.0, 4.0], [-1.0, 2.0], [1.0, -1.0]);

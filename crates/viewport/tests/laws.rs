@@ -92,7 +92,8 @@ proptest! {
         let (ratio, chain) = (map.by_ratio(p), map.by_chain(p));
         for i in 0..2 {
             prop_assert!((ratio[i] - chain[i]).abs() < 1e-9, "{ratio:?} is not {chain:?}");
-            prop_assert!((map.inverse().by_ratio(ratio)[i] - p[i]).abs() < 1e-6 * map.factors()[i].abs().recip().max(1.0));
+            let off = (map.inverse().by_ratio(ratio)[i] - p[i]).abs();
+            prop_assert!(off < 1e-6 * map.factors()[i].abs().recip().max(1.0));
         }
     }
 
@@ -111,8 +112,8 @@ proptest! {
         prop_assert!(times.iter().all(|&times| times == 1));
     }
 
-    /// In a tile a point has the pixel position it has in the whole, less the tile's corner; and the pick matrix of the tile with
-    /// a viewport of the tile's size gives the same.
+    /// In a tile a point has the pixel position it has in the whole, less the tile's corner; and the pick matrix of
+    /// the tile with a viewport of the tile's size gives the same.
     #[test]
     fn a_tile_shows_its_part_of_the_whole(
         p in ndc(),
@@ -165,7 +166,10 @@ proptest! {
             let drawn = fit.place(picture, place, align).expect("positive sizes");
             prop_assert!((drawn.aspect() - picture[0] / picture[1]).abs() < 1e-10 * drawn.aspect());
             let spare = [place.width() - drawn.width(), place.height() - drawn.height()];
-            let (tight, loose) = if spare[0].abs() < spare[1].abs() { (spare[0], spare[1]) } else { (spare[1], spare[0]) };
+            let [mut tight, mut loose] = spare;
+            if tight.abs() > loose.abs() {
+                core::mem::swap(&mut tight, &mut loose);
+            }
             prop_assert!(tight.abs() < 1e-9);
             let spared = if fit == Fit::Contain { loose } else { -loose };
             prop_assert!(spared > -1e-9, "{fit:?} leaves {loose}");
