@@ -68,6 +68,10 @@ fn main() -> ExitCode {
             return ExitCode::FAILURE;
         }
     };
+    if files.is_empty() {
+        println!("FAILED vectors: there are no such files in {}", folder.display());
+        return ExitCode::FAILURE;
+    }
     report(&files)
 }
 
