@@ -86,3 +86,59 @@ fn orthographic(json: &Orthographic, pointer: &str) -> Result<LensKind, Fault> {
     }
     Ok(LensKind::Orthographic { half_width, half_height, near, far })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    /// What becomes of a camera: its kind, or pointer and problem.
+    fn read(camera: serde_json::Value) -> Result<LensKind, (String, String)> {
+        let camera = serde_json::from_value(camera).unwrap();
+        kind(&camera, "/cameras/0").map_err(|fault| (fault.pointer, fault.problem))
+    }
+
+    #[test]
+    fn numbers_that_make_a_view() {
+        let camera = json!({"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.25}});
+        let far = f64::INFINITY;
+        let kind = LensKind::Perspective { fov_y: 0.5, aspect: None, near: 0.25, far };
+        assert_eq!(read(camera), Ok(kind));
+        let camera = json!({"type": "orthographic",
+            "orthographic": {"xmag": -2, "ymag": 1, "znear": 0, "zfar": 8}});
+        let kind =
+            LensKind::Orthographic { half_width: 2.0, half_height: 1.0, near: 0.0, far: 8.0 };
+        assert_eq!(read(camera), Ok(kind));
+    }
+
+    #[test]
+    fn numbers_that_make_none() {
+        for (yfov, znear, zfar, aspect, problem) in [
+            (0.0, 1.0, 2.0, 1.0, "yfov is 0 and must be above 0 and below pi"),
+            (4.0, 1.0, 2.0, 1.0, "yfov is 4 and must be above 0 and below pi"),
+            (0.5, 0.0, 2.0, 1.0, "znear is 0 and must be above 0"),
+            (0.5, -1.0, 2.0, 1.0, "znear is -1 and must be above 0"),
+            (0.5, 2.0, 2.0, 1.0, "zfar is 2 and must be above znear"),
+            (0.5, 1.0, 2.0, 0.0, "aspectRatio is 0 and must be above 0"),
+        ] {
+            let perspective =
+                json!({"yfov": yfov, "znear": znear, "zfar": zfar, "aspectRatio": aspect});
+            let camera = json!({"type": "perspective", "perspective": perspective});
+            let member = problem.split(' ').next().unwrap();
+            let pointer = format!("/cameras/0/perspective/{member}");
+            assert_eq!(read(camera), Err((pointer, problem.to_owned())));
+        }
+        for (xmag, znear, zfar, problem) in [
+            (0.0, 0.0, 2.0, "xmag is 0 and must be above 0"),
+            (1.0, -1.0, 2.0, "znear is -1 and must be 0 or above"),
+            (1.0, 0.0, 0.0, "zfar is 0 and must be above znear"),
+        ] {
+            let orthographic = json!({"xmag": xmag, "ymag": 1, "znear": znear, "zfar": zfar});
+            let camera = json!({"type": "orthographic", "orthographic": orthographic});
+            assert_eq!(read(camera).unwrap_err().1, problem);
+        }
+        assert_eq!(read(json!({"type": "fisheye"})).unwrap_err().0, "/cameras/0/type");
+        let lacking = json!({"type": "perspective"});
+        assert_eq!(read(lacking).unwrap_err().1, "its numbers are missing");
+    }
+}

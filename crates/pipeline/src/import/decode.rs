@@ -180,3 +180,79 @@ fn whole(width: u32, height: u32, rgba: Vec<[u8; 4]>) -> Result<Image, String> {
         Err("the image is incomplete".to_owned())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A PNG of 2 x 1 texels with these bytes as its only row.
+    fn png(color: ColorType, depth: BitDepth, row: &[u8], palette: Option<&[u8]>) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, 2, 1);
+        encoder.set_color(color);
+        encoder.set_depth(depth);
+        if let Some(palette) = palette {
+            encoder.set_palette(palette);
+            encoder.set_trns(&[255, 64][..]);
+        }
+        encoder.write_header().unwrap().write_image_data(row).unwrap();
+        bytes
+    }
+
+    /// A baseline JPEG of 8 x 8 texels, all of middle grey: every coefficient is 0, and each of the two Huffman tables has
+    /// the single code `0`, for "no difference" and for "end of block".
+    fn jpeg(components: u8) -> Vec<u8> {
+        let numbers = || 1..=components;
+        let mut bytes = vec![0xFF, 0xD8, 0xFF, 0xDB, 0, 67, 0];
+        bytes.extend([1; 64]);
+        bytes.extend([0xFF, 0xC0, 0, 8 + 3 * components, 8, 0, 8, 0, 8, components]);
+        numbers().for_each(|number| bytes.extend([number, 0x11, 0]));
+        for table in [0x00, 0x10] {
+            bytes.extend([0xFF, 0xC4, 0, 20, table, 1]);
+            bytes.extend([0; 16]);
+        }
+        bytes.extend([0xFF, 0xDA, 0, 6 + 2 * components, components]);
+        numbers().for_each(|number| bytes.extend([number, 0]));
+        bytes.extend([0, 63, 0, 0x00, 0xFF, 0xD9]);
+        bytes
+    }
+
+    #[test]
+    fn every_kind_of_png_becomes_rgba_of_8_bits() {
+        use ColorType::{Grayscale, GrayscaleAlpha, Indexed, Rgb, Rgba};
+        let palette: &[u8] = &[1, 2, 3, 4, 5, 6];
+        let table: [(ColorType, BitDepth, &[u8], Option<&[u8]>, [[u8; 4]; 2]); 9] = [
+            (Rgba, BitDepth::Eight, &[1, 2, 3, 4, 5, 6, 7, 8], None, [[1, 2, 3, 4], [5, 6, 7, 8]]),
+            (Rgb, BitDepth::Eight, &[1, 2, 3, 5, 6, 7], None, [[1, 2, 3, 255], [5, 6, 7, 255]]),
+            (GrayscaleAlpha, BitDepth::Eight, &[9, 4, 7, 8], None, [[9, 9, 9, 4], [7, 7, 7, 8]]),
+            (Grayscale, BitDepth::Eight, &[9, 7], None, [[9, 9, 9, 255], [7, 7, 7, 255]]),
+            (Grayscale, BitDepth::One, &[0b0100_0000], None, [[0, 0, 0, 255], [255; 4]]),
+            (Grayscale, BitDepth::Four, &[0x2F], None, [[34, 34, 34, 255], [255; 4]]),
+            (Grayscale, BitDepth::Sixteen, &[9, 99, 7, 0], None, [[9, 9, 9, 255], [7, 7, 7, 255]]),
+            (Indexed, BitDepth::Eight, &[1, 0], Some(palette), [[4, 5, 6, 64], [1, 2, 3, 255]]),
+            (
+                Indexed,
+                BitDepth::One,
+                &[0b1000_0000],
+                Some(palette),
+                [[4, 5, 6, 64], [1, 2, 3, 255]],
+            ),
+        ];
+        for (color, depth, row, palette, rgba) in table {
+            let file = png(color, depth, row, palette);
+            assert_eq!(size(&file), Ok((2, 1)));
+            assert_eq!(decode(&file).unwrap().rgba, rgba, "{color:?} of {depth:?} bits");
+        }
+    }
+
+    #[test]
+    fn jpegs_of_one_and_three_components_are_read_and_those_for_printing_refused() {
+        for components in [1, 3] {
+            let image = decode(&jpeg(components)).unwrap();
+            assert_eq!((image.width, image.height), (8, 8));
+            assert_eq!(image.rgba, [[128, 128, 128, 255]; 64], "{components} components");
+        }
+        let problem = decode(&jpeg(4)).unwrap_err();
+        assert_eq!(problem, "the JPEG is in CMYK, for printing; only RGB and grey are read");
+    }
+}

@@ -70,3 +70,30 @@ fn sampler(json: &gltf::json::texture::Sampler) -> Sampler {
     };
     Sampler { wrap_u: wrap(json.wrap_s), wrap_v: wrap(json.wrap_t), magnify, minify, mipmap }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn samplers_in_our_words() {
+        let read = |json| sampler(&serde_json::from_value(json).unwrap());
+        assert_eq!(read(json!({})), Sampler::default());
+        let wrong = json!({"magFilter": 1, "minFilter": 2, "wrapS": 3, "wrapT": 4});
+        assert_eq!(read(wrong), Sampler::default());
+        for (number, minify, mipmap) in [
+            (9728, Filter::Nearest, Mipmap::None),
+            (9729, Filter::Linear, Mipmap::None),
+            (9984, Filter::Nearest, Mipmap::Nearest),
+            (9985, Filter::Linear, Mipmap::Nearest),
+            (9986, Filter::Nearest, Mipmap::Linear),
+            (9987, Filter::Linear, Mipmap::Linear),
+        ] {
+            let sampler = read(json!({"magFilter": 9728, "minFilter": number, "wrapT": 33071}));
+            let (magnify, wrap_u, wrap_v) = (Filter::Nearest, Wrap::Repeat, Wrap::Clamp);
+            assert_eq!(sampler, Sampler { wrap_u, wrap_v, magnify, minify, mipmap });
+        }
+        assert_eq!(read(json!({"wrapS": 33648})).wrap_u, Wrap::Mirror);
+    }
+}
