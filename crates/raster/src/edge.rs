@@ -41,18 +41,6 @@ impl Edge {
     pub(crate) fn area_at(&self, x: i64, y: i64) -> i64 {
         self.at(x, y) + i64::from(!self.owns_border)
     }
-
-    /// Narrows `span`, whole steps of `step` grid units from where E is `start`, to where E ≥ 0.
-    pub(crate) fn narrow(&self, start: i64, step: i64, span: &mut (i64, i64)) {
-        let slope = self.a * step;
-        if slope > 0 {
-            span.0 = span.0.max(-start.div_euclid(slope));
-        } else if slope < 0 {
-            span.1 = span.1.min(start.div_euclid(-slope) + 1);
-        } else if start < 0 {
-            span.1 = span.0;
-        }
-    }
 }
 
 /// Twice the signed area of a triangle in square grid steps: positive if its corners run clockwise on the screen
@@ -72,28 +60,6 @@ mod tests {
 
     fn v(x: i32, y: i32) -> ScreenVertex {
         ScreenVertex { x, y, depth: 0.5, inv_w: 1.0 }
-    }
-
-    #[test]
-    fn a_narrowed_span_is_exactly_where_the_edge_function_is_not_negative() {
-        for (start, end) in
-            [((3, -7), (250, 900)), ((250, 900), (3, -7)), ((0, 5), (100, 5)), ((100, 5), (0, 5))]
-        {
-            let edge = Edge::new(v(start.0, start.1), v(end.0, end.1));
-            for y in -40..40 {
-                let at_zero = edge.at(0, y * 16);
-                let mut span = (-20, 20);
-                edge.narrow(at_zero, 256, &mut span);
-                for x in -20..20 {
-                    let inside = edge.at(x * 256, y * 16) >= 0;
-                    assert_eq!(
-                        inside,
-                        span.0 <= x && x < span.1,
-                        "x {x} y {y} of {start:?}-{end:?}"
-                    );
-                }
-            }
-        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! A frame: the primitives of one picture, in the order in which they were given.
 
 use crate::primitive::{Piece, clockwise, line_pieces, point_pieces};
+use crate::vertex::SUBPIXEL_BITS;
 use crate::{Cover, RasterError, Samples, ScreenVertex, SourceWeights};
 
 /// The longest side of a picture in pixels.
@@ -30,6 +31,12 @@ impl Frame {
             return Err(RasterError::Size { width, height });
         }
         Ok(Self { width, height, samples, pieces: Vec::new(), source_weights: Vec::new() })
+    }
+
+    /// Takes all primitives out again and keeps the memory for the next picture.
+    pub fn clear(&mut self) {
+        self.pieces.clear();
+        self.source_weights.clear();
     }
 
     /// Width in pixels.
@@ -99,11 +106,25 @@ impl Frame {
         id: u32,
         cover: Cover,
     ) {
+        if !self.may_touch_a_sample(corners) {
+            return;
+        }
         let Some((corners, weights)) = clockwise(corners, weights) else { return };
         let weights = weights.map_or(0, |weights| {
             self.source_weights.push(weights);
             self.source_weights.len() as u32
         });
         self.pieces.push(Piece { corners, id, weights, cover });
+    }
+
+    /// Whether the triangle's bounds may hold a sample: of meshes finer than the pixels most triangles hold none.
+    fn may_touch_a_sample(&self, [p, q, r]: [ScreenVertex; 3]) -> bool {
+        let (least, greatest) = self.samples.reach();
+        let holds = |a: i32, b: i32, c: i32| {
+            let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+            // Pixels from the first whose last sample is not before the bounds to the last whose first is not behind.
+            (low - greatest + 255) >> SUBPIXEL_BITS <= (high - least) >> SUBPIXEL_BITS
+        };
+        holds(p.x, q.x, r.x) && holds(p.y, q.y, r.y)
     }
 }

@@ -41,14 +41,15 @@
 //! ```
 
 mod bins;
-mod coverage;
 mod draw;
 mod edge;
 mod error;
 mod fragment;
 mod frame;
+mod plane;
 mod primitive;
 mod samples;
+mod setup;
 mod tile;
 mod vertex;
 mod visibility;
@@ -60,5 +61,5 @@ pub use fragment::Fragment;
 pub use frame::{Frame, MAX_SIDE};
 pub use primitive::{Cover, SourceWeights};
 pub use samples::Samples;
-pub use vertex::{GUARD_LIMIT, SUBPIXEL_BITS, SUBPIXELS, ScreenVertex};
+pub use vertex::{GUARD_BAND, SUBPIXEL_BITS, SUBPIXELS, ScreenVertex};
 pub use visibility::Visibility;

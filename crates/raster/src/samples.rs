@@ -69,6 +69,14 @@ impl Samples {
         }
     }
 
+    /// The least and the greatest offset of a sample from its pixel's left or upper border, in grid steps.
+    pub(crate) fn reach(self) -> (i32, i32) {
+        let all = self.sixteenths().iter().flat_map(|&(x, y)| [x, y]);
+        let (least, greatest) =
+            all.fold((0, 0), |(least, greatest), c| (c.min(least), c.max(greatest)));
+        (SUBPIXELS / 2 + least * (SUBPIXELS / 16), SUBPIXELS / 2 + greatest * (SUBPIXELS / 16))
+    }
+
     /// The samples' offsets from the pixel's upper left corner in grid steps.
     pub(crate) fn offsets(self) -> impl Iterator<Item = (i64, i64)> {
         let steps = i64::from(SUBPIXELS / 16);

@@ -1,11 +1,10 @@
 //! Visibility in one tile: for each sample, how near the nearest solid surface is and which it is.
 
-use crate::coverage::{Filler, TileRect};
 use crate::fragment::Weigher;
+use crate::plane::{Plane, index_of};
+use crate::setup::{Setup, TileRect};
 use crate::{Cover, Frame, Surface};
-
-/// No piece: the background.
-pub(crate) const NOTHING: u32 = u32::MAX;
+use fearless_simd::{Level, Simd, dispatch};
 
 /// One pixel's share of a translucent piece.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -18,15 +17,24 @@ pub(crate) struct Layer {
     pub(crate) depth: f32,
 }
 
-/// Depth and piece numbers of a tile, sample plane by sample plane, and the translucent layers over them.
+/// What is visible in a tile: a plane for each sample, and the translucent layers over them.
 #[derive(Debug, Default)]
 pub(crate) struct Tile {
-    pub(crate) depth: Vec<f32>,
-    pub(crate) piece: Vec<u32>,
+    planes: Vec<Plane>,
     pub(crate) layers: Vec<Layer>,
 }
 
 impl Tile {
+    /// The piece seen by a sample of a pixel; [`NOTHING`](crate::plane::NOTHING) for the background.
+    pub(crate) fn piece(&self, sample: usize, x: usize, y: usize) -> u32 {
+        self.planes[sample].piece[index_of(x, y)]
+    }
+
+    /// The depth of the nearest piece at a sample of a pixel, −∞ for the background.
+    pub(crate) fn depth(&self, sample: usize, x: usize, y: usize) -> f32 {
+        self.planes[sample].depth[index_of(x, y)]
+    }
+
     /// Finds what is visible in `rect` of the pieces `bin`.
     pub(crate) fn fill(
         &mut self,
@@ -35,87 +43,87 @@ impl Tile {
         bin: &[u32],
         surface: &impl Surface,
     ) {
-        let size = rect.width() * rect.height() * frame.samples.count();
-        self.depth.clear();
-        self.depth.resize(size, f32::NEG_INFINITY);
-        self.piece.clear();
-        self.piece.resize(size, NOTHING);
+        self.planes.resize_with(frame.samples.count(), Plane::new);
+        self.planes.iter_mut().for_each(Plane::clear);
         self.layers.clear();
-        for &index in bin {
-            match frame.pieces[index as usize].cover {
-                Cover::Solid => self.solid(frame, rect, index),
-                Cover::Masked => self.masked(frame, rect, index, surface),
-                Cover::Translucent => {}
-            }
-        }
-        for &index in bin {
-            if frame.pieces[index as usize].cover == Cover::Translucent {
-                self.translucent(frame, rect, index);
-            }
-        }
+        dispatch!(Level::new(), simd => self.fill_pieces(simd, frame, rect, bin, surface));
         self.sort_layers();
     }
 
-    fn solid(&mut self, frame: &Frame, rect: TileRect, index: u32) {
-        let filler = Filler::new(&frame.pieces[index as usize]);
-        self.nearer_samples(frame, rect, &filler, |tile, at, _, _, depth| {
-            tile.depth[at] = depth;
-            tile.piece[at] = index;
-        });
-    }
-
-    fn masked(&mut self, frame: &Frame, rect: TileRect, index: u32, surface: &impl Surface) {
-        let piece = &frame.pieces[index as usize];
-        let (filler, weigher) = (Filler::new(piece), Weigher::new(piece, &frame.source_weights));
-        self.nearer_samples(frame, rect, &filler, |tile, at, x, y, depth| {
-            let fragment = weigher.fragment(rect.x0 + x as u32, rect.y0 + y as u32);
-            if surface.keeps(&fragment) {
-                tile.depth[at] = depth;
-                tile.piece[at] = index;
-            }
-        });
-    }
-
-    /// Calls `take(tile, sample, x, y, depth)` for each sample the triangle covers and is nearer at than what is there.
-    fn nearer_samples(
+    #[inline(always)]
+    fn fill_pieces<S: Simd>(
         &mut self,
+        simd: S,
         frame: &Frame,
         rect: TileRect,
-        filler: &Filler,
-        take: impl Fn(&mut Self, usize, usize, usize, f32),
+        bin: &[u32],
+        surface: &impl Surface,
     ) {
-        let plane = rect.width() * rect.height();
-        for (sample, offset) in frame.samples.offsets().enumerate() {
-            filler.runs(rect, offset, |y, columns, first_depth, step| {
-                let row = sample * plane + y * rect.width();
-                for (n, x) in columns.enumerate() {
-                    let depth = (first_depth + step * n as f64) as f32;
-                    if depth > self.depth[row + x] {
-                        take(self, row + x, x, y, depth);
-                    }
+        let mut translucent = false;
+        for &index in bin {
+            match frame.pieces[index as usize].cover {
+                Cover::Solid => self.solid(simd, frame, rect, index),
+                Cover::Masked => self.masked(simd, frame, rect, index, surface),
+                Cover::Translucent => translucent = true,
+            }
+        }
+        if translucent {
+            for &index in bin {
+                if frame.pieces[index as usize].cover == Cover::Translucent {
+                    self.translucent(simd, frame, rect, index);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn solid<S: Simd>(&mut self, simd: S, frame: &Frame, rect: TileRect, index: u32) {
+        let piece = &frame.pieces[index as usize];
+        for (plane, offset) in self.planes.iter_mut().zip(frame.samples.offsets()) {
+            if let Some(setup) = Setup::new(piece, rect, offset) {
+                plane.fill(simd, &setup, index);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn masked<S: Simd>(
+        &mut self,
+        simd: S,
+        frame: &Frame,
+        rect: TileRect,
+        index: u32,
+        surface: &impl Surface,
+    ) {
+        let piece = &frame.pieces[index as usize];
+        let weigher = Weigher::new(piece, &frame.source_weights);
+        for (plane, offset) in self.planes.iter_mut().zip(frame.samples.offsets()) {
+            let Some(setup) = Setup::new(piece, rect, offset) else { continue };
+            plane.visit(simd, &setup, false, |plane, at, x, y, depth| {
+                let fragment = weigher.fragment(rect.x0 + x as u32, rect.y0 + y as u32);
+                if surface.keeps(&fragment) {
+                    plane.depth[at] = depth;
+                    plane.piece[at] = index;
                 }
             });
         }
     }
 
     /// Notes a layer for each pixel in which a sample of the triangle is not behind something solid.
-    fn translucent(&mut self, frame: &Frame, rect: TileRect, index: u32) {
-        let filler = Filler::new(&frame.pieces[index as usize]);
-        let plane = rect.width() * rect.height();
+    #[inline(always)]
+    fn translucent<S: Simd>(&mut self, simd: S, frame: &Frame, rect: TileRect, index: u32) {
+        let piece = &frame.pieces[index as usize];
         let first = self.layers.len();
-        for (sample, offset) in frame.samples.offsets().enumerate() {
-            filler.runs(rect, offset, |y, columns, first_depth, step| {
-                for (n, x) in columns.enumerate() {
-                    let depth = (first_depth + step * n as f64) as f32;
-                    let pixel = y * rect.width() + x;
-                    if depth >= self.depth[sample * plane + pixel] {
-                        let (pixel, mask) = (pixel as u16, 1 << sample);
-                        self.layers.push(Layer { pixel, mask, piece: index, depth });
-                    }
-                }
+        let Self { planes, layers } = self;
+        let samples = planes.iter_mut().zip(frame.samples.offsets()).enumerate();
+        for (sample, (plane, offset)) in samples {
+            let Some(setup) = Setup::new(piece, rect, offset) else { continue };
+            plane.visit(simd, &setup, true, |_, _, x, y, depth| {
+                let pixel = (y * rect.width() + x) as u16;
+                layers.push(Layer { pixel, mask: 1 << sample, piece: index, depth });
             });
         }
-        merge_samples(&mut self.layers, first);
+        merge_samples(layers, first);
     }
 
     /// Pixel by pixel, the farthest layer first; of layers at the same depth, the one given first.

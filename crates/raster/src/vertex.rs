@@ -9,11 +9,11 @@ use homog::{Point, Screen};
 pub const SUBPIXEL_BITS: u32 = 8;
 /// Grid steps per pixel.
 pub const SUBPIXELS: i32 = 1 << SUBPIXEL_BITS;
-/// The largest coordinate, in pixels from the origin, that a vertex may have: beyond it the caller clips.
+/// The least and the greatest coordinate, in pixels, that a vertex may have: beyond it the caller clips.
 ///
-/// Edge functions of vertices within it need less than 2⁵⁰, far from the end of 64 bits, and a picture of
-/// [`MAX_SIDE`](crate::MAX_SIDE) has as much again on each side for a guard band (CL-4).
-pub const GUARD_LIMIT: f64 = 32768.0;
+/// It leaves a guard band of 8192 pixels around a picture of [`MAX_SIDE`](crate::MAX_SIDE) (CL-4). No triangle is then wider
+/// or higher than 32768 pixels, and its edge functions step by less than 2³⁰ across a tile.
+pub const GUARD_BAND: core::ops::RangeInclusive<f64> = -8192.0..=24576.0;
 
 /// A vertex after the viewport: x to the right and y down in 1/256 pixel, depth, and 1/w.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -31,13 +31,13 @@ pub struct ScreenVertex {
 impl ScreenVertex {
     /// Snaps a point of the screen (pixels, y down; z is the depth) with the clip-space w it was divided by.
     ///
-    /// `None` if the point cannot be drawn: a coordinate is not finite, lies beyond [`GUARD_LIMIT`], or w is not
+    /// `None` if the point cannot be drawn: a coordinate is not finite, lies outside of [`GUARD_BAND`], or w is not
     /// positive. Geometry that was clipped to the view volume and a guard band always can.
     #[must_use]
     pub fn snap(point: Point<Screen>, w: f64) -> Option<Self> {
-        let drawable = point.x().abs() <= GUARD_LIMIT
-            && point.y().abs() <= GUARD_LIMIT
-            && point.z().is_finite()
+        let drawable = GUARD_BAND.contains(&point.x())
+            && GUARD_BAND.contains(&point.y())
+            && (point.z() as f32).is_finite()
             && w > 0.0;
         drawable.then(|| Self {
             x: to_grid(point.x()),
@@ -68,7 +68,7 @@ mod tests {
 
     #[test]
     fn what_cannot_be_drawn_is_no_vertex() {
-        for x in [f64::NAN, f64::INFINITY, -1e9, 32768.1] {
+        for x in [f64::NAN, f64::INFINITY, -8192.1, 24576.1] {
             assert_eq!(ScreenVertex::snap(Point::new(x, 0.0, 0.0), 1.0), None, "x = {x}");
             assert_eq!(ScreenVertex::snap(Point::new(0.0, x, 0.0), 1.0), None, "y = {x}");
         }

@@ -1,9 +1,9 @@
 //! Visibility without shading: which primitive is seen in each pixel, and how near it is.
 
 use crate::bins::{Bins, TILE};
-use crate::coverage::tile_rect;
 use crate::fragment::Weigher;
 use crate::primitive::Piece;
+use crate::setup::TileRect;
 use crate::tile::Tile;
 use crate::{Fragment, Frame, Surface};
 
@@ -20,10 +20,10 @@ pub struct Visibility {
 struct Whole;
 
 impl Surface for Whole {
-    fn keeps(&self, _: &Fragment) -> bool {
+    fn keeps(&self, _: &Fragment<'_>) -> bool {
         true
     }
-    fn shade(&self, _: &Fragment) -> [f32; 4] {
+    fn shade(&self, _: &Fragment<'_>) -> [f32; 4] {
         [0.0; 4]
     }
 }
@@ -44,7 +44,7 @@ impl Frame {
 
     /// Calls `each` with the fragment of the nearest primitive of each pixel where there is one, as
     /// [`visibility`](Self::visibility) sees it, tile by tile.
-    pub fn fragments(&self, mut each: impl FnMut(Fragment)) {
+    pub fn fragments(&self, mut each: impl FnMut(Fragment<'_>)) {
         self.each_seen(|x, y, _, piece| {
             each(Weigher::new(piece, &self.source_weights).fragment(x, y));
         });
@@ -55,13 +55,13 @@ impl Frame {
         let mut tile = Tile::default();
         for row in 0..self.height.div_ceil(TILE) {
             for column in 0..self.width.div_ceil(TILE) {
-                let rect = tile_rect(column, row, self.width, self.height);
+                let rect = TileRect::of(column, row, self.width, self.height);
                 tile.fill(self, rect, bins.of(column, row), &Whole);
                 for pixel in 0..rect.width() * rect.height() {
-                    let Some(piece) = self.pieces.get(tile.piece[pixel] as usize) else { continue };
-                    let x = rect.x0 + (pixel % rect.width()) as u32;
-                    let y = rect.y0 + (pixel / rect.width()) as u32;
-                    each(x, y, tile.depth[pixel], piece);
+                    let (x, y) = (pixel % rect.width(), pixel / rect.width());
+                    let seen = self.pieces.get(tile.piece(0, x, y) as usize);
+                    let Some(piece) = seen else { continue };
+                    each(rect.x0 + x as u32, rect.y0 + y as u32, tile.depth(0, x, y), piece);
                 }
             }
         }

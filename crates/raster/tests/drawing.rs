@@ -18,10 +18,10 @@ fn rectangle(frame: &mut Frame, [x0, y0, x1, y1]: [f64; 4], depth: f64, id: u32,
 struct Colors(Vec<[f32; 4]>);
 
 impl Surface for Colors {
-    fn keeps(&self, fragment: &Fragment) -> bool {
+    fn keeps(&self, fragment: &Fragment<'_>) -> bool {
         fragment.x.is_multiple_of(2)
     }
-    fn shade(&self, fragment: &Fragment) -> [f32; 4] {
+    fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
         self.0[fragment.id as usize]
     }
 }
