@@ -30,7 +30,7 @@ pub struct Shading<'a> {
 }
 
 impl Surface for Shading<'_> {
-    fn keeps(&self, fragment: &Fragment) -> bool {
+    fn keeps(&self, fragment: &Fragment<'_>) -> bool {
         let draw = self.draws.of(fragment.id);
         match draw.material.alpha_mode {
             AlphaMode::Mask { cutoff } => base_color(draw, fragment)[3] >= cutoff,
@@ -38,7 +38,7 @@ impl Surface for Shading<'_> {
         }
     }
 
-    fn shade(&self, fragment: &Fragment) -> [f32; 4] {
+    fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
         let draw = self.draws.of(fragment.id);
         let base = base_color(draw, fragment);
         let alpha = if draw.material.alpha_mode == AlphaMode::Blend { base[3] } else { 1.0 };
@@ -51,7 +51,7 @@ impl Surface for Shading<'_> {
 
 impl Shading<'_> {
     /// The light a white surface sends to the eye: the sum over all lights, over π.
-    fn arriving(&self, draw: &Draw<'_>, fragment: &Fragment) -> [f32; 3] {
+    fn arriving(&self, draw: &Draw<'_>, fragment: &Fragment<'_>) -> [f32; 3] {
         let place = draw.place(fragment);
         let normal = draw.normal(fragment, self.flat, to_viewer(self.viewer, place));
         let mut sum = [0.0; 3];
@@ -70,7 +70,7 @@ fn to_viewer(viewer: HPoint<World>, place: [f32; 3]) -> [f32; 3] {
 }
 
 /// Factor × texture × vertex colour, linear, with alpha (glTF 2.0 §3.9.2).
-fn base_color(draw: &Draw<'_>, fragment: &Fragment) -> [f32; 4] {
+fn base_color(draw: &Draw<'_>, fragment: &Fragment<'_>) -> [f32; 4] {
     let Material { base_color, base_color_texture, .. } = draw.material;
     let mut color = *base_color;
     if let Some(vertex) = draw.color(fragment) {

@@ -8,7 +8,7 @@ use crate::shade::{Draw, DrawList};
 use clip::{Outcode, Volume, clip_segment, clip_triangle};
 use glam::DVec3;
 use homog::{Affine, Clip, HPoint, Model, Ndc, Normal, Point, Screen, World};
-use raster::{Cover, Frame, GUARD_LIMIT, ScreenVertex};
+use raster::{Cover, Frame, GUARD_BAND, ScreenVertex};
 use viewport::Viewport;
 
 /// The width of lines that a file draws, in pixels: glTF gives none.
@@ -57,10 +57,10 @@ impl Stage {
     pub(super) fn of(scene: &Scene) -> Result<Self, RenderError> {
         let (width, height) = (scene.image.width, scene.image.height);
         let viewport = Viewport::image(width, height)?;
-        // Clip only what would leave the rasteriser's grid: the rest is cut by its tiles (CL-4).
+        // Clip only what would leave the rasteriser's grid, with a pixel to spare: its tiles cut the rest (CL-4).
         let band = |side: u32| {
             let half = 0.5 * f64::from(side);
-            ((GUARD_LIMIT - half) / half).floor().clamp(1.0, Volume::MAX_GUARD_BAND)
+            (1.0 - (GUARD_BAND.start() + 1.0) / half).clamp(1.0, Volume::MAX_GUARD_BAND)
         };
         let volume = Volume::CHAPTER;
         let volume = volume.with_guard_band(band(width), band(height)).unwrap_or(volume);

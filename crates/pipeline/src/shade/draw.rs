@@ -55,21 +55,21 @@ impl Draw<'_> {
     }
 
     /// The place in the world.
-    pub(super) fn place(&self, fragment: &Fragment) -> [f32; 3] {
+    pub(super) fn place(&self, fragment: &Fragment<'_>) -> [f32; 3] {
         blend(&self.places, self.corners(fragment.id), fragment.weights)
     }
 
     /// The vertex colour, if there is one.
-    pub(super) fn color(&self, fragment: &Fragment) -> Option<[f32; 4]> {
+    pub(super) fn color(&self, fragment: &Fragment<'_>) -> Option<[f32; 4]> {
         let colors = self.primitive.colors.as_ref()?;
         Some(blend(colors, self.corners(fragment.id), fragment.weights))
     }
 
     /// The texture's coordinates here, one pixel to the right, and one below.
-    pub(super) fn uvs(&self, fragment: &Fragment, used: &TextureUse) -> [[f32; 2]; 3] {
+    pub(super) fn uvs(&self, fragment: &Fragment<'_>, used: &TextureUse) -> [[f32; 2]; 3] {
         let Some(uvs) = self.primitive.uvs.get(used.uv_set) else { return [[0.0; 2]; 3] };
         let corners = self.corners(fragment.id);
-        [fragment.weights, fragment.weights_right, fragment.weights_below].map(|weights| {
+        [fragment.weights, fragment.weights_right(), fragment.weights_below()].map(|weights| {
             let [u, v] = blend(uvs, corners, weights);
             used.uv_map.map(|row| row[0] * u + row[1] * v + row[2])
         })
@@ -79,7 +79,7 @@ impl Draw<'_> {
     ///
     /// Smooth if the file has normals and `flat` does not ask for the face's own. The face's own normal decides which side
     /// is seen: a smooth one may lean away from the viewer near the outline of a body and is right to do so.
-    pub(super) fn normal(&self, fragment: &Fragment, flat: bool, to_viewer: [f32; 3]) -> [f32; 3] {
+    pub(super) fn normal(&self, fragment: &Fragment<'_>, flat: bool, to_viewer: [f32; 3]) -> [f32; 3] {
         let face = self.face_normal(fragment.id);
         let seen_from_behind = dot(face, to_viewer) < 0.0;
         let normal = match &self.normals {
