@@ -105,7 +105,7 @@ fn numbers_out_of_range_are_named_with_their_path() {
 fn faults_of_grammar_are_pointed_at() {
     let begin = "a scene looks like this: Scene(models: [(path: \"model.glb\")])";
     check("", "the file ends too early, or is no scene", (1, 1), begin);
-    check("Scene(", "the file ends too early, or is no scene", (1, 7), begin);
+    check("Scene(", "the file ends too early, or is no scene", (1, 6), begin);
     check(
         "Scene(models: [(path: \"a.glb\")]) more",
         "there is something behind the scene's last bracket",

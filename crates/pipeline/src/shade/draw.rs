@@ -79,7 +79,12 @@ impl Draw<'_> {
     ///
     /// Smooth if the file has normals and `flat` does not ask for the face's own. The face's own normal decides which side
     /// is seen: a smooth one may lean away from the viewer near the outline of a body and is right to do so.
-    pub(super) fn normal(&self, fragment: &Fragment<'_>, flat: bool, to_viewer: [f32; 3]) -> [f32; 3] {
+    pub(super) fn normal(
+        &self,
+        fragment: &Fragment<'_>,
+        flat: bool,
+        to_viewer: [f32; 3],
+    ) -> [f32; 3] {
         let face = self.face_normal(fragment.id);
         let seen_from_behind = dot(face, to_viewer) < 0.0;
         let normal = match &self.normals {
