@@ -32,8 +32,9 @@ pub fn parse(file: &str, source: &str) -> Result<SceneFile, SceneError> {
         fault(&spanned.code, Some(&path), bytes(source, &spanned.span))
     })?;
     deserializer.end().map_err(|code| {
-        let spanned = deserializer.span_error(code);
-        fault(&spanned.code, None, bytes(source, &spanned.span))
+        let end = locate(source, &[]).end;
+        let blank = source[end..].len() - source[end..].trim_start().len();
+        fault(&code, None, end + blank..source.trim_end().len())
     })?;
     Ok(scene)
 }
