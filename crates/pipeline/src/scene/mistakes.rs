@@ -109,7 +109,7 @@ fn faults_of_grammar_are_pointed_at() {
     check(
         "Scene(models: [(path: \"a.glb\")]) more",
         "there is something behind the scene's last bracket",
-        (1, 35),
+        (1, 34),
         "",
     );
     check(
