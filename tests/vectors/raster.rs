@@ -63,14 +63,14 @@ fn attributes(input: &Value, out: &Value) -> Result<(), String> {
     frame.triangle([vertex(0)?, vertex(1)?, vertex(2)?], 0, Cover::Solid);
     let depth = frame.visibility().depth;
     let mut fragments = Vec::new();
-    frame.fragments(|fragment| fragments.push(fragment));
+    frame.fragments(|f| fragments.push(Seen { x: f.x, y: f.y, weights: f.weights }));
     let pixels = list(&out["pixels"])?;
     if pixels.len() != fragments.len() {
         return Err(format!("{} pixels are covered, not {}", fragments.len(), pixels.len()));
     }
     for pixel in pixels {
         let place = [pixel["x"].as_i64(), pixel["y"].as_i64()];
-        let at = |f: &raster::Fragment| (f.y * image.width + f.x) as usize;
+        let at = |f: &Seen| (f.y * image.width + f.x) as usize;
         let fragment = fragments
             .iter()
             .find(|f| image.pixel(at(f)).map(Some) == place)
@@ -88,6 +88,13 @@ fn attributes(input: &Value, out: &Value) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+/// What is kept of a fragment.
+struct Seen {
+    x: u32,
+    y: u32,
+    weights: [f32; 3],
 }
 
 /// The size of a picture and the convention its pixels are named in.

@@ -44,14 +44,12 @@
 //! | part of a picture, lens shift, antialiasing | `tile`, `shifted`, `jittered` of the three above ([`Tile`], [`Jitter`]) |
 //! | a mirror's or portal's near plane | [`oblique_near_plane`] |
 //! | front, top and side | [`PrincipalView`] |
-//! | isometric, dimetric, trimetric | [`Axonometric`] |
-//! | cavalier, cabinet, military | [`Oblique`], [`Planometric`] |
+//! | isometric, dimetric, trimetric; cavalier, cabinet, military | [`Axonometric`]; [`Oblique`], [`Planometric`] |
 //! | one-, two-, three-point perspective | [`NPoint`], [`ConstructedPerspective`] |
 //! | any of those five as a renderable matrix | [`Classical`] |
 //! | any centre and any plane | [`Projector`] |
 //! | the textbook's P, M_orth, M_per | [`chapter`] |
-//! | glFrustum, gluPerspective, D3DX… by name | [`api`] |
-//! | the lesson's createFrustum | [`ApexMovedFrustum`] |
+//! | glFrustum, gluPerspective, D3DX… by name; the lesson's createFrustum | [`api`]; [`ApexMovedFrustum`] |
 //! | where parallel lines meet | [`vanishing_point`], [`principal_vanishing_points`] |
 //! | what depth can tell apart | [`DepthCurve`] |
 //! | corners, planes, eye of what is seen | [`ViewVolume`] |
@@ -59,10 +57,8 @@
 //! | the family tree | [`ProjectionClass`] |
 //!
 //! View space is right-handed unless the convention says otherwise: x right, y up, looking along
-//! −z. Column vectors, angles in radians, f64, no standard library. Formula ids such as PE-2, C29
-//! and M12 are those of the project's formula collection, item list and list of misprints. Two
-//! programs to play with are in `examples`: `gallery` draws a house in every projection, `doctor`
-//! reads matrices.
+//! −z. Column vectors, angles in radians, f64. Two programs to play with are in `examples`:
+//! `gallery` draws a house in every projection, `doctor` reads matrices.
 #![no_std]
 
 pub mod api;

@@ -19,6 +19,9 @@ const NAMED_BY: &[(&str, &[&str])] = &[
 const STAGES: &[&str] = &["homog", "camera", "projection", "clip", "viewport", "raster"];
 const STAGE_DEPENDENCIES: &[&str] = &["homog", "glam", "libm", "thiserror"];
 
+/// What a stage may depend on besides: the vector instructions of the rasteriser.
+const ALSO: &[(&str, &str)] = &[("raster", "fearless_simd")];
+
 /// The stages that promise to work without the standard library.
 pub const NO_STD: &[&str] = &["homog", "camera", "projection", "clip", "viewport"];
 
@@ -66,7 +69,8 @@ pub fn dependencies() -> Result<Vec<Fault>, String> {
 fn stage_dependencies(stage: &str, manifest: &str) -> Vec<Fault> {
     let strange = table(manifest, "[dependencies]").into_iter().filter(|name| {
         let own = stage == "homog" && name == "homog";
-        own || !STAGE_DEPENDENCIES.contains(&name.as_str())
+        let allowed = STAGE_DEPENDENCIES.contains(&name.as_str());
+        own || !(allowed || ALSO.contains(&(stage, name.as_str())))
     });
     let message = |name: String| format!("a stage may not depend on `{name}`");
     strange.map(|name| Fault::new(format!("crates/{stage}/Cargo.toml"), message(name))).collect()

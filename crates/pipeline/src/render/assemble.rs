@@ -178,7 +178,7 @@ impl<'a> Assembler<'a> {
                 (Topology::Points, &[p]) => self.point(submission, p, id, cover),
                 (Topology::Lines, &[p, q]) => self.line(submission, [p, q], id, cover),
                 (Topology::Triangles, &[p, q, r]) => {
-                    self.triangle(submission, [p, q, r], id, cover)
+                    self.triangle(submission, [p, q, r], id, cover);
                 }
                 _ => {}
             }

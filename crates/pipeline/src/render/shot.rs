@@ -50,10 +50,10 @@ impl Shot {
             x.dot(y.cross(w))
         };
         DVec4::new(
-            -minor(|row| row.yzw()),
-            minor(|row| row.xzw()),
-            -minor(|row| row.xyw()),
-            minor(|row| row.xyz()),
+            -minor(Vec4Swizzles::yzw),
+            minor(Vec4Swizzles::xzw),
+            -minor(Vec4Swizzles::xyw),
+            minor(Vec4Swizzles::xyz),
         )
     }
 }

@@ -49,7 +49,7 @@ pub(super) fn resolve_shot(
         ViewFile::Frame { from, padding_percent } => {
             resolver.frame(from, padding_percent.value() / 100.0, or_usual)
         }
-        ViewFile::FromModel(choice) => resolver.from_model(choice, projection),
+        ViewFile::FromModel(choice) => resolver.through_camera(choice, projection),
     }
 }
 
@@ -72,22 +72,29 @@ impl Resolver<'_> {
         let span = DepthSpan::of(&self.points, camera);
         let view_to_clip = match *projection {
             ProjectionFile::Perspective { fov_y_degrees, near, far } => {
-                let (near, far) = span.perspective(near.map(|n| n.value()), far.map(|f| f.value()));
+                let (near, far) = span.perspective(
+                    near.map(super::number::Positive::value),
+                    far.map(super::number::Positive::value),
+                );
                 let fov = Fov::Vertical(fov_y_degrees.value().to_radians());
                 Perspective::new(fov, self.aspect, near, far)
                     .map(|p| p.view_to_clip(Convention::CHAPTER))
             }
             ProjectionFile::Orthographic { height: given, near, far } => {
-                let (near, far) = span.parallel(near.map(|n| n.value()), far.map(|f| f.value()));
-                let height = given.map(|h| h.value()).or(height);
+                let (near, far) = span.parallel(
+                    near.map(super::number::Finite::value),
+                    far.map(super::number::Finite::value),
+                );
+                let height = given.map(super::number::Positive::value).or(height);
                 let half = 0.5 * height.unwrap_or_else(|| self.height_in_front_of(camera));
                 let right = half * self.aspect;
                 Orthographic::new(-right, right, -half, half, near, far)
                     .map(|p| p.view_to_clip(Convention::CHAPTER))
             }
             ProjectionFile::Frustum { left, right, bottom, top, near, far } => {
-                let far = span.perspective(Some(near.value()), far.map(|f| f.value())).1;
-                let [l, r, b, t] = [left, right, bottom, top].map(|side| side.value());
+                let far =
+                    span.perspective(Some(near.value()), far.map(super::number::Positive::value)).1;
+                let [l, r, b, t] = [left, right, bottom, top].map(super::number::Finite::value);
                 Frustum::new(l, r, b, t, near.value(), far)
                     .map(|p| p.view_to_clip(Convention::CHAPTER))
             }
@@ -169,7 +176,7 @@ impl Resolver<'_> {
     }
 
     /// The view, and unless the scene has its own the projection, of a camera in a model.
-    fn from_model(
+    fn through_camera(
         &self,
         choice: &CameraChoice,
         projection: Option<&ProjectionFile>,

@@ -33,9 +33,10 @@ impl<'a> MipChain<'a> {
             texels: Cow::Borrowed(&image.rgba),
         };
         let mut levels = vec![full];
-        while sampler.mipmap != Mipmap::None {
-            let Some(half) = levels.last().and_then(Level::half) else { break };
-            levels.push(half);
+        if sampler.mipmap != Mipmap::None {
+            while let Some(half) = levels.last().and_then(Level::half) {
+                levels.push(half);
+            }
         }
         Self { levels, sampler }
     }

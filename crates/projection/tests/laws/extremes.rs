@@ -163,6 +163,17 @@ proptest! {
             finite("about", moved.onto_plane().raw());
             finite("about, inverse", moved.depth_kept_inverse().raw());
         }
+    }
+
+    #[test]
+    fn constructions(
+        a in any_number(),
+        b in any_number(),
+        d in any_number(),
+        z in any_number(),
+        w in any_size(),
+        c in convention(),
+    ) {
         let plane = Plane::<View>::from_raw(glam::DVec4::new(a, b, d, z));
         for projector in [
             Projector::from_eye(Point::new(w, a, z), plane),
