@@ -11,8 +11,9 @@
 
 mod picture;
 
+use alberti_tests::root;
 use picture::{Difference, Picture};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, ExitCode};
 use std::{env, fs};
 
@@ -31,7 +32,7 @@ fn main() -> ExitCode {
 fn run() -> Result<bool, String> {
     let chosen: Vec<String> = env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
     let wanted = |name: &String| chosen.is_empty() || chosen.contains(name);
-    let program = program()?;
+    let program = alberti_tests::program()?;
     let (mut passed, mut failed) = (0, 0);
     for name in scenes()?.iter().filter(|name| wanted(name)) {
         match compare(&program, name) {
@@ -97,32 +98,4 @@ fn render(program: &Path, scene: &Path, picture: &Path) -> Result<(), String> {
         return Ok(());
     }
     Err(format!("{} ({})", String::from_utf8_lossy(&output.stderr).trim(), output.status))
-}
-
-/// The program, built as this test was. It is Cargo that knows where, and whether it is up to date.
-fn program() -> Result<PathBuf, String> {
-    let mut cargo = Command::new(env!("CARGO"));
-    cargo.current_dir(root()).args([
-        "build",
-        "--quiet",
-        "--package",
-        "pipeline",
-        "--bin",
-        "alberti",
-    ]);
-    if !cfg!(debug_assertions) {
-        cargo.arg("--release");
-    }
-    let status = cargo.status().map_err(|error| format!("cargo: {error}"))?;
-    if !status.success() {
-        return Err("the program does not build".into());
-    }
-    // This test is target/PROFILE/deps/goldens-HASH.
-    let test = env::current_exe().map_err(|error| error.to_string())?;
-    let folder = test.ancestors().nth(2).ok_or("the test is in no target folder")?;
-    Ok(folder.join(format!("alberti{}", env::consts::EXE_SUFFIX)))
-}
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
 }

@@ -70,6 +70,7 @@ fn steps() -> Result<Vec<Step>, String> {
             &[
                 &format!("test --workspace{without_maths} --exclude alberti-tests"),
                 "test --package alberti-tests --lib",
+                "test --package alberti-tests --doc",
             ],
         ),
     ];
