@@ -3,8 +3,7 @@
 //! Tiles know nothing of each other, so threads may take them in any order: the picture is the same for any number.
 
 use crate::bins::{Bins, TILE};
-use crate::fragment::Weigher;
-use crate::plane::NOTHING;
+use crate::plane::{NOTHING, index_of};
 use crate::setup::TileRect;
 use crate::tile::{Layer, Tile};
 use crate::{Fragment, Frame};
@@ -44,8 +43,7 @@ impl Frame {
                 for column in 0..self.width.div_ceil(TILE) {
                     let rect = TileRect::of(column, row as u32, self.width, self.height);
                     tile.fill(self, rect, bins.of(column, row as u32), surface);
-                    let mut shading =
-                        Shading { frame: self, surface, background, tile: &tile, rect, last: None };
+                    let shading = Shading { frame: self, surface, background, tile: &tile, rect };
                     shading.write(pixels, &encode);
                 }
             }
@@ -66,65 +64,66 @@ struct Shading<'a, S> {
     background: [f32; 4],
     tile: &'a Tile,
     rect: TileRect,
-    /// The piece that was shaded last, ready to be shaded again: neighbours mostly show the same.
-    last: Option<(u32, Weigher<'a>)>,
 }
 
-/// The colours of a pixel's samples, and how many there are.
-type SampleColors = [[f32; 4]; 16];
+/// A pixel of a tile: where it is there, and where its samples are in the tile's planes.
+#[derive(Clone, Copy)]
+struct Pixel {
+    x: u32,
+    y: u32,
+    at: usize,
+}
 
 impl<S: Surface> Shading<'_, S> {
     /// Writes the tile into a band of the picture that is as wide as the picture and begins at the tile's top row.
-    fn write<P>(&mut self, band: &mut [P], encode: &impl Fn([f32; 4]) -> P) {
+    fn write<P>(&self, band: &mut [P], encode: &impl Fn([f32; 4]) -> P) {
         let mut layers = self.tile.layers.as_slice();
         for y in 0..self.rect.height() {
             let start = y * self.frame.width as usize + self.rect.x0 as usize;
             let Some(row) = band.get_mut(start..start + self.rect.width()) else { return };
             for (x, target) in row.iter_mut().enumerate() {
-                let pixel = y * self.rect.width() + x;
-                let count = layers.iter().take_while(|l| usize::from(l.pixel) == pixel).count();
-                let (over, rest) = layers.split_at(count);
-                layers = rest;
+                let pixel = Pixel { x: x as u32, y: y as u32, at: index_of(x, y) };
+                let over;
+                (over, layers) = split_pixel(layers, y * self.rect.width() + x);
                 *target = encode(self.color(pixel, over));
             }
         }
     }
 
-    fn color(&mut self, pixel: usize, over: &[Layer]) -> [f32; 4] {
-        let count = self.frame.samples.count();
-        if over.is_empty() && self.is_uniform(pixel) {
-            return self.piece_color(self.piece(0, pixel), pixel);
+    #[inline]
+    fn color(&self, pixel: Pixel, over: &[Layer]) -> [f32; 4] {
+        if over.is_empty() && self.tile.is_uniform(pixel.at) {
+            return self.piece_color(self.tile.piece(0, pixel.at), pixel);
         }
-        let mut colors: SampleColors = [[0.0; 4]; 16];
-        self.solid_colors(pixel, &mut colors[..count]);
+        self.mixed_color(pixel, over)
+    }
+
+    /// The colour of a pixel in which there is more than one piece to be seen.
+    fn mixed_color(&self, pixel: Pixel, over: &[Layer]) -> [f32; 4] {
+        let mut colors = [[0.0; 4]; 16];
+        let colors = &mut colors[..self.frame.samples.count()];
+        self.solid_colors(pixel, colors);
         for layer in over {
-            self.blend(layer, &mut colors[..count]);
+            let color = self.shade(layer.piece, pixel);
+            blend(layer.mask, color, colors);
         }
-        mean(&colors[..count])
-    }
-
-    fn piece(&self, sample: usize, pixel: usize) -> u32 {
-        self.tile.piece(sample, pixel % self.rect.width(), pixel / self.rect.width())
-    }
-
-    fn is_uniform(&self, pixel: usize) -> bool {
-        let first = self.piece(0, pixel);
-        (1..self.frame.samples.count()).all(|sample| self.piece(sample, pixel) == first)
+        mean(colors)
     }
 
     /// The colour of each sample's nearest solid piece, each piece shaded once.
-    fn solid_colors(&mut self, pixel: usize, colors: &mut [[f32; 4]]) {
+    fn solid_colors(&self, pixel: Pixel, colors: &mut [[f32; 4]]) {
+        let piece_at = |sample: usize| self.tile.piece(sample, pixel.at);
         for sample in 0..colors.len() {
-            let piece = self.piece(sample, pixel);
-            let seen = (0..sample).find(|&earlier| self.piece(earlier, pixel) == piece);
+            let seen = (0..sample).find(|&earlier| piece_at(earlier) == piece_at(sample));
             colors[sample] = match seen {
                 Some(earlier) => colors[earlier],
-                None => self.piece_color(piece, pixel),
+                None => self.piece_color(piece_at(sample), pixel),
             };
         }
     }
 
-    fn piece_color(&mut self, piece: u32, pixel: usize) -> [f32; 4] {
+    #[inline]
+    fn piece_color(&self, piece: u32, pixel: Pixel) -> [f32; 4] {
         if piece == NOTHING {
             return self.background;
         }
@@ -132,25 +131,27 @@ impl<S: Surface> Shading<'_, S> {
         [r, g, b, 1.0]
     }
 
-    fn blend(&mut self, layer: &Layer, colors: &mut [[f32; 4]]) {
-        let over = self.shade(layer.piece, usize::from(layer.pixel));
-        for (sample, color) in colors.iter_mut().enumerate() {
-            if layer.mask & (1 << sample) != 0 {
-                *color = [0, 1, 2, 3].map(|k| over[k] + color[k] * (1.0 - over[3]));
-            }
-        }
+    #[inline]
+    fn shade(&self, piece: u32, pixel: Pixel) -> [f32; 4] {
+        let (x, y) = (self.rect.x0 + pixel.x, self.rect.y0 + pixel.y);
+        let piece = &self.frame.pieces[piece as usize];
+        self.surface.shade(&Fragment::new(piece, &self.frame.source_weights, x, y))
     }
+}
 
-    fn shade(&mut self, piece: u32, pixel: usize) -> [f32; 4] {
-        if self.last.is_none_or(|(last, _)| last != piece) {
-            let weigher =
-                Weigher::new(&self.frame.pieces[piece as usize], &self.frame.source_weights);
-            self.last = Some((piece, weigher));
+/// The layers of a pixel, and those of the pixels behind it.
+#[inline]
+fn split_pixel(layers: &[Layer], pixel: usize) -> (&[Layer], &[Layer]) {
+    let count = layers.iter().take_while(|layer| usize::from(layer.pixel) == pixel).count();
+    layers.split_at(count)
+}
+
+/// Lays a colour (multiplied by alpha) over those samples whose bit is set.
+fn blend(mask: u16, over: [f32; 4], colors: &mut [[f32; 4]]) {
+    for (sample, color) in colors.iter_mut().enumerate() {
+        if mask & (1 << sample) != 0 {
+            *color = [0, 1, 2, 3].map(|k| over[k] + color[k] * (1.0 - over[3]));
         }
-        let Some((_, weigher)) = &self.last else { return self.background };
-        let (x, y) = (pixel % self.rect.width(), pixel / self.rect.width());
-        let fragment = weigher.fragment(self.rect.x0 + x as u32, self.rect.y0 + y as u32);
-        self.surface.shade(&fragment)
     }
 }
 

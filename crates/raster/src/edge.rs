@@ -18,7 +18,6 @@ pub(crate) struct Edge {
     pub(crate) a: i64,
     pub(crate) b: i64,
     c: i64,
-    owns_border: bool,
 }
 
 impl Edge {
@@ -29,17 +28,12 @@ impl Edge {
         let b = i64::from(end.x) - x;
         // (a, b) is the normal to the inside: it points right on a left edge, and down (larger y) on a top edge.
         let owns_border = a > 0 || (a == 0 && b > 0);
-        Self { a, b, c: -(a * x + b * y) - i64::from(!owns_border), owns_border }
+        Self { a, b, c: -(a * x + b * y) - i64::from(!owns_border) }
     }
 
     /// E at a grid position, ≥ 0 if the edge does not exclude it.
     pub(crate) fn at(&self, x: i64, y: i64) -> i64 {
         self.a * x + self.b * y + self.c
-    }
-
-    /// E without the top-left rule: twice the area between the edge and the position, 0 on the edge.
-    pub(crate) fn area_at(&self, x: i64, y: i64) -> i64 {
-        self.at(x, y) + i64::from(!self.owns_border)
     }
 }
 

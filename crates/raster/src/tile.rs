@@ -1,9 +1,8 @@
 //! Visibility in one tile: for each sample, how near the nearest solid surface is and which it is.
 
-use crate::fragment::Weigher;
-use crate::plane::{Plane, index_of};
+use crate::plane::Plane;
 use crate::setup::{Setup, TileRect};
-use crate::{Cover, Frame, Surface};
+use crate::{Cover, Fragment, Frame, Surface};
 use fearless_simd::{Level, Simd, dispatch};
 
 /// One pixel's share of a translucent piece.
@@ -25,14 +24,20 @@ pub(crate) struct Tile {
 }
 
 impl Tile {
-    /// The piece seen by a sample of a pixel; [`NOTHING`](crate::plane::NOTHING) for the background.
-    pub(crate) fn piece(&self, sample: usize, x: usize, y: usize) -> u32 {
-        self.planes[sample].piece[index_of(x, y)]
+    /// The piece seen by a sample of a pixel ([`index_of`](crate::plane::index_of) says where it is); [`NOTHING`](crate::plane::NOTHING) for the background.
+    pub(crate) fn piece(&self, sample: usize, at: usize) -> u32 {
+        self.planes[sample].piece[at]
+    }
+
+    /// Whether all samples of a pixel see the same piece.
+    pub(crate) fn is_uniform(&self, at: usize) -> bool {
+        let first = self.planes[0].piece[at];
+        self.planes[1..].iter().all(|plane| plane.piece[at] == first)
     }
 
     /// The depth of the nearest piece at a sample of a pixel, −∞ for the background.
-    pub(crate) fn depth(&self, sample: usize, x: usize, y: usize) -> f32 {
-        self.planes[sample].depth[index_of(x, y)]
+    pub(crate) fn depth(&self, sample: usize, at: usize) -> f32 {
+        self.planes[sample].depth[at]
     }
 
     /// Finds what is visible in `rect` of the pieces `bin`.
@@ -96,11 +101,11 @@ impl Tile {
         surface: &impl Surface,
     ) {
         let piece = &frame.pieces[index as usize];
-        let weigher = Weigher::new(piece, &frame.source_weights);
         for (plane, offset) in self.planes.iter_mut().zip(frame.samples.offsets()) {
             let Some(setup) = Setup::new(piece, rect, offset) else { continue };
             plane.visit(simd, &setup, false, |plane, at, x, y, depth| {
-                let fragment = weigher.fragment(rect.x0 + x as u32, rect.y0 + y as u32);
+                let (x, y) = (rect.x0 + x as u32, rect.y0 + y as u32);
+                let fragment = Fragment::new(piece, &frame.source_weights, x, y);
                 if surface.keeps(&fragment) {
                     plane.depth[at] = depth;
                     plane.piece[at] = index;

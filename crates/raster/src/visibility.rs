@@ -1,7 +1,7 @@
 //! Visibility without shading: which primitive is seen in each pixel, and how near it is.
 
 use crate::bins::{Bins, TILE};
-use crate::fragment::Weigher;
+use crate::plane::index_of;
 use crate::primitive::Piece;
 use crate::setup::TileRect;
 use crate::tile::Tile;
@@ -46,7 +46,7 @@ impl Frame {
     /// [`visibility`](Self::visibility) sees it, tile by tile.
     pub fn fragments(&self, mut each: impl FnMut(Fragment<'_>)) {
         self.each_seen(|x, y, _, piece| {
-            each(Weigher::new(piece, &self.source_weights).fragment(x, y));
+            each(Fragment::new(piece, &self.source_weights, x, y));
         });
     }
 
@@ -59,9 +59,10 @@ impl Frame {
                 tile.fill(self, rect, bins.of(column, row), &Whole);
                 for pixel in 0..rect.width() * rect.height() {
                     let (x, y) = (pixel % rect.width(), pixel / rect.width());
-                    let seen = self.pieces.get(tile.piece(0, x, y) as usize);
+                    let at = index_of(x, y);
+                    let seen = self.pieces.get(tile.piece(0, at) as usize);
                     let Some(piece) = seen else { continue };
-                    each(rect.x0 + x as u32, rect.y0 + y as u32, tile.depth(0, x, y), piece);
+                    each(rect.x0 + x as u32, rect.y0 + y as u32, tile.depth(0, at), piece);
                 }
             }
         }
