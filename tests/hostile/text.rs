@@ -151,7 +151,8 @@ fn containers() -> Vec<Case> {
     }
     let mut longer = glb(json.as_bytes(), &bytes);
     longer.extend([0; 5]);
-    let ignored = Expected::Warns(" 5 bytes after the end are ignored".to_owned());
+    let ignored =
+        Expected::Warns(" there is more after the end; it is ignored (bytes: 5)".to_owned());
     cases.push(Case::new("glb with more after it", longer, ignored));
     cases.push(Case::new(
         "glb without binary chunk",

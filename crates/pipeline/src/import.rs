@@ -60,6 +60,16 @@ pub struct ImportOptions {
 ///
 /// Soft faults do not stop it: they are in [`Model::warnings`]. A file with nothing to draw loads as well.
 ///
+/// ```no_run
+/// use pipeline::import::{ImportOptions, load};
+/// let model = load("chair.glb".as_ref(), &ImportOptions::default())?;
+/// let triangles: usize = model.meshes.iter().flat_map(|mesh| &mesh.primitives).map(|p| p.count()).sum();
+/// for warning in &model.warnings {
+///     println!("{}: {}", warning.pointer, warning.message);
+/// }
+/// # Ok::<(), pipeline::import::ImportError>(())
+/// ```
+///
 /// # Errors
 /// The file, or one it refers to, cannot be read or may not be; is not glTF 2.0 or breaks its rules; requires an
 /// unknown extension; exceeds a limit.

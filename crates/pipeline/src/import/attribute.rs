@@ -120,7 +120,7 @@ impl Attributes<'_, '_> {
             lost += 1;
         }
         if lost > 0 {
-            let message = format!("{lost} texture coordinates are no numbers; they are 0");
+            let message = format!("coordinates are no numbers; they are 0 (vertices: {lost})");
             self.warnings.add(pointer, message);
         }
         Ok(Some(uvs))

@@ -49,7 +49,8 @@ impl Container {
     fn binary(bytes: &[u8], warnings: &mut Warnings) -> Result<Self, Fault> {
         let end = check_header(bytes)?;
         if end < bytes.len() {
-            warnings.add("", format!("{} bytes after the end are ignored", bytes.len() - end));
+            let more = bytes.len() - end;
+            warnings.add("", format!("there is more after the end; it is ignored (bytes: {more})"));
         }
         let mut chunks = Chunks { bytes: &bytes[..end], at: HEADER };
         let Some((b"JSON", json)) = chunks.next()? else {

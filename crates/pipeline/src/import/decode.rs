@@ -221,7 +221,8 @@ mod tests {
     fn every_kind_of_png_becomes_rgba_of_8_bits() {
         use ColorType::{Grayscale, GrayscaleAlpha, Indexed, Rgb, Rgba};
         let palette: &[u8] = &[1, 2, 3, 4, 5, 6];
-        let table: [(ColorType, BitDepth, &[u8], Option<&[u8]>, [[u8; 4]; 2]); 9] = [
+        type Row<'a> = (ColorType, BitDepth, &'a [u8], Option<&'a [u8]>, [[u8; 4]; 2]);
+        let table: [Row<'_>; 9] = [
             (Rgba, BitDepth::Eight, &[1, 2, 3, 4, 5, 6, 7, 8], None, [[1, 2, 3, 4], [5, 6, 7, 8]]),
             (Rgb, BitDepth::Eight, &[1, 2, 3, 5, 6, 7], None, [[1, 2, 3, 255], [5, 6, 7, 255]]),
             (GrayscaleAlpha, BitDepth::Eight, &[9, 4, 7, 8], None, [[9, 9, 9, 4], [7, 7, 7, 8]]),

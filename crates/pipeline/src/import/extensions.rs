@@ -3,6 +3,7 @@
 use super::error::{Fault, FaultKind};
 use super::warnings::Warnings;
 use gltf::json::Root;
+use std::collections::BTreeSet;
 
 /// What an extension means to us.
 enum Support {
@@ -73,9 +74,17 @@ pub(super) fn check(root: &Root, warnings: &mut Warnings) -> Result<(), Fault> {
             "export the file without it",
         ));
     }
-    for (at, name) in root.extensions_used.iter().enumerate() {
-        if let Some(Without(reason) | Never(reason)) = support(name) {
-            warnings.add(&format!("/extensionsUsed/{at}"), format!("{name}: {reason}"));
+    let mut told = BTreeSet::new();
+    for (list, names) in [
+        ("extensionsUsed", &root.extensions_used),
+        ("extensionsRequired", &root.extensions_required),
+    ] {
+        for (at, name) in names.iter().enumerate() {
+            if let (Some(Without(reason) | Never(reason)), true) =
+                (support(name), told.insert(name))
+            {
+                warnings.add(&format!("/{list}/{at}"), format!("{name}: {reason}"));
+            }
         }
     }
     Ok(())

@@ -34,10 +34,11 @@ pub(super) fn needed(
     let visible = meshes.iter().zip(shown).filter(|(_, shown)| **shown).map(|(mesh, _)| mesh);
     for primitive in visible.flat_map(|mesh| &mesh.primitives).filter(|p| p.count() > 0) {
         let material = primitive.material.and_then(|at| materials.get(at));
-        let texture = material.and_then(|material| material.base_color_texture);
-        let image = texture.and_then(|used| textures.get(used.texture)?.image);
-        if let Some(flag) = image.and_then(|image| needed.get_mut(image)) {
-            *flag = true;
+        for used in material.into_iter().flat_map(Material::textures) {
+            let image = textures.get(used.texture).and_then(|texture| texture.image);
+            if let Some(flag) = image.and_then(|image| needed.get_mut(image)) {
+                *flag = true;
+            }
         }
     }
     needed

@@ -37,6 +37,10 @@ impl Reader<'_, '_> {
             roughness: self.unit("pbrMetallicRoughness/roughnessFactor", [pbr.roughness_factor.0])
                 [0],
             emissive: self.unit("emissiveFactor", json.emissive_factor.0).map(|x| x * strength),
+            emissive_texture: json
+                .emissive_texture
+                .as_ref()
+                .and_then(|info| self.texture_use("emissiveTexture", info)),
             alpha_mode: self.alpha_mode(),
             double_sided: json.double_sided,
             unlit: self.extension("KHR_materials_unlit").is_some(),
@@ -126,8 +130,8 @@ pub(super) fn warn_of_missing_texcoords(model: &Model, warnings: &mut Warnings) 
     for (at, mesh) in model.meshes.iter().enumerate() {
         for (part, primitive) in mesh.primitives.iter().enumerate() {
             let material = primitive.material.map(|material| &model.materials[material]);
-            let used = material.and_then(|material| material.base_color_texture);
-            let missing = used.filter(|used| used.uv_set >= primitive.uvs.len());
+            let mut used = material.into_iter().flat_map(Material::textures);
+            let missing = used.find(|used| used.uv_set >= primitive.uvs.len());
             if let Some(TextureUse { uv_set, .. }) = missing.filter(|_| primitive.count() > 0) {
                 let message = format!("its texture needs TEXCOORD_{uv_set}; it is shown without");
                 warnings.add(&format!("/meshes/{at}/primitives/{part}"), message);

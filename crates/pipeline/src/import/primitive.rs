@@ -108,7 +108,8 @@ impl<'a> Reader<'a, '_> {
         }
         let has_vertices = |item: &[u32]| item.iter().all(|&i| (i as usize) < vertices);
         let dropped = retain_items(primitive, has_vertices);
-        let message = format!("{dropped} items use vertices that do not exist; they are left out");
+        let message =
+            format!("items use vertices that do not exist; they are left out (items: {dropped})");
         self.warnings.add(&format!("{}/indices", self.pointer), message);
     }
 
@@ -123,7 +124,8 @@ impl<'a> Reader<'a, '_> {
         let dropped = retain_items(primitive, has_places);
         positions.iter_mut().filter(|p| !is_place(p)).for_each(|p| *p = [0.0; 3]);
         primitive.positions = positions;
-        let message = format!("{dropped} items have corners at no finite place; they are left out");
+        let message =
+            format!("items have corners at no finite place; they are left out (items: {dropped})");
         self.warnings.add(&format!("{}/attributes/POSITION", self.pointer), message);
     }
 
@@ -165,17 +167,15 @@ impl<'a> Reader<'a, '_> {
     }
 
     fn mend_normals(&mut self, primitive: &mut Primitive) {
-        let repairs = normals::unify(primitive);
+        let normals::Repairs { lengths, replaced } = normals::unify(primitive);
         let pointer = format!("{}/attributes/NORMAL", self.pointer);
-        if repairs.lengths > 0 {
-            let message =
-                format!("{} normals were not of unit length; they are now", repairs.lengths);
-            self.warnings.add(&pointer, message);
+        if lengths > 0 {
+            let message = "normals were not of unit length; they are now";
+            self.warnings.add(&pointer, format!("{message} (normals: {lengths})"));
         }
-        if repairs.replaced > 0 {
-            let message =
-                format!("{} normals had no direction; they follow the faces", repairs.replaced);
-            self.warnings.add(&pointer, message);
+        if replaced > 0 {
+            let message = "normals had no direction; they follow the faces";
+            self.warnings.add(&pointer, format!("{message} (normals: {replaced})"));
         }
     }
 
