@@ -43,7 +43,7 @@ impl Surface for Shading<'_> {
         let base = base_color(draw, fragment);
         let alpha = if draw.material.alpha_mode == AlphaMode::Blend { base[3] } else { 1.0 };
         let light = if draw.is_lit() { self.arriving(draw, fragment) } else { [1.0; 3] };
-        let emitted = if draw.material.unlit { [0.0; 3] } else { draw.material.emissive };
+        let emitted = emitted(draw, fragment);
         let [r, g, b] = [0, 1, 2].map(|k| (base[k] * light[k] + emitted[k]) * alpha);
         [r, g, b, alpha]
     }
@@ -76,11 +76,24 @@ fn base_color(draw: &Draw<'_>, fragment: &Fragment<'_>) -> [f32; 4] {
     if let Some(vertex) = draw.color(fragment) {
         color = times(color, vertex);
     }
-    if let (Some(chain), Some(used)) = (draw.texture, base_color_texture) {
+    if let (Some(chain), Some(used)) = (draw.base_color_texture, base_color_texture) {
         let uvs = draw.uvs(fragment, used);
         color = times(color, chain.sample(uvs, linear_table()));
     }
     color
+}
+
+/// The light that the surface gives off by itself (glTF 2.0 §3.9.3); none where the base colour is all there is to see.
+fn emitted(draw: &Draw<'_>, fragment: &Fragment<'_>) -> [f32; 3] {
+    let Material { emissive, emissive_texture, unlit, .. } = draw.material;
+    if *unlit || *emissive == [0.0; 3] {
+        return [0.0; 3];
+    }
+    let (Some(chain), Some(used)) = (draw.emissive_texture, emissive_texture) else {
+        return *emissive;
+    };
+    let texel = chain.sample(draw.uvs(fragment, used), linear_table());
+    [0, 1, 2].map(|k| emissive[k] * texel[k])
 }
 
 fn times(a: [f32; 4], b: [f32; 4]) -> [f32; 4] {

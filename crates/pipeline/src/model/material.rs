@@ -15,12 +15,21 @@ pub struct Material {
     pub roughness: f32,
     /// Light the surface gives off by itself.
     pub emissive: [f32; 3],
+    /// The texture of that light (sRGB); multiplies it.
+    pub emissive_texture: Option<TextureUse>,
     /// What alpha means.
     pub alpha_mode: AlphaMode,
     /// Whether the back of the surface is shown too.
     pub double_sided: bool,
     /// Whether the base colour is shown as it is, without light (KHR_materials_unlit).
     pub unlit: bool,
+}
+
+impl Material {
+    /// The textures that the surface shows.
+    pub fn textures(&self) -> impl Iterator<Item = TextureUse> {
+        [self.base_color_texture, self.emissive_texture].into_iter().flatten()
+    }
 }
 
 impl Default for Material {
@@ -33,6 +42,7 @@ impl Default for Material {
             metallic: 1.0,
             roughness: 1.0,
             emissive: [0.0; 3],
+            emissive_texture: None,
             alpha_mode: AlphaMode::Opaque,
             double_sided: false,
             unlit: false,

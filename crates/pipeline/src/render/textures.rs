@@ -24,7 +24,7 @@ impl<'a> Textures<'a> {
 fn chains(model: &Model) -> Vec<Option<MipChain<'_>>> {
     let mut used = vec![false; model.textures.len()];
     for material in &model.materials {
-        if let Some(texture) = &material.base_color_texture {
+        for texture in material.textures() {
             used[texture.texture] = true;
         }
     }

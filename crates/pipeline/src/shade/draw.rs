@@ -17,7 +17,9 @@ pub struct Draw<'a> {
     /// What it is made of.
     pub material: &'a Material,
     /// The texture of its base colour.
-    pub texture: Option<&'a MipChain<'a>>,
+    pub base_color_texture: Option<&'a MipChain<'a>>,
+    /// The texture of the light it gives off.
+    pub emissive_texture: Option<&'a MipChain<'a>>,
     /// The vertices' places in the world.
     pub places: Vec<[f32; 3]>,
     /// The vertices' unit normals in the world, if the file has any.
