@@ -23,33 +23,12 @@ pub struct Run {
 }
 
 impl Program {
-    /// The program at `$ALBERTI`, or a fresh build beside this test.
+    /// The program that all tests use.
     pub fn find() -> Result<Self, String> {
-        if let Some(path) = std::env::var_os("ALBERTI") {
-            let path = PathBuf::from(path);
-            let missing = format!("ALBERTI names {}, which is no file", path.display());
-            return if path.is_file() { Ok(Self { path }) } else { Err(missing) };
-        }
-        let this = std::env::current_exe().map_err(|error| error.to_string())?;
-        let folder = this.parent().and_then(Path::parent).ok_or("this test has no folder")?;
-        let target = folder.parent().ok_or("this test has no target folder")?;
-        let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-        cargo.args(["build", "--quiet", "--package", "pipeline", "--bin", "alberti"]);
-        cargo.current_dir(env!("CARGO_MANIFEST_DIR")).arg("--target-dir").arg(target);
-        if folder.ends_with("release") {
-            cargo.arg("--release");
-        }
-        match cargo.status() {
-            Ok(status) if status.success() => {
-                let name = format!("alberti{}", std::env::consts::EXE_SUFFIX);
-                Ok(Self { path: folder.join(name) })
-            }
-            Ok(status) => Err(format!("the program does not build: {status}")),
-            Err(error) => Err(format!("cargo does not run: {error}")),
-        }
+        Ok(Self { path: alberti_tests::program()? })
     }
 
-    /// Draws a file into `picture`, `SIZE` pixels large, and waits no longer than the limit.
+    /// Draws a file into `picture`, as large as `size`, and waits no longer than the limit.
     pub fn render(&self, input: &Path, picture: &Path, size: (u32, u32)) -> Result<Run, String> {
         let log = picture.with_extension("log");
         let stderr = File::create(&log).map_err(|error| error.to_string())?;
