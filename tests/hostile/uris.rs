@@ -73,54 +73,71 @@ fn prepare(folder: &Path, models: &Path) -> std::io::Result<()> {
     Ok(())
 }
 
+/// Names of files that are there, written in every way that is allowed.
+const ALLOWED: [&str; 17] = [
+    "data.bin",
+    "a b.bin",
+    "a%20b.bin",
+    "a+b.bin",
+    "50%.bin",
+    "%41.bin",
+    "%C3%BC.bin",
+    "ü.bin",
+    "sub/in.bin",
+    "./data.bin",
+    "sub/../data.bin",
+    "sub/./in.bin",
+    "sub//in.bin",
+    "%64ata.bin",
+    "..bin",
+    "sub\\in.bin",
+    "sub%2Fin.bin",
+];
+
+/// Names that lead out of the folder by their letters alone.
+const FORBIDDEN: [&str; 7] = [
+    "../secret.bin",
+    "../../../../../../etc/passwd",
+    "sub/../../secret.bin",
+    "/etc/passwd",
+    "\\etc\\passwd",
+    "..",
+    "a/../../secret.bin",
+];
+
+fn at(problem: &str, remedy: &str) -> Expected {
+    Expected::Says(format!("/buffers/0/uri: {problem}; {remedy}"))
+}
+
+fn outside(uri: &str) -> Expected {
+    at(&format!("{uri:?} is outside of the model's folder"), OUTSIDE)
+}
+
+fn missing(uri: &str) -> Expected {
+    at(&format!("the file {uri:?} does not exist"), "put it beside the glTF file")
+}
+
+fn scheme(scheme: &str, uri: &str) -> Expected {
+    at(&format!("the scheme {scheme:?} of {uri:?} is not read"), OUTSIDE)
+}
+
 fn table(models: &Path) -> Vec<(String, Expected)> {
-    let at = |problem: &str, remedy: &str| {
-        Expected::Says(format!("/buffers/0/uri: {problem}; {remedy}"))
-    };
-    let outside = |uri: &str| at(&format!("{uri:?} is outside of the model's folder"), OUTSIDE);
-    let missing =
-        |uri: &str| at(&format!("the file {uri:?} does not exist"), "put it beside the glTF file");
-    let scheme = |scheme: &str, uri: &str| {
-        at(&format!("the scheme {scheme:?} of {uri:?} is not read"), OUTSIDE)
-    };
     let absolute = models.join("data.bin").to_string_lossy().into_owned();
-    let mut table = vec![
-        (absolute.clone(), outside(&absolute)),
-        (format!("file://{absolute}"), scheme("file", &format!("file://{absolute}"))),
-    ];
-    for uri in [
-        "data.bin",
-        "a b.bin",
-        "a%20b.bin",
-        "a+b.bin",
-        "50%.bin",
-        "%41.bin",
-        "%C3%BC.bin",
-        "ü.bin",
-        "sub/in.bin",
-        "./data.bin",
-        "sub/../data.bin",
-        "sub/./in.bin",
-        "sub//in.bin",
-        "%64ata.bin",
-        "..bin",
-        "sub\\in.bin",
-        "sub%2Fin.bin",
-    ] {
-        table.push((uri.to_owned(), Expected::LoadsClean));
+    let file = format!("file://{absolute}");
+    let mut table =
+        vec![(absolute.clone(), outside(&absolute)), (file.clone(), scheme("file", &file))];
+    table.extend(ALLOWED.map(|uri| (uri.to_owned(), Expected::LoadsClean)));
+    table.extend(FORBIDDEN.map(|uri| (uri.to_owned(), outside(uri))));
+    table.extend(strange_names());
+    table.extend(data_uris());
+    if cfg!(unix) {
+        table.extend(links());
     }
-    for uri in [
-        "../secret.bin",
-        "../../../../../../etc/passwd",
-        "sub/../../secret.bin",
-        "/etc/passwd",
-        "\\etc\\passwd",
-        "..",
-        "a/../../secret.bin",
-    ] {
-        table.push((uri.to_owned(), outside(uri)));
-    }
-    table.extend([
+    table
+}
+
+fn strange_names() -> Vec<(String, Expected)> {
+    vec![
         ("%2e%2e/secret.bin".to_owned(), outside("../secret.bin")),
         ("%2E%2E%2Fsecret.bin".to_owned(), outside("../secret.bin")),
         ("%2Fetc%2Fpasswd".to_owned(), outside("/etc/passwd")),
@@ -146,6 +163,11 @@ fn table(models: &Path) -> Vec<(String, Expected)> {
         ("http://example.com/a.bin".to_owned(), scheme("http", "http://example.com/a.bin")),
         ("HTTPS://example.com/a.bin".to_owned(), scheme("HTTPS", "HTTPS://example.com/a.bin")),
         ("C:\\x.bin".to_owned(), Expected::Refused),
+    ]
+}
+
+fn data_uris() -> Vec<(String, Expected)> {
+    vec![
         (
             "data:".to_owned(),
             at("the data URI has no comma before its data", "export the file again"),
@@ -159,21 +181,22 @@ fn table(models: &Path) -> Vec<(String, Expected)> {
         (format!("DATA:application/gltf-buffer;base64,{}=", "A".repeat(59)), Expected::Loads),
         (format!("data:,{}", "%00".repeat(44)), Expected::LoadsClean),
         (format!("data:,{}", "%FF".repeat(44)), Expected::Loads),
-    ]);
-    if cfg!(unix) {
-        table.extend([
-            ("x:y.bin".to_owned(), Expected::LoadsClean),
-            ("in.bin".to_owned(), Expected::LoadsClean),
-            ("twice.bin".to_owned(), Expected::LoadsClean),
-            ("out.bin".to_owned(), at("\"out.bin\" leads out of the model's folder", OUTSIDE)),
-            (
-                "up/secret.bin".to_owned(),
-                at("\"up/secret.bin\" leads out of the model's folder", OUTSIDE),
-            ),
-            ("zero.bin".to_owned(), at("\"zero.bin\" leads out of the model's folder", OUTSIDE)),
-            ("self.bin".to_owned(), missing("self.bin")),
-            ("dangling.bin".to_owned(), missing("dangling.bin")),
-        ]);
-    }
-    table
+    ]
+}
+
+/// Names that only some systems allow, and symbolic links.
+fn links() -> Vec<(String, Expected)> {
+    vec![
+        ("x:y.bin".to_owned(), Expected::LoadsClean),
+        ("in.bin".to_owned(), Expected::LoadsClean),
+        ("twice.bin".to_owned(), Expected::LoadsClean),
+        ("out.bin".to_owned(), at("\"out.bin\" leads out of the model's folder", OUTSIDE)),
+        (
+            "up/secret.bin".to_owned(),
+            at("\"up/secret.bin\" leads out of the model's folder", OUTSIDE),
+        ),
+        ("zero.bin".to_owned(), at("\"zero.bin\" leads out of the model's folder", OUTSIDE)),
+        ("self.bin".to_owned(), missing("self.bin")),
+        ("dangling.bin".to_owned(), missing("dangling.bin")),
+    ]
 }

@@ -1,6 +1,6 @@
 //! A scene as a person writes it: RON, with degrees, paths and defaults.
 //!
-//! These types say what a scene file may contain and nothing of what it means; [`super::resolve`] does that. Every
+//! These types say what a scene file may contain and nothing of what it means; [`Scene::resolve`](super::Scene::resolve) does that. Every
 //! field but the models' paths may be left out. Unknown fields are errors, so that a slip of the pen is found.
 
 use super::number::{FieldOfView, Finite, NonNegative, Positive, Scale, Triple};
