@@ -5,6 +5,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program speaks to its person")]
 #![allow(unreachable_pub, reason = "in a program `pub` means: used by another file")]
 
+mod conformance;
 mod determinism;
 mod gallery;
 mod golden;
@@ -39,6 +40,12 @@ const COMMANDS: &[Command] = &[
         arguments: "",
         about: "The rules of the house that no lint can check",
         run: tidy::run,
+    },
+    Command {
+        name: "conformance",
+        arguments: "[--check]",
+        about: "Write tests/CONFORMANCE.md, which test proves which item, or only check it",
+        run: conformance::run,
     },
     Command {
         name: "golden",

@@ -53,6 +53,9 @@ fn steps() -> Result<Vec<Step>, String> {
         Step::own("models", "the models are what the code makes", || {
             crate::models::run(&["--check".into()])
         }),
+        Step::own("conformance", "each item is proved by a test, and the table says which", || {
+            crate::conformance::run(&["--check".into()])
+        }),
         Step::cargo(
             "clippy",
             "no lint has anything to say",

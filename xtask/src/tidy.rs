@@ -13,7 +13,7 @@ mod words;
 
 use crate::Outcome;
 pub use boundaries::NO_STD;
-use source::Source;
+pub use source::{Source, rust_files};
 
 /// A broken rule: where, and what to do about it.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -44,7 +44,7 @@ pub fn run(arguments: &[String]) -> Outcome {
     if let Some(argument) = arguments.first() {
         return Err(format!("unknown argument `{argument}`"));
     }
-    let sources = source::rust_files()?;
+    let sources = rust_files()?;
     for long in sources.iter().filter_map(size::long_file) {
         println!("note: {}: {}", long.place, long.message);
     }

@@ -85,6 +85,17 @@ fn misprint_m11_a_translation_without_its_one_is_singular() {
     assert_eq!(camera.translation().then(camera.rotation()), camera.world_to_view());
 }
 
+/// Notes have the camera look "from the −z axis": it is at the origin of its own space and looks
+/// along −z, so what it looks at lies there.
+#[test]
+fn misprint_m11b_the_camera_looks_along_minus_z_and_does_not_stand_there() {
+    let (eye, target) = (Point::new(4.0, -1.0, 2.0), Point::new(1.0, 3.0, 2.0));
+    let camera = Camera::look_at(eye, target, Vector::Z).expect("a gaze");
+    let view = camera.world_to_view();
+    assert!((view.point(target) - Point::new(0.0, 0.0, -5.0)).length() < 1e-14);
+    assert!((view.point(eye) - Point::ORIGIN).length() < 1e-15);
+}
+
 #[test]
 fn a_millionth_of_a_radian_between_up_and_gaze_is_enough_and_costs_no_digits() {
     let t = 1e-6;

@@ -74,7 +74,7 @@ fn misprint_m21_four_borders_make_a_window_and_six_a_box() {
     assert_ne!(deep.point(p).z(), p.z());
 }
 
-/// M22, DP-1: (1 − Z)/2 takes the chapter's near plane (+1) to 0; on OpenGL's (−1) it gives 1, and (1 + Z)/2 is due.
+/// M22, C100, DP-1: (1 − Z)/2 takes the chapter's near plane (+1) to 0; on OpenGL's (−1) it gives 1, and (1 + Z)/2 is due.
 #[test]
 fn misprint_m22_which_depth_formula_fits_depends_on_where_near_is() {
     let (chapter_near, opengl_near) = (1.0, -1.0);
@@ -85,7 +85,7 @@ fn misprint_m22_which_depth_formula_fits_depends_on_where_near_is() {
     assert_eq!(DepthRange::ZERO_ONE.of(negate), DepthRange::ZERO_ONE_FLIPPED.of(chapter_near));
 }
 
-/// M23, WV-4: rows divide by rows − 1 and columns by columns − 1, and the last index is one less than the count.
+/// M23, C98, WV-4: rows divide by rows − 1 and columns by columns − 1, and the last index is one less than the count.
 #[test]
 fn misprint_m23_counts_are_not_paired_crosswise() {
     let (rows, columns) = (3, 5);

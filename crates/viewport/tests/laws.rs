@@ -45,6 +45,7 @@ fn frustum(near: f64, far: f64) -> Projective<View, Clip> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(256))]
 
+    /// C97, WV-3.
     #[test]
     fn what_goes_to_the_screen_comes_back(viewport in viewport(), p in ndc()) {
         let there = viewport.ndc_to_screen().point(p);
@@ -79,6 +80,7 @@ proptest! {
         prop_assert!((back.point(convert.point(q)) - q).length() < 1e-12 * 4000.0);
     }
 
+    /// C53, C95, C96: also beyond the window.
     #[test]
     fn both_methods_of_window_to_viewport_agree(
         limits in prop::collection::vec(-100.0..100.0, 8),
@@ -134,7 +136,7 @@ proptest! {
         prop_assert!((by_pick - in_tile).length() < 1e-9, "{by_pick:?} is not {in_tile:?}");
     }
 
-    /// UN-1 and UN-2: what is unprojected projects back, and the ray of a pixel runs from the eye through it.
+    /// C26, UN-1 and UN-2: what is unprojected projects back, and the ray of a pixel runs from the eye through it.
     #[test]
     fn rays_run_from_the_eye_through_their_pixel(
         viewport in viewport(),

@@ -24,6 +24,7 @@ fn assert_maps(map: Projective<View, Clip>, from: Point<View>, to: [f64; 3]) {
 proptest! {
     #![proptest_config(samples::cases(128))]
 
+    /// C4, C91: near and far corners, in every convention.
     #[test]
     fn a_frustum_takes_its_corners_to_those_of_the_canonical_volume(
         f in frustum(),
@@ -40,6 +41,7 @@ proptest! {
         }
     }
 
+    /// C4, C7: the box between any two planes.
     #[test]
     fn a_box_takes_its_corners_to_those_of_the_canonical_volume(
         o in orthographic(),
@@ -52,6 +54,7 @@ proptest! {
         assert_maps(map, high, [1.0, c.top(), c.far_depth()]);
     }
 
+    /// IV-1, C8, C26: from clip space back into view space.
     #[test]
     fn closed_form_inverses_undo(
         f in frustum(),
@@ -69,6 +72,7 @@ proptest! {
         }
     }
 
+    /// C30, C100: and handedness and the flips of y and z with them.
     #[test]
     fn any_convention_converts_to_any_other(
         f in frustum(),
@@ -89,6 +93,7 @@ proptest! {
         }
     }
 
+    /// C69, C92, M14c: a window off centre is an error, not nothing.
     #[test]
     fn a_perspective_is_the_frustum_through_its_window(p in perspective(), c in convention()) {
         let through = p.to_frustum();
@@ -99,6 +104,7 @@ proptest! {
         prop_assert!(Perspective::try_from(moved).is_err());
     }
 
+    /// C33, C60: by height, width, diagonal and focal length.
     #[test]
     fn every_way_to_say_the_field_of_view_gives_the_same_lens(
         fov in 0.05..3.0,
@@ -126,6 +132,7 @@ proptest! {
     }
 }
 
+/// C61, C90: equal borders, bad signs and what is not finite.
 #[test]
 fn bad_parameters_are_refused_by_name() {
     let nan = f64::NAN;

@@ -41,6 +41,7 @@ fn close(a: (f64, f64), b: (f64, f64)) -> bool {
 proptest! {
     #![proptest_config(samples::cases(128))]
 
+    /// C76, AX-1.
     #[test]
     fn squares_of_foreshortening_sum_to_two(a in axonometric()) {
         let sum: f64 = a.foreshortening().iter().map(|ratio| ratio * ratio).sum();
@@ -56,6 +57,7 @@ proptest! {
         }
     }
 
+    /// C76: by foreshortening ratios.
     #[test]
     fn any_possible_ratios_come_out(x in 0.1..1.0, y in 0.1..1.0, z in 0.1..1.0) {
         let (a, b, c) = (x * x, y * y, z * z);
@@ -68,6 +70,7 @@ proptest! {
         }
     }
 
+    /// C76: by the normal of the plane.
     #[test]
     fn the_normal_turns_to_the_viewer(normal in direction()) {
         let made = Axonometric::by_normal(Normal::from_raw(normal.raw())).expect("a direction");
@@ -145,6 +148,7 @@ proptest! {
         }
     }
 
+    /// C77, C78, C79: by length, by angle, by direction.
     #[test]
     fn slants_can_be_told_in_three_ways(length in 0.0..3.0, phi in -3.0..3.0, z in -2.0..2.0) {
         let by_length = Oblique::new(length, phi).expect("valid");
@@ -158,6 +162,7 @@ proptest! {
         prop_assert!((moved.onto_plane().point(on_plane) - on_plane).length() < 1e-14);
     }
 
+    /// C72, C75, C78, C82: centre or direction and a plane are enough.
     #[test]
     fn first_principles_give_the_textbook_matrices(d in 0.5..9.0, o in oblique()) {
         let picture = Plane::through(Point::ORIGIN, Normal::new(0.0, 0.0, 1.0));
@@ -195,13 +200,13 @@ proptest! {
         prop_assert!((image - eye).cross(p - eye).length() < 1e-9 * size * size);
     }
 
+    /// C72, PR-1: the error shrinks with the reciprocal of the eye's distance.
     #[test]
     fn parallel_projection_is_the_limit_of_an_eye_going_to_infinity(
         o in oblique(),
         turn in rotation(),
         p in point(),
     ) {
-        // PR-1: the error shrinks with the reciprocal of the eye's distance.
         let normal = turn.vector(Vector::Z);
         let plane = Plane::through(Point::ORIGIN, Normal::from_raw(normal.raw()));
         let towards = turn.vector(o.direction());
@@ -226,6 +231,7 @@ proptest! {
         }
     }
 
+    /// C74.
     #[test]
     fn parallel_lines_stay_parallel_in_parallel_projections(
         o in oblique(),
@@ -238,6 +244,7 @@ proptest! {
         prop_assert!((along(p) - along(q)).length() < 1e-12);
     }
 
+    /// C82: the picture plane stays, and z = d has no image.
     #[test]
     fn only_the_eyes_own_plane_has_no_image(d in 0.5..9.0, p in point()) {
         let eye = NPoint::from_eye(d).expect("valid");
@@ -249,6 +256,7 @@ proptest! {
     }
 }
 
+/// C76, C77: isometric, dimetric, cavalier, cabinet.
 #[test]
 fn named_projections_have_their_textbook_angles() {
     let degrees = |radians: Option<f64>| radians.expect("seen").to_degrees();
@@ -279,9 +287,9 @@ fn named_projections_have_their_textbook_angles() {
     assert!((cabinet.alpha().to_degrees() - 63.43).abs() < 5e-3);
 }
 
+/// C76: the circle in the top face is drawn with axes 1 and 1/√3.
 #[test]
 fn circles_become_ellipses_under_isometric_projection() {
-    // C76: the circle in the top face is drawn with axes 1 and 1/√3.
     let iso = Axonometric::isometric().onto_plane();
     let radii = (0..360).map(|degree| {
         let (sin, cos) = libm::sincos(f64::from(degree).to_radians());
@@ -291,6 +299,7 @@ fn circles_become_ellipses_under_isometric_projection() {
     assert!((most - 1.0).abs() < 1e-12 && (least - 1.0 / 3_f64.sqrt()).abs() < 1e-12);
 }
 
+/// C75, MV-1 to MV-3.
 #[test]
 fn principal_views_look_along_their_axis_and_keep_right_and_up() {
     let part = Point::<View>::new(1.0, 2.0, 3.0);
@@ -312,6 +321,7 @@ fn principal_views_look_along_their_axis_and_keep_right_and_up() {
     }
 }
 
+/// C75.
 #[test]
 fn sheets_are_laid_out_in_first_and_third_angle() {
     assert_eq!(PrincipalView::Top.place(SheetAngle::Third), (0, 1));
@@ -320,6 +330,7 @@ fn sheets_are_laid_out_in_first_and_third_angle() {
     assert_eq!(PrincipalView::Left.place(SheetAngle::First), (1, 0));
 }
 
+/// C73.
 #[test]
 fn the_tree_has_one_root_and_every_leaf_is_built() {
     let roots = ProjectionClass::ALL.into_iter().filter(|class| class.parent().is_none()).count();

@@ -46,6 +46,7 @@ proptest! {
         );
     }
 
+    /// C41, exercise 4: the order along the line of sight is kept.
     #[test]
     fn depth_keeps_the_order_of_distances(
         (near, far) in planes(),
@@ -53,7 +54,6 @@ proptest! {
         a in 0.0..1.0,
         b in 0.0..1.0,
     ) {
-        // C41, exercise 4: the order along the line of sight is kept.
         let curve = DepthCurve::perspective(near, far, c).expect("valid");
         let at = |t: f64| near * libm::pow(far.min(1e4 * near) / near, t);
         let towards = c.far_depth() - c.near_depth();
@@ -62,6 +62,7 @@ proptest! {
         prop_assert!((db - da) * towards * (b - a) >= -1e-12);
     }
 
+    /// C68: depth is in the middle of its range at 2FN/(F + N).
     #[test]
     fn half_of_the_range_is_used_at_the_half_range_distance(
         (near, far) in planes(),
@@ -124,9 +125,9 @@ proptest! {
     }
 }
 
+/// C56: a = −(F+N)/(F−N), b = −2FN/(F−N) of (a z + b)/(−z), that is A = −a, B = −b.
 #[test]
 fn the_opengl_row_is_solved_from_its_two_conditions() {
-    // C56: a = −(F+N)/(F−N), b = −2FN/(F−N) of (a z + b)/(−z), that is A = −a, B = −b.
     let (a, b) = third_row((-2.0, -1.0), (-40.0, 1.0)).expect("two planes");
     assert!((a - 42.0 / 38.0).abs() < 1e-15 && (b - 160.0 / 38.0).abs() < 1e-14);
     let row = Frustum::new(-1.0, 1.0, -1.0, 1.0, 2.0, 40.0)
@@ -135,9 +136,9 @@ fn the_opengl_row_is_solved_from_its_two_conditions() {
     assert!((row.raw().z_axis.z + a).abs() < 1e-15 && (row.raw().w_axis.z + b).abs() < 1e-14);
 }
 
+/// LW-3, C67, C68: three rows of the table from 2 to 40, and the constants c1 and c2.
 #[test]
 fn the_lessons_table_comes_out() {
-    // LW-3, C68: sixteen distances from 2 to 40.
     let curve = DepthCurve::perspective(2.0, 40.0, Convention::OPENGL).expect("valid");
     let table: Vec<_> =
         curve.table([2.0, 3.8, 40.0]).map(|(_, depth)| depth.expect("in front")).collect();

@@ -66,6 +66,7 @@ fn m4_without_p_nothing_is_foreshortened() {
     assert_eq!(near.map(Point::x), far.map(Point::x), "the same size near and far");
 }
 
+/// C29, C100.
 #[test]
 fn m8_opengl_has_the_same_box_but_the_opposite_depth() {
     let per = chapter::m_per(LEFT, RIGHT, BOTTOM, TOP, -NEAR, -FAR).expect("valid").raw();
@@ -113,6 +114,7 @@ fn m11_the_flat_third_row_gives_every_point_the_same_depth() {
     cured(turn * printed, Misprint::ThirdRowFlat, turn * right);
 }
 
+/// C63, C66: and the lesson's steps multiply to it.
 #[test]
 fn m12_the_lessons_frustum_is_another_projection() {
     let lesson = ApexMovedFrustum::new(LEFT, RIGHT, BOTTOM, TOP, NEAR, FAR).expect("valid");
@@ -195,7 +197,7 @@ fn m20_the_factor_u_exceeds_one_between_plane_and_eye() {
 }
 
 #[test]
-fn m21_ortho_takes_six_numbers_and_m47_checks_them() {
+fn m21_ortho_takes_six_numbers_and_printed_47_checks_them() {
     assert!(api::ortho_gl(-1.0, 1.0, -1.0, 1.0, -1.0, 1.0).is_ok());
     assert!(api::perspective_gl(0.0, 1.0, 1.0, 2.0).is_err());
     assert!(api::perspective_gl(1.0, 0.0, 1.0, 2.0).is_err());
@@ -228,6 +230,7 @@ fn printed_29_half_of_the_range_ends_at_eighty_twenty_firsts() {
     assert!((curve.depth(3.8).expect("in front") + 1.0 / 361.0).abs() < 1e-14);
 }
 
+/// M14c.
 #[test]
 fn printed_31_only_symmetric_frusta_are_perspectives() {
     let centred = Frustum::new(-1.0, 1.0, -0.5, 0.5, 1.0, 2.0).expect("valid");

@@ -70,6 +70,7 @@ fn exercise_5_affine_maps_commute_with_scaling_the_homogeneous_point() {
     assert_eq!(image_of_scaled.w, 4.0);
 }
 
+/// C25: both forms of the inverse.
 #[test]
 fn exercise_6_the_inverse_up_to_the_factor_nf() {
     let (p, scaled) =
@@ -79,13 +80,10 @@ fn exercise_6_the_inverse_up_to_the_factor_nf() {
     assert!(close(p.then(inverse).raw(), DMat4::IDENTITY));
     let place = Point::new(1.0, 2.0, -3.0);
     let back = p.then(scaled).point(place).divide();
-    assert_eq!(
-        back,
-        Some(place),
-        "as a projective map the factor does not matter (M14 of the chapter)"
-    );
+    assert_eq!(back, Some(place), "as a projective map the factor does not matter");
 }
 
+/// C27: M_per = M_orth P.
 #[test]
 fn exercise_7_m_per_maps_the_near_corners_to_those_of_the_cube() {
     let per = chapter::m_per(L, R, B, T, N, F).expect("valid");
@@ -93,7 +91,6 @@ fn exercise_7_m_per_maps_the_near_corners_to_those_of_the_cube() {
     assert_eq!(per.point(Point::new(R, T, N)).divide(), Some(Point::new(1.0, 1.0, 1.0)));
     assert_eq!(per.point(Point::new(L, B, N)).divide(), Some(Point::new(-1.0, -1.0, 1.0)));
     assert_eq!(per.point(Point::new(0.0, 0.0, F)).divide().map(Point::z), Some(-1.0));
-    // C27: M_per = M_orth P.
     let product =
         chapter::p(N, F).expect("valid").then(chapter::m_orth(L, R, B, T, N, F).expect("valid"));
     assert!(close(product.raw(), per.raw()));
@@ -112,12 +109,12 @@ fn exercise_8_and_9_n_1_f_2() {
     }
 }
 
+/// C55: x' = −N x/z, y' = −N y/z; M1: the point's own y belongs there.
 #[test]
 fn c14_size_goes_with_the_reciprocal_of_the_distance() {
     let p = chapter::p(-1.0, -9.0).expect("valid");
     let height = |z: f64| p.point(Point::new(0.0, 3.0, z)).divide().expect("in front").y();
     assert!((height(-2.0) - 1.5).abs() < 1e-15 && (height(-4.0) - 0.75).abs() < 1e-15);
-    // C55: x' = −N x/z, y' = −N y/z; M1: the point's own y belongs there.
     assert!((height(-6.0) - 0.5).abs() < 1e-15);
 }
 
@@ -186,6 +183,7 @@ fn c79_length_and_direction_describe_the_same_slant() {
     assert!(close(by_length.onto_plane().raw(), by_direction.onto_plane().raw()));
 }
 
+/// C87: and it does so by a shear, a scale and a depth row.
 #[test]
 fn c88_the_frustum_becomes_a_box_and_order_is_kept() {
     let frustum = Frustum::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0).expect("valid");

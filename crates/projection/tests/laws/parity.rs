@@ -57,6 +57,7 @@ fn endless(p: Perspective, c: Convention, glam: Three) {
 proptest! {
     #![proptest_config(samples::cases(64))]
 
+    /// C93.
     #[test]
     fn frusta_agree_with_glam(f in frustum()) {
         by_window(f, Convention::OPENGL, rh::proj::opengl::frustum);
@@ -67,6 +68,7 @@ proptest! {
         by_window(centred(f), Convention::DIRECT3D, lh::proj::directx::frustum);
     }
 
+    /// C93.
     #[test]
     fn boxes_agree_with_glam(o in orthographic()) {
         by_box(o, Convention::OPENGL, rh::proj::opengl::orthographic);
@@ -77,6 +79,7 @@ proptest! {
         by_box(o, Convention::DIRECT3D, lh::proj::directx::orthographic);
     }
 
+    /// C93, C60.
     #[test]
     fn perspectives_agree_with_glam(p in perspective()) {
         by_angle(p, Convention::OPENGL, rh::proj::opengl::perspective);
@@ -85,6 +88,7 @@ proptest! {
         by_angle(p, Convention::DIRECT3D, lh::proj::directx::perspective);
     }
 
+    /// C93, C30.
     #[test]
     fn infinite_and_reversed_perspectives_agree_with_glam(p in perspective()) {
         endless(p, Convention::VULKAN, rh::proj::vulkan::perspective_infinite);

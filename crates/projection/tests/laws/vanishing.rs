@@ -12,6 +12,7 @@ use proptest::prelude::*;
 proptest! {
     #![proptest_config(samples::cases(96))]
 
+    /// C81, VN-1.
     #[test]
     fn lines_run_to_their_vanishing_point(
         f in frustum(),
@@ -50,6 +51,7 @@ proptest! {
         );
     }
 
+    /// C81.
     #[test]
     fn parallel_projections_have_no_vanishing_point(o in oblique(), d in direction()) {
         let flat = Projective::from(o.onto_plane());
@@ -58,6 +60,7 @@ proptest! {
         prop_assert_eq!(projector, VanishingPoint::AlongProjectors);
     }
 
+    /// C83.
     #[test]
     fn non_zero_entries_count_the_principal_vanishing_points(n in npoint()) {
         let found = principal_vanishing_points(n.depth_kept()).expect("finite");

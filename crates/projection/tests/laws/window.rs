@@ -121,6 +121,7 @@ proptest! {
         prop_assert!((opening(0.0, s.right()) - r).abs() < 1e-12);
     }
 
+    /// C85, C4: the view volume as corners, as planes and as a question.
     #[test]
     fn corners_planes_and_containment_agree(
         f in frustum(),

@@ -1,0 +1,80 @@
+//! `cargo xtask conformance`: the table of what the sources teach and the tests that prove it.
+//!
+//! The table, `tests/CONFORMANCE.md`, is made from the source text of the tests. With `--check` it is
+//! compared instead of written. Either way a crate of mathematics without a test of an item it
+//! answers for is a failure, and so is a test that names an item there is none of.
+
+mod items;
+mod scan;
+mod table;
+mod vectors;
+
+use crate::Outcome;
+use crate::tidy::{Source, rust_files};
+use crate::workspace::{read, root};
+use scan::Test;
+use std::fs;
+use vectors::VECTORS;
+
+const TABLE: &str = "tests/CONFORMANCE.md";
+
+pub fn run(arguments: &[String]) -> Outcome {
+    let check = match arguments {
+        [] => false,
+        [flag] if flag == "--check" => true,
+        _ => return Err(format!("unknown arguments `{}`", arguments.join(" "))),
+    };
+    let sources = rust_files()?;
+    // The tests of this tool prove nothing about the mathematics, and hold samples of tests.
+    let of_crates = sources.iter().filter(|source| !source.path.starts_with("xtask/"));
+    let tests: Vec<Test> =
+        of_crates.flat_map(|source| scan::tests(&source.path, &source.text)).collect();
+    let document = table::document(&tests);
+    let path = root().join(TABLE);
+    let mut faults = [missing(&tests), unknown(&tests), vectors_without_runner(&sources)].concat();
+    if !check {
+        fs::write(&path, &document).map_err(|error| format!("{TABLE}: {error}"))?;
+    } else if read(&path).ok().as_ref() != Some(&document) {
+        faults.push(format!("{TABLE} is stale: run `cargo xtask conformance`"));
+    }
+    if faults.is_empty() {
+        println!("{}", summary(&tests));
+        return Ok(());
+    }
+    Err(format!("{} faults\n  {}", faults.len(), faults.join("\n  ")))
+}
+
+/// Items without a test in a crate that answers for them and is complete.
+fn missing(tests: &[Test]) -> Vec<String> {
+    let lines = items::all().flat_map(|item| {
+        let missing = item.complete_owners().filter(|owner| !table::has_test(item, owner, tests));
+        missing.map(|owner| format!("{owner} has no test of {}: {}", item.id, item.title))
+    });
+    lines.collect()
+}
+
+/// Tests that name what there is not.
+fn unknown(tests: &[Test]) -> Vec<String> {
+    let lines = tests.iter().flat_map(|test| {
+        let strange = test.ids.iter().filter(|id| items::all().all(|item| item.id != **id));
+        strange.map(|id| format!("{}: `{}` names {id}, which is no item", test.path, test.name))
+    });
+    lines.collect()
+}
+
+/// The runners name their files as `("file", function)`.
+fn vectors_without_runner(sources: &[Source]) -> Vec<String> {
+    let runners = sources.iter().filter(|source| source.path.starts_with("tests/vectors/"));
+    let runners: String = runners.map(|source| source.text.as_str()).collect();
+    let strange = VECTORS.iter().filter(|(name, _)| !runners.contains(&format!("(\"{name}\", ")));
+    strange.map(|(name, _)| format!("no runner in tests/vectors is for {name}")).collect()
+}
+
+fn summary(tests: &[Test]) -> String {
+    let naming = tests.iter().filter(|test| !test.ids.is_empty()).count();
+    let all = items::all().count();
+    let proved =
+        |item: &&items::Item| item.owners.iter().all(|owner| table::has_test(item, owner, tests));
+    let proved = items::all().filter(proved).count();
+    format!("{naming} tests name items; {proved} of {all} items are proved by every owner")
+}

@@ -1,0 +1,62 @@
+//! The table as a document.
+
+use super::items::{EXERCISES, ITEMS, Item, MISPRINTS};
+use super::scan::Test;
+use super::vectors::VECTORS;
+use std::collections::BTreeMap;
+
+const OPENING: &str = "\
+# What proves what
+
+The items that the sources of this project teach, the exercises of the textbook's chapter and the misprints found in the sources,
+each with the tests that prove it. `cargo xtask conformance` writes this file from the tests themselves: from their names
+(`c16_…`, `misprint_m11_…`, `exercise_3_…`) and from the doc comments above them. `cargo xtask test conformance` fails if the file
+is stale, or if one of the crates of mathematics has no test of an item it answers for.
+
+“Not yet” stands where a crate answers for an item and has no test that names it. Files of shared vectors are a second witness;
+they are read where they are at hand.
+";
+
+/// The whole document.
+pub fn document(tests: &[Test]) -> String {
+    let mut text = OPENING.to_owned();
+    let sections: [(&str, &[Item]); 3] =
+        [("Items", &ITEMS), ("Exercises", &EXERCISES), ("Misprints", &MISPRINTS)];
+    for (heading, items) in sections {
+        text += &format!("\n## {heading}\n\n| | what | proved by |\n| --- | --- | --- |\n");
+        for item in items {
+            let proofs = proofs(item, tests).join("<br>");
+            text += &format!("| {} | {} | {proofs} |\n", item.id, item.title);
+        }
+    }
+    text
+}
+
+/// A line for each file that has a test of the item, for the vectors, and for what is missing.
+fn proofs(item: &Item, tests: &[Test]) -> Vec<String> {
+    let mut files: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for test in tests.iter().filter(|test| test.ids.contains(&item.id)) {
+        files.entry(&test.path).or_default().push(&test.name);
+    }
+    let mut lines: Vec<String> =
+        files.into_iter().map(|(path, names)| file(path, &names)).collect();
+    let vectors = VECTORS.iter().filter(|(_, ids)| ids.contains(&item.id.as_str()));
+    let vectors: Vec<String> = vectors.map(|(name, _)| format!("`{name}`")).collect();
+    if !vectors.is_empty() {
+        lines.push(format!("vectors: {}", vectors.join(", ")));
+    }
+    let missing = item.owners.iter().filter(|owner| !has_test(item, owner, tests));
+    lines.extend(missing.map(|owner| format!("not yet: {owner}")));
+    lines
+}
+
+fn file(path: &str, names: &[&str]) -> String {
+    let shown = path.strip_prefix("crates/").unwrap_or(path);
+    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    format!("[{shown}](../{path}): {}", names.join(", "))
+}
+
+/// Whether a crate has a test that names the item.
+pub fn has_test(item: &Item, owner: &str, tests: &[Test]) -> bool {
+    tests.iter().any(|test| test.owner() == owner && test.ids.contains(&item.id))
+}

@@ -1,0 +1,37 @@
+//! Which files of shared vectors judge which items. They are a second witness: whoever does not have
+//! the files still has the tests.
+
+/// The name of a file of vectors, and the items it judges.
+pub const VECTORS: &[(&str, &[&str])] = &[
+    ("clip_polygon", &["C4", "C31", "M28"]),
+    ("clip_segment", &["C4", "C31", "C36", "C54", "M28"]),
+    ("exercises", &["C38", "C39", "C40", "C41", "C42", "C43", "C44", "C45", "C46", "C47"]),
+    ("fov", &["C33", "C49"]),
+    ("homogenize", &["C15", "C16", "C17", "C18", "C19", "C20", "C21", "C37", "C51", "C52"]),
+    ("interp_ft", &["C31", "C47"]),
+    ("interpolate", &["C53"]),
+    ("lookat", &["C11", "C12", "C46"]),
+    ("lw_ztable", &["C67", "C68"]),
+    ("misprints", &["M4", "M6", "M8", "M11", "M12", "M14", "M15", "M16", "M17", "M18"]),
+    ("multiview_axonometric", &["C75", "C76"]),
+    ("normalisation", &["C86", "C87"]),
+    ("npoint", &["C82", "C83"]),
+    ("oblique", &["C77", "C78", "C79"]),
+    ("pick_rays", &["C1", "C26"]),
+    ("pipeline_points", &["C3", "C9", "C28"]),
+    ("proj_frustum_gl", &["C29", "C57", "C91", "M16"]),
+    ("proj_frustum_lw", &["C63", "C66"]),
+    ("proj_inverse", &["C8", "C25"]),
+    ("proj_orth", &["C8"]),
+    ("proj_ortho_gl", &["C90", "M15"]),
+    ("proj_p", &["C22", "C24", "C25", "C48"]),
+    ("proj_per", &["C27", "C29"]),
+    ("proj_perspective_gl", &["C60", "C92", "M17"]),
+    ("proj_reversed_infinite", &["C30"]),
+    ("proj_zero_one", &["C30", "C60"]),
+    ("raster_attributes", &["C31"]),
+    ("unproject", &["C26"]),
+    ("vanishing_points", &["C81"]),
+    ("viewport", &["C5", "C6", "C38", "C99"]),
+    ("window_viewport", &["C95", "C96", "C97", "C98", "C100", "M18", "M22", "M23"]),
+];
