@@ -78,7 +78,18 @@ fn threads_and_repetition_change_no_byte() {
 fn every_view_style_and_projection_shows_something() {
     let bench = Bench::new("views");
     bench.bring("house.glb");
-    let views = ["front", "back", "left", "right", "top", "bottom", "three-quarter", "isometric"];
+    let views = [
+        "front",
+        "back",
+        "left",
+        "right",
+        "top",
+        "bottom",
+        "three-quarter",
+        "isometric",
+        "dimetric",
+        "trimetric",
+    ];
     for view in views {
         for style in ["shaded", "flat", "wireframe"] {
             for projection in ["perspective", "orthographic"] {

@@ -1,5 +1,7 @@
 //! Flags and arguments.
 
+use camera::NamedView;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -47,8 +49,8 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "NAME|INDEX", conflicts_with = "view")]
     pub(crate) camera: Option<String>,
     /// Frame everything from this side
-    #[arg(long)]
-    pub(crate) view: Option<ViewArg>,
+    #[arg(long, value_parser = named_view())]
+    pub(crate) view: Option<NamedView>,
     /// The projection
     #[arg(long)]
     pub(crate) projection: Option<ProjectionArg>,
@@ -83,26 +85,20 @@ pub(crate) enum StyleArg {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum ViewArg {
-    Front,
-    Back,
-    Left,
-    Right,
-    Top,
-    Bottom,
-    /// From the front, a little from the right and from above
-    ThreeQuarter,
-    /// All three axes shortened alike
-    #[value(alias = "iso")]
-    Isometric,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum ProjectionArg {
     /// What is farther away is smaller
     Perspective,
     /// Parallel, at right angles to the picture
     Orthographic,
+}
+
+/// The views of the `camera` crate by their names.
+fn named_view() -> impl TypedValueParser<Value = NamedView> {
+    let value = |view: NamedView| match view {
+        NamedView::Isometric => PossibleValue::new(view.name()).alias("iso"),
+        _ => PossibleValue::new(view.name()),
+    };
+    PossibleValuesParser::new(NamedView::ALL.map(value)).try_map(|name| name.parse::<NamedView>())
 }
 
 fn parse_size(text: &str) -> Result<(u32, u32), String> {

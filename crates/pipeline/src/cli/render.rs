@@ -1,11 +1,11 @@
 //! `alberti render`: a scene or a bare model becomes a PNG.
 
-use super::args::{ProjectionArg, RenderArgs, StyleArg, ViewArg};
+use super::args::{ProjectionArg, RenderArgs, StyleArg};
 use super::progress::Progress;
 use super::{Failure, complain};
 use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::{
-    BackgroundFile, CameraChoice, FromFile, ProjectionFile, SceneFile, StyleFile, ViewFile,
+    BackgroundFile, CameraChoice, ProjectionFile, SceneFile, StyleFile, ViewFile,
 };
 use pipeline::{Origin, Scene, render};
 use std::path::{Path, PathBuf};
@@ -82,26 +82,13 @@ fn override_with(file: &mut SceneFile, args: &RenderArgs) {
             ViewFile::Frame { padding_percent, .. } => *padding_percent,
             _ => pipeline::scene::file::USUAL_PADDING,
         };
-        file.camera.view = ViewFile::Frame { from: side(view), padding_percent };
+        file.camera.view = ViewFile::Frame { from: view.into(), padding_percent };
     }
     if let Some(projection) = args.projection {
         file.camera.projection = Some(match projection {
             ProjectionArg::Perspective => ProjectionFile::PERSPECTIVE,
             ProjectionArg::Orthographic => ProjectionFile::ORTHOGRAPHIC,
         });
-    }
-}
-
-fn side(view: ViewArg) -> FromFile {
-    match view {
-        ViewArg::Front => FromFile::Front,
-        ViewArg::Back => FromFile::Back,
-        ViewArg::Left => FromFile::Left,
-        ViewArg::Right => FromFile::Right,
-        ViewArg::Top => FromFile::Top,
-        ViewArg::Bottom => FromFile::Bottom,
-        ViewArg::ThreeQuarter => FromFile::ThreeQuarter,
-        ViewArg::Isometric => FromFile::Isometric,
     }
 }
 

@@ -4,6 +4,7 @@
 //! field but the models' paths may be left out. Unknown fields are errors, so that a slip of the pen is found.
 
 use super::number::{FieldOfView, Finite, NonNegative, Positive, Scale, Triple};
+use camera::NamedView;
 use serde::Deserialize;
 
 /// A scene file.
@@ -123,8 +124,29 @@ pub enum FromFile {
     ThreeQuarter,
     /// From the front, the right and above alike, so that all three axes are shortened alike.
     Isometric,
+    /// x and y shortened alike, z twice as much: 7° and 42° on the page.
+    Dimetric,
+    /// Each axis shortened by a factor of its own.
+    Trimetric,
     /// From the direction of a vector: (1, 0, 0) is from the right.
     Direction(Triple),
+}
+
+impl From<NamedView> for FromFile {
+    fn from(view: NamedView) -> Self {
+        match view {
+            NamedView::Front => Self::Front,
+            NamedView::Back => Self::Back,
+            NamedView::Left => Self::Left,
+            NamedView::Right => Self::Right,
+            NamedView::Top => Self::Top,
+            NamedView::Bottom => Self::Bottom,
+            NamedView::ThreeQuarter => Self::ThreeQuarter,
+            NamedView::Isometric => Self::Isometric,
+            NamedView::Dimetric => Self::Dimetric,
+            NamedView::Trimetric => Self::Trimetric,
+        }
+    }
 }
 
 /// Which camera of a model.

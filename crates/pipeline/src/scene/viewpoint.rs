@@ -166,6 +166,8 @@ impl Resolver<'_> {
             FromFile::Bottom => NamedView::Bottom,
             FromFile::ThreeQuarter => NamedView::ThreeQuarter,
             FromFile::Isometric => NamedView::Isometric,
+            FromFile::Dimetric => NamedView::Dimetric,
+            FromFile::Trimetric => NamedView::Trimetric,
             FromFile::Direction(direction) => {
                 let gaze = -Vector::from(direction.0);
                 return Basis::from_gaze_or_fallback(gaze, Vector::Y)
