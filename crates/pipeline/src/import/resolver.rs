@@ -153,7 +153,8 @@ fn canonical(folder: &Path) -> Result<PathBuf, Fault> {
 }
 
 fn unreadable(pointer: &str, path: &Path, error: &std::io::Error) -> Fault {
-    let name = path.display();
+    // Without a pointer it is the file that the message begins with anyway.
+    let name = if pointer.is_empty() { "the file".to_owned() } else { path.display().to_string() };
     let (problem, remedy) = match error.kind() {
         std::io::ErrorKind::NotFound => (format!("{name} does not exist"), "check the name"),
         std::io::ErrorKind::PermissionDenied => {
