@@ -3,10 +3,11 @@
 //! Tiles know nothing of each other, so threads may take them in any order: the picture is the same for any number.
 
 use crate::bins::{Bins, TILE};
-use crate::plane::{NOTHING, index_of};
+use crate::plane::{LANES, NOTHING, index_of};
 use crate::setup::TileRect;
 use crate::tile::{Layer, Tile};
 use crate::{Fragment, Frame};
+use fearless_simd::{Level, dispatch};
 use std::sync::Mutex;
 
 /// What the primitives of a frame look like.
@@ -35,6 +36,7 @@ impl Frame {
         let bins = Bins::sort(&self.pieces, self.width, self.height);
         let band = self.width as usize * TILE as usize;
         let bands = Mutex::new(target.chunks_mut(band).enumerate());
+        let level = Level::new();
         let work = || {
             let mut tile = Tile::default();
             loop {
@@ -42,9 +44,9 @@ impl Frame {
                 let Some((row, pixels)) = next else { return };
                 for column in 0..self.width.div_ceil(TILE) {
                     let rect = TileRect::of(column, row as u32, self.width, self.height);
-                    tile.fill(self, rect, bins.of(column, row as u32), surface);
+                    tile.fill(level, self, rect, bins.of(column, row as u32), surface);
                     let shading = Shading { frame: self, surface, background, tile: &tile, rect };
-                    shading.write(pixels, &encode);
+                    dispatch!(level, _simd => shading.write(pixels, &encode));
                 }
             }
         };
@@ -76,17 +78,74 @@ struct Pixel {
 
 impl<S: Surface> Shading<'_, S> {
     /// Writes the tile into a band of the picture that is as wide as the picture and begins at the tile's top row.
+    #[inline(always)]
     fn write<P>(&self, band: &mut [P], encode: &impl Fn([f32; 4]) -> P) {
         let mut layers = self.tile.layers.as_slice();
         for y in 0..self.rect.height() {
             let start = y * self.frame.width as usize + self.rect.x0 as usize;
             let Some(row) = band.get_mut(start..start + self.rect.width()) else { return };
-            for (x, target) in row.iter_mut().enumerate() {
-                let pixel = Pixel { x: x as u32, y: y as u32, at: index_of(x, y) };
+            for (block, targets) in row.chunks_mut(LANES).enumerate() {
+                let x = block * LANES;
+                let first = Pixel { x: x as u32, y: y as u32, at: index_of(x, y) };
                 let over;
-                (over, layers) = split_pixel(layers, y * self.rect.width() + x);
-                *target = encode(self.color(pixel, over));
+                (over, layers) = split_before(layers, y * self.rect.width() + x + targets.len());
+                match self.uniform_row(first.at) {
+                    Some(pieces) if over.is_empty() => {
+                        self.write_row(first, pieces, targets, encode)
+                    }
+                    _ => self.write_mixed(first, over, targets, encode),
+                }
             }
+        }
+    }
+
+    /// The pieces that eight neighbouring pixels see, if each pixel sees just one.
+    #[inline(always)]
+    fn uniform_row(&self, at: usize) -> Option<[u32; LANES]> {
+        let mut planes = (0..self.frame.samples.count()).map(|n| self.tile.pieces(n, at));
+        let first = planes.next()?;
+        planes.all(|pieces| pieces == first).then_some(first)
+    }
+
+    /// Writes neighbouring pixels with one piece each.
+    #[inline(always)]
+    fn write_row<P>(
+        &self,
+        first: Pixel,
+        pieces: [u32; LANES],
+        targets: &mut [P],
+        encode: &impl Fn([f32; 4]) -> P,
+    ) {
+        let Some(&any) = pieces.iter().find(|piece| **piece != NOTHING) else {
+            targets.iter_mut().for_each(|target| *target = encode(self.background));
+            return;
+        };
+        let piece = |n: u32| &self.frame.pieces[if n == NOTHING { any } else { n } as usize];
+        let (x, y) = (self.rect.x0 + first.x, self.rect.y0 + first.y);
+        let fragments = Fragment::row(pieces.map(piece), &self.frame.source_weights, x, y);
+        for ((target, fragment), piece) in targets.iter_mut().zip(&fragments).zip(pieces) {
+            let color = match piece {
+                NOTHING => self.background,
+                _ => opaque(self.surface.shade(fragment)),
+            };
+            *target = encode(color);
+        }
+    }
+
+    /// Writes neighbouring pixels some of which see several pieces or layers.
+    fn write_mixed<P>(
+        &self,
+        first: Pixel,
+        mut layers: &[Layer],
+        targets: &mut [P],
+        encode: &impl Fn([f32; 4]) -> P,
+    ) {
+        for (lane, target) in targets.iter_mut().enumerate() {
+            let pixel = Pixel { x: first.x + lane as u32, y: first.y, at: first.at + lane };
+            let over;
+            let number = pixel.y as usize * self.rect.width() + pixel.x as usize;
+            (over, layers) = split_before(layers, number + 1);
+            *target = encode(self.color(pixel, over));
         }
     }
 
@@ -127,8 +186,7 @@ impl<S: Surface> Shading<'_, S> {
         if piece == NOTHING {
             return self.background;
         }
-        let [r, g, b, _] = self.shade(piece, pixel);
-        [r, g, b, 1.0]
+        opaque(self.shade(piece, pixel))
     }
 
     #[inline]
@@ -139,11 +197,17 @@ impl<S: Surface> Shading<'_, S> {
     }
 }
 
-/// The layers of a pixel, and those of the pixels behind it.
+/// Splits layers, which are sorted by pixel, into those of pixels before `end` and the rest.
 #[inline]
-fn split_pixel(layers: &[Layer], pixel: usize) -> (&[Layer], &[Layer]) {
-    let count = layers.iter().take_while(|layer| usize::from(layer.pixel) == pixel).count();
+fn split_before(layers: &[Layer], end: usize) -> (&[Layer], &[Layer]) {
+    let count = layers.iter().take_while(|layer| usize::from(layer.pixel) < end).count();
     layers.split_at(count)
+}
+
+/// A solid surface is opaque, whatever alpha its shading reports.
+#[inline]
+fn opaque([r, g, b, _]: [f32; 4]) -> [f32; 4] {
+    [r, g, b, 1.0]
 }
 
 /// Lays a colour (multiplied by alpha) over those samples whose bit is set.

@@ -1,6 +1,6 @@
 //! A frame: the primitives of one picture, in the order in which they were given.
 
-use crate::primitive::{Piece, clockwise, line_pieces, point_pieces};
+use crate::primitive::{Piece, Source, clockwise, line_pieces, point_pieces};
 use crate::vertex::SUBPIXEL_BITS;
 use crate::{Cover, RasterError, Samples, ScreenVertex, SourceWeights};
 
@@ -109,12 +109,16 @@ impl Frame {
         if !self.may_touch_a_sample(corners) {
             return;
         }
-        let Some((corners, weights)) = clockwise(corners, weights) else { return };
-        let weights = weights.map_or(0, |weights| {
-            self.source_weights.push(weights);
-            self.source_weights.len() as u32
-        });
-        self.pieces.push(Piece { corners, id, weights, cover });
+        let Some((corners, turned)) = clockwise(corners) else { return };
+        let source = match (weights, turned) {
+            (None, false) => Source::Whole,
+            (None, true) => Source::Turned,
+            (Some([p, q, r]), turned) => {
+                self.source_weights.push(if turned { [p, r, q] } else { [p, q, r] });
+                Source::Weights(self.source_weights.len() as u32 - 1)
+            }
+        };
+        self.pieces.push(Piece { corners, id, source, cover });
     }
 
     /// Whether the triangle's bounds may hold a sample: of meshes finer than the pixels most triangles hold none.

@@ -12,7 +12,7 @@ use fearless_simd::{Simd, f32x8, i32x8, mask32x8, u32x8};
 /// Pixels of a tile.
 pub(crate) const AREA: usize = (TILE * TILE) as usize;
 /// Pixels of a row of blocks, and of a block's side: one vector.
-const LANES: usize = 8;
+pub(crate) const LANES: usize = 8;
 /// Blocks of a tile's row.
 const BLOCKS: usize = TILE as usize / LANES;
 /// No piece: the background.

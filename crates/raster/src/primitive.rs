@@ -27,28 +27,29 @@ pub type SourceWeights = [[f32; 3]; 3];
 pub(crate) struct Piece {
     pub(crate) corners: [ScreenVertex; 3],
     pub(crate) id: u32,
-    /// 0: the piece is the whole source triangle, corners in order; n: entry n − 1 of the frame's source weights.
-    pub(crate) weights: u32,
+    pub(crate) source: Source,
     pub(crate) cover: Cover,
 }
 
-/// Weights of a whole triangle.
-pub(crate) const WHOLE: SourceWeights = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// How the corners of a piece lead back to those of the primitive it is a piece of.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Source {
+    /// The piece is the primitive.
+    Whole,
+    /// The piece is the primitive with its second and third corner exchanged, so that they run clockwise.
+    Turned,
+    /// By an entry of the frame's source weights.
+    Weights(u32),
+}
 
-/// Turns a triangle so that its corners run clockwise on the screen; `None` if it covers nothing.
-pub(crate) fn clockwise(
-    corners: [ScreenVertex; 3],
-    weights: Option<SourceWeights>,
-) -> Option<([ScreenVertex; 3], Option<SourceWeights>)> {
-    let area = signed_area(corners);
-    if area == 0 {
-        return None;
+/// A triangle with its corners clockwise on the screen, and whether the second and the third had to be exchanged for
+/// that; `None` if it covers nothing.
+pub(crate) fn clockwise([p, q, r]: [ScreenVertex; 3]) -> Option<([ScreenVertex; 3], bool)> {
+    match signed_area([p, q, r]) {
+        0 => None,
+        1.. => Some(([p, q, r], false)),
+        _ => Some(([p, r, q], true)),
     }
-    if area > 0 {
-        return Some((corners, weights));
-    }
-    let ([p, q, r], [wp, wq, wr]) = (corners, weights.unwrap_or(WHOLE));
-    Some(([p, r, q], Some([wp, wr, wq])))
 }
 
 /// A rectangle of the screen around a line, as two triangles; none if the ends coincide.

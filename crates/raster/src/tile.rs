@@ -1,6 +1,6 @@
 //! Visibility in one tile: for each sample, how near the nearest solid surface is and which it is.
 
-use crate::plane::Plane;
+use crate::plane::{LANES, NOTHING, Plane};
 use crate::setup::{Setup, TileRect};
 use crate::{Cover, Fragment, Frame, Surface};
 use fearless_simd::{Level, Simd, dispatch};
@@ -29,6 +29,13 @@ impl Tile {
         self.planes[sample].piece[at]
     }
 
+    /// The pieces that one sample of each of eight neighbouring pixels sees, from the one at `at`, which begins a row of a block.
+    pub(crate) fn pieces(&self, sample: usize, at: usize) -> [u32; LANES] {
+        let mut row = [NOTHING; LANES];
+        row.copy_from_slice(&self.planes[sample].piece[at..at + LANES]);
+        row
+    }
+
     /// Whether all samples of a pixel see the same piece.
     pub(crate) fn is_uniform(&self, at: usize) -> bool {
         let first = self.planes[0].piece[at];
@@ -43,6 +50,7 @@ impl Tile {
     /// Finds what is visible in `rect` of the pieces `bin`.
     pub(crate) fn fill(
         &mut self,
+        level: Level,
         frame: &Frame,
         rect: TileRect,
         bin: &[u32],
@@ -51,7 +59,7 @@ impl Tile {
         self.planes.resize_with(frame.samples.count(), Plane::new);
         self.planes.iter_mut().for_each(Plane::clear);
         self.layers.clear();
-        dispatch!(Level::new(), simd => self.fill_pieces(simd, frame, rect, bin, surface));
+        dispatch!(level, simd => self.fill_pieces(simd, frame, rect, bin, surface));
         self.sort_layers();
     }
 
