@@ -5,7 +5,7 @@
 //! z). The memory may lag behind, for depths only grow, but it is never too near.
 
 use crate::bins::TILE;
-use crate::setup::Setup;
+use crate::setup::{Setup, Start};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, i32x8, mask32x8, u32x8};
 
@@ -50,22 +50,22 @@ impl Plane {
 
     /// Draws a solid triangle: where it is nearer than what is there, its depth and number take the place.
     #[inline(always)]
-    pub(crate) fn fill<S: Simd>(&mut self, simd: S, setup: &Setup, piece: u32) {
+    pub(crate) fn fill<S: Simd>(&mut self, simd: S, lanes: &Lanes<S>, start: &Start, piece: u32) {
         let number = u32x8::splat(simd, piece);
-        let lanes = Lanes::new(simd, setup);
+        let setup = &lanes.setup;
         for (block, place) in blocks(setup) {
-            if setup.depth.greatest <= self.farthest[block] || lanes.misses(place) {
+            if setup.greatest <= self.farthest[block] || lanes.misses(start, place) {
                 continue;
             }
             for row in lanes.rows(place) {
-                let (inside, depth) = lanes.row(simd, place, row);
-                let start = (block * LANES + row) * LANES;
-                let depths: &mut [f32] = &mut self.depth[start..start + LANES];
+                let (inside, depth) = lanes.row(simd, start, place, row);
+                let first = (block * LANES + row) * LANES;
+                let depths: &mut [f32] = &mut self.depth[first..first + LANES];
                 let old = f32x8::from_slice(simd, depths);
                 let seen = inside & depth.simd_gt(old);
                 if seen.any_true() {
                     seen.select(depth, old).store_slice(depths);
-                    let pieces: &mut [u32] = &mut self.piece[start..start + LANES];
+                    let pieces: &mut [u32] = &mut self.piece[first..first + LANES];
                     let old = u32x8::from_slice(simd, pieces);
                     seen.select(number, old).store_slice(pieces);
                 }
@@ -82,19 +82,20 @@ impl Plane {
     pub(crate) fn visit<S: Simd>(
         &mut self,
         simd: S,
-        setup: &Setup,
+        lanes: &Lanes<S>,
+        start: &Start,
         or_equal: bool,
         mut each: impl FnMut(&mut Self, usize, usize, usize, f32),
     ) {
-        let lanes = Lanes::new(simd, setup);
+        let setup = &lanes.setup;
         for (block, place) in blocks(setup) {
-            if setup.depth.greatest < self.farthest[block] || lanes.misses(place) {
+            if setup.greatest < self.farthest[block] || lanes.misses(start, place) {
                 continue;
             }
             for row in lanes.rows(place) {
-                let (inside, depth) = lanes.row(simd, place, row);
-                let start = (block * LANES + row) * LANES;
-                let old = f32x8::from_slice(simd, &self.depth[start..start + LANES]);
+                let (inside, depth) = lanes.row(simd, start, place, row);
+                let first = (block * LANES + row) * LANES;
+                let old = f32x8::from_slice(simd, &self.depth[first..first + LANES]);
                 let nearer = if or_equal { depth.simd_ge(old) } else { depth.simd_gt(old) };
                 let mut seen = (inside & nearer).to_bitmask();
                 while seen != 0 {
@@ -102,7 +103,7 @@ impl Plane {
                     seen &= seen - 1;
                     let (x, y) = (place.x as usize + lane, place.y as usize + row);
                     if (x as i32) < setup.x1 {
-                        each(self, start + lane, x, y, depth[lane]);
+                        each(self, first + lane, x, y, depth[lane]);
                     }
                 }
             }
@@ -142,7 +143,7 @@ fn blocks(setup: &Setup) -> impl Iterator<Item = (usize, Place)> + use<> {
 }
 
 /// A triangle's edges and depth for eight pixels of a row at once.
-struct Lanes<S: Simd> {
+pub(crate) struct Lanes<S: Simd> {
     setup: Setup,
     /// a·0 … a·7 for each edge.
     along: [i32x8<S>; 3],
@@ -155,10 +156,10 @@ struct Lanes<S: Simd> {
 
 impl<S: Simd> Lanes<S> {
     #[inline(always)]
-    fn new(simd: S, setup: &Setup) -> Self {
+    pub(crate) fn new(simd: S, setup: &Setup) -> Self {
         let steps: i32x8<S> = [0, 1, 2, 3, 4, 5, 6, 7].simd_into(simd);
         let along = |a: i32| steps * i32x8::splat(simd, a);
-        let DepthPlane { dx, least, greatest, .. } = setup.depth;
+        let Setup { dx, least, greatest, .. } = *setup;
         Self {
             setup: *setup,
             along: [along(setup.a[0]), along(setup.a[1]), along(setup.a[2])],
@@ -171,16 +172,16 @@ impl<S: Simd> Lanes<S> {
 
     /// Edge k at the upper left pixel of a block.
     #[inline(always)]
-    fn edge(&self, k: usize, place: Place) -> i32 {
-        self.setup.e[k] + self.setup.a[k] * place.x + self.setup.b[k] * place.y
+    fn edge(&self, k: usize, start: &Start, place: Place) -> i32 {
+        start.e[k] + self.setup.a[k] * place.x + self.setup.b[k] * place.y
     }
 
     /// Whether an edge excludes the whole block: it excludes the corner that is farthest inside.
     #[inline(always)]
-    fn misses(&self, place: Place) -> bool {
+    fn misses(&self, start: &Start, place: Place) -> bool {
         (0..3).any(|k| {
             let innermost = 7 * (self.setup.a[k].max(0) + self.setup.b[k].max(0));
-            self.edge(k, place) + innermost < 0
+            self.edge(k, start, place) + innermost < 0
         })
     }
 
@@ -194,18 +195,17 @@ impl<S: Simd> Lanes<S> {
 
     /// Coverage and depth of a row of a block.
     #[inline(always)]
-    fn row(&self, simd: S, place: Place, row: usize) -> (mask32x8<S>, f32x8<S>) {
+    fn row(&self, simd: S, start: &Start, place: Place, row: usize) -> (mask32x8<S>, f32x8<S>) {
         let down = row as i32;
         let edge = |k: usize| {
-            let start = self.edge(k, place) + self.setup.b[k] * down;
-            self.along[k] + i32x8::splat(simd, start)
+            let first = self.edge(k, start, place) + self.setup.b[k] * down;
+            self.along[k] + i32x8::splat(simd, first)
         };
         // The sign bit of the union is set where any edge is negative.
         let inside = (edge(0) | edge(1) | edge(2)).simd_ge(i32x8::splat(simd, 0));
-        let depth = &self.setup.depth;
         let x = self.iota + f32x8::splat(simd, (place.x - self.setup.x0) as f32);
-        let start = depth.z + depth.dy * (place.y + down - self.setup.y0) as f32;
-        let z = self.dx * x + f32x8::splat(simd, start);
+        let first = start.z + self.setup.dy * (place.y + down - self.setup.y0) as f32;
+        let z = self.dx * x + f32x8::splat(simd, first);
         let z = z.simd_lt(self.least).select(self.least, z);
         (inside, z.simd_gt(self.greatest).select(self.greatest, z))
     }
@@ -217,5 +217,3 @@ impl<S: Simd> Lanes<S> {
         x0 <= place.x && y0 <= place.y && x1 >= place.x + 8 && y1 >= place.y + 8
     }
 }
-
-use crate::setup::DepthPlane;

@@ -35,96 +35,117 @@ impl TileRect {
     }
 }
 
-/// A triangle as the samples of one plane of one tile see it. Pixels are counted from the tile's corner.
+/// A triangle as one tile sees it. Pixels are counted from the tile's corner.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Setup {
-    /// ⌊E/256⌋ at pixel (0, 0), for each edge.
-    pub(crate) e: [i32; 3],
-    /// The step of E/256 per pixel to the right.
+    /// The edge functions.
+    edges: [Edge; 3],
+    /// The step of E/256 per pixel to the right, for each edge.
     pub(crate) a: [i32; 3],
     /// The step of E/256 per pixel down.
     pub(crate) b: [i32; 3],
-    /// The pixels whose samples the triangle's bounds hold: [x0, x1) × [y0, y1), not empty.
+    /// The pixels that may have a sample within the triangle's bounds: [x0, x1) × [y0, y1), not empty.
     pub(crate) x0: i32,
     pub(crate) y0: i32,
     pub(crate) x1: i32,
     pub(crate) y1: i32,
-    pub(crate) depth: DepthPlane,
+    /// The steps of depth per pixel.
+    pub(crate) dx: f32,
+    pub(crate) dy: f32,
+    /// The depth of the corner that is farthest and of the one that is nearest.
+    pub(crate) least: f32,
+    pub(crate) greatest: f32,
+    /// The grid position of the tile's corner.
+    origin: (i64, i64),
+    depth: DepthPlane,
+}
+
+/// What differs from sample plane to sample plane: where a triangle's functions start.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Start {
+    /// ⌊E/256⌋ at the sample of pixel (0, 0), for each edge.
+    pub(crate) e: [i32; 3],
+    /// The depth at the sample of pixel (x0, y0), on the triangle's plane.
+    pub(crate) z: f32,
 }
 
 /// Depth is a linear function of the place on the screen: it is z/w already, so it needs no correction (RA-2).
 ///
-/// It is evaluated as (z + dy·y) + dx·x with x and y counted from the corner of the bounds within the tile, and
-/// cut off at the corners' least and greatest depth: a sliver's plane is steep, and beside the sliver it means nothing.
+/// Samples evaluate it as (z + dy·y) + dx·x with x and y counted from the corner of the bounds within the tile, and
+/// cut it off at the corners' least and greatest depth: a sliver's plane is steep, and beside the sliver it means nothing.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct DepthPlane {
-    pub(crate) z: f32,
-    pub(crate) dx: f32,
-    pub(crate) dy: f32,
-    pub(crate) least: f32,
-    pub(crate) greatest: f32,
+struct DepthPlane {
+    /// A corner's grid position and depth.
+    at: (i64, i64),
+    z: f64,
+    /// The steps of depth per grid step.
+    dx: f64,
+    dy: f64,
 }
 
 impl Setup {
-    /// Prepares a triangle for the samples at `offset` (grid steps) from the upper left corners of their pixels; `None` if
-    /// its bounds hold none of the tile's samples.
-    pub(crate) fn new(piece: &Piece, tile: TileRect, offset: (i64, i64)) -> Option<Self> {
+    /// Prepares a triangle; `None` if its bounds hold none of the tile's samples. `reach` is the least and the greatest
+    /// offset of a sample from its pixel's borders, in grid steps.
+    pub(crate) fn new(piece: &Piece, tile: TileRect, reach: (i32, i32)) -> Option<Self> {
         let [p, q, r] = piece.corners;
         let (left, right) = (p.x.min(q.x).min(r.x), p.x.max(q.x).max(r.x));
         let (top, bottom) = (p.y.min(q.y).min(r.y), p.y.max(q.y).max(r.y));
-        let origin = (
-            i64::from(tile.x0) * i64::from(SUBPIXELS) + offset.0,
-            i64::from(tile.y0) * i64::from(SUBPIXELS) + offset.1,
-        );
-        // The first sample at or right of (below) a bound, and the first beyond one.
-        let first = |bound: i32, from: i64| (i64::from(bound) - from + 255) >> SUBPIXEL_BITS;
-        let beyond = |bound: i32, from: i64| ((i64::from(bound) - from) >> SUBPIXEL_BITS) + 1;
-        let x0 = first(left, origin.0).max(0) as i32;
-        let y0 = first(top, origin.1).max(0) as i32;
-        let x1 = beyond(right, origin.0).min(tile.width() as i64) as i32;
-        let y1 = beyond(bottom, origin.1).min(tile.height() as i64) as i32;
+        let origin = (tile.x0 as i32 * SUBPIXELS, tile.y0 as i32 * SUBPIXELS);
+        // The first pixel whose last sample is not before a bound, and the first whose first sample is behind one.
+        let first = |bound: i32, from: i32| (bound - from - reach.1 + 255) >> SUBPIXEL_BITS;
+        let beyond = |bound: i32, from: i32| ((bound - from - reach.0) >> SUBPIXEL_BITS) + 1;
+        let (x0, y0) = (first(left, origin.0).max(0), first(top, origin.1).max(0));
+        let x1 = beyond(right, origin.0).min(tile.width() as i32);
+        let y1 = beyond(bottom, origin.1).min(tile.height() as i32);
         if x0 >= x1 || y0 >= y1 {
             return None;
         }
         let edges = [Edge::new(p, q), Edge::new(q, r), Edge::new(r, p)];
-        let limit = 1_i64 << 30;
-        let quotient = |edge: &Edge| {
-            (edge.at(origin.0, origin.1) >> SUBPIXEL_BITS).clamp(-limit, limit) as i32
-        };
-        let corner = (
-            origin.0 + i64::from(x0) * i64::from(SUBPIXELS),
-            origin.1 + i64::from(y0) * i64::from(SUBPIXELS),
-        );
+        let depth = DepthPlane::new(piece);
         Some(Self {
-            e: [quotient(&edges[0]), quotient(&edges[1]), quotient(&edges[2])],
-            a: [edges[0].a as i32, edges[1].a as i32, edges[2].a as i32],
-            b: [edges[0].b as i32, edges[1].b as i32, edges[2].b as i32],
+            edges,
+            a: edges.map(|edge| edge.a as i32),
+            b: edges.map(|edge| edge.b as i32),
             x0,
             y0,
             x1,
             y1,
-            depth: DepthPlane::new(piece, corner),
+            dx: (depth.dx * f64::from(SUBPIXELS)) as f32,
+            dy: (depth.dy * f64::from(SUBPIXELS)) as f32,
+            least: p.depth.min(q.depth).min(r.depth),
+            greatest: p.depth.max(q.depth).max(r.depth),
+            origin: (i64::from(origin.0), i64::from(origin.1)),
+            depth,
         })
+    }
+
+    /// Where the functions start for the samples at `offset` (grid steps) from the upper left corners of their pixels.
+    pub(crate) fn start(&self, offset: (i64, i64)) -> Start {
+        let limit = 1_i64 << 30;
+        let (x, y) = (self.origin.0 + offset.0, self.origin.1 + offset.1);
+        let quotient = |edge: Edge| (edge.at(x, y) >> SUBPIXEL_BITS).clamp(-limit, limit) as i32;
+        let pixels = |count: i32| i64::from(count) * i64::from(SUBPIXELS);
+        let corner = (x + pixels(self.x0), y + pixels(self.y0));
+        Start { e: self.edges.map(quotient), z: self.depth.at(corner) as f32 }
     }
 }
 
 impl DepthPlane {
-    fn new(piece: &Piece, corner: (i64, i64)) -> Self {
+    fn new(piece: &Piece) -> Self {
         let [p, q, r] = piece.corners;
         let d = |a: i32, b: i32| f64::from(a) - f64::from(b);
         let (qx, qy, qz) = (d(q.x, p.x), d(q.y, p.y), f64::from(q.depth) - f64::from(p.depth));
         let (rx, ry, rz) = (d(r.x, p.x), d(r.y, p.y), f64::from(r.depth) - f64::from(p.depth));
         let per_area = 1.0 / (qx * ry - qy * rx);
-        let dx = (qz * ry - rz * qy) * per_area;
-        let dy = (rz * qx - qz * rx) * per_area;
-        let (x, y) = ((corner.0 - i64::from(p.x)) as f64, (corner.1 - i64::from(p.y)) as f64);
-        let step = f64::from(SUBPIXELS);
         Self {
-            z: (f64::from(p.depth) + dx * x + dy * y) as f32,
-            dx: (dx * step) as f32,
-            dy: (dy * step) as f32,
-            least: p.depth.min(q.depth).min(r.depth),
-            greatest: p.depth.max(q.depth).max(r.depth),
+            at: (i64::from(p.x), i64::from(p.y)),
+            z: f64::from(p.depth),
+            dx: (qz * ry - rz * qy) * per_area,
+            dy: (rz * qx - qz * rx) * per_area,
         }
+    }
+
+    fn at(&self, (x, y): (i64, i64)) -> f64 {
+        self.z + self.dx * (x - self.at.0) as f64 + self.dy * (y - self.at.1) as f64
     }
 }

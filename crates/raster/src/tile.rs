@@ -1,6 +1,6 @@
 //! Visibility in one tile: for each sample, how near the nearest solid surface is and which it is.
 
-use crate::plane::{LANES, NOTHING, Plane};
+use crate::plane::{LANES, Lanes, NOTHING, Plane};
 use crate::setup::{Setup, TileRect};
 use crate::{Cover, Fragment, Frame, Surface};
 use fearless_simd::{Level, Simd, dispatch};
@@ -92,10 +92,10 @@ impl Tile {
     #[inline(always)]
     fn solid<S: Simd>(&mut self, simd: S, frame: &Frame, rect: TileRect, index: u32) {
         let piece = &frame.pieces[index as usize];
+        let Some(setup) = Setup::new(piece, rect, frame.samples.reach()) else { return };
+        let lanes = Lanes::new(simd, &setup);
         for (plane, offset) in self.planes.iter_mut().zip(frame.samples.offsets()) {
-            if let Some(setup) = Setup::new(piece, rect, offset) {
-                plane.fill(simd, &setup, index);
-            }
+            plane.fill(simd, &lanes, &setup.start(offset), index);
         }
     }
 
@@ -109,9 +109,10 @@ impl Tile {
         surface: &impl Surface,
     ) {
         let piece = &frame.pieces[index as usize];
+        let Some(setup) = Setup::new(piece, rect, frame.samples.reach()) else { return };
+        let lanes = Lanes::new(simd, &setup);
         for (plane, offset) in self.planes.iter_mut().zip(frame.samples.offsets()) {
-            let Some(setup) = Setup::new(piece, rect, offset) else { continue };
-            plane.visit(simd, &setup, false, |plane, at, x, y, depth| {
+            plane.visit(simd, &lanes, &setup.start(offset), false, |plane, at, x, y, depth| {
                 let (x, y) = (rect.x0 + x as u32, rect.y0 + y as u32);
                 let fragment = Fragment::new(piece, &frame.source_weights, x, y);
                 if surface.keeps(&fragment) {
@@ -126,12 +127,13 @@ impl Tile {
     #[inline(always)]
     fn translucent<S: Simd>(&mut self, simd: S, frame: &Frame, rect: TileRect, index: u32) {
         let piece = &frame.pieces[index as usize];
+        let Some(setup) = Setup::new(piece, rect, frame.samples.reach()) else { return };
+        let lanes = Lanes::new(simd, &setup);
         let first = self.layers.len();
         let Self { planes, layers } = self;
         let samples = planes.iter_mut().zip(frame.samples.offsets()).enumerate();
         for (sample, (plane, offset)) in samples {
-            let Some(setup) = Setup::new(piece, rect, offset) else { continue };
-            plane.visit(simd, &setup, true, |_, _, x, y, depth| {
+            plane.visit(simd, &lanes, &setup.start(offset), true, |_, _, x, y, depth| {
                 let pixel = (y * rect.width() + x) as u16;
                 layers.push(Layer { pixel, mask: 1 << sample, piece: index, depth });
             });
