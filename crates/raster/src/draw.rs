@@ -91,7 +91,7 @@ impl<S: Surface> Shading<'_, S> {
                 (over, layers) = split_before(layers, y * self.rect.width() + x + targets.len());
                 match self.uniform_row(first.at) {
                     Some(pieces) if over.is_empty() => {
-                        self.write_row(first, pieces, targets, encode)
+                        self.write_row(first, pieces, targets, encode);
                     }
                     _ => self.write_mixed(first, over, targets, encode),
                 }

@@ -2,7 +2,7 @@
 
 use crate::primitive::{Piece, Source, clockwise, line_pieces, point_pieces};
 use crate::vertex::SUBPIXEL_BITS;
-use crate::{Cover, RasterError, Samples, ScreenVertex, SourceWeights};
+use crate::{Cover, Cull, RasterError, Samples, ScreenVertex, SourceWeights};
 
 /// The longest side of a picture in pixels.
 pub const MAX_SIDE: u32 = 16384;
@@ -57,6 +57,26 @@ impl Frame {
         self.push(corners, None, id, cover);
     }
 
+    /// Adds the triangles of a mesh, named `first_id` and so on in their order. Triangles with a vertex that is missing, or
+    /// that the mesh does not have, are left out, and so are those with a negative [`signed_area`](crate::signed_area) if
+    /// `cull` asks for it, and those with a positive one if it asks for the others.
+    pub fn mesh(
+        &mut self,
+        vertices: &[Option<ScreenVertex>],
+        triangles: &[[u32; 3]],
+        first_id: u32,
+        cover: Cover,
+        cull: Cull,
+    ) {
+        for (id, corners) in (first_id..).zip(triangles) {
+            let [p, q, r] = corners.map(|n| vertices.get(n as usize).copied().flatten());
+            let (Some(p), Some(q), Some(r)) = (p, q, r) else { continue };
+            if cull.keeps([p, q, r]) {
+                self.triangle([p, q, r], id, cover);
+            }
+        }
+    }
+
     /// Adds a piece of a triangle that was clipped; `weights` lead from its corners to those of the source.
     pub fn triangle_piece(
         &mut self,
@@ -106,7 +126,7 @@ impl Frame {
         id: u32,
         cover: Cover,
     ) {
-        if !self.may_touch_a_sample(corners) {
+        if !corners.iter().all(ScreenVertex::is_drawable) || !self.may_touch_a_sample(corners) {
             return;
         }
         let Some((corners, turned)) = clockwise(corners) else { return };

@@ -59,7 +59,7 @@ pub use edge::signed_area;
 pub use error::RasterError;
 pub use fragment::Fragment;
 pub use frame::{Frame, MAX_SIDE};
-pub use primitive::{Cover, SourceWeights};
+pub use primitive::{Cover, Cull, SourceWeights};
 pub use samples::Samples;
 pub use vertex::{GUARD_BAND, SUBPIXEL_BITS, SUBPIXELS, ScreenVertex};
 pub use visibility::Visibility;

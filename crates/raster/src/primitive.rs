@@ -2,7 +2,7 @@
 
 use crate::ScreenVertex;
 use crate::edge::signed_area;
-use crate::vertex::SUBPIXELS;
+use crate::vertex::{GRID, SUBPIXELS};
 
 /// How a primitive takes part in visibility.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -14,6 +14,28 @@ pub enum Cover {
     Masked,
     /// It lets through what is behind it: its fragments are blended over the solid ones, the farthest first.
     Translucent,
+}
+
+/// Which triangles of a mesh are left out, by the way their corners run on the screen (y down).
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Cull {
+    /// None.
+    #[default]
+    Nothing,
+    /// Those that run clockwise, the backs of closed bodies as glTF and OpenGL wind them.
+    Clockwise,
+    /// Those that run counter-clockwise.
+    CounterClockwise,
+}
+
+impl Cull {
+    pub(crate) fn keeps(self, corners: [ScreenVertex; 3]) -> bool {
+        match self {
+            Self::Nothing => true,
+            Self::Clockwise => signed_area(corners) < 0,
+            Self::CounterClockwise => signed_area(corners) > 0,
+        }
+    }
 }
 
 /// For each corner of a piece, the weights of the source primitive's corners there.
@@ -86,6 +108,9 @@ pub(crate) fn point_pieces(
 }
 
 fn moved(vertex: ScreenVertex, dx: f64, dy: f64) -> ScreenVertex {
-    let shift = |from: i32, by: f64| from.saturating_add((by + 0.5).floor() as i32);
+    // However wide a line, its corners stay on the grid.
+    let shift = |from: i32, by: f64| {
+        from.saturating_add((by + 0.5).floor() as i32).clamp(*GRID.start(), *GRID.end())
+    };
     ScreenVertex { x: shift(vertex.x, dx), y: shift(vertex.y, dy), ..vertex }
 }

@@ -15,6 +15,9 @@ pub const SUBPIXELS: i32 = 1 << SUBPIXEL_BITS;
 /// or higher than 32768 pixels, and its edge functions step by less than 2³⁰ across a tile.
 pub const GUARD_BAND: core::ops::RangeInclusive<f64> = -8192.0..=24576.0;
 
+/// [`GUARD_BAND`] in grid steps.
+pub(crate) const GRID: core::ops::RangeInclusive<i32> = -8192 * SUBPIXELS..=24576 * SUBPIXELS;
+
 /// A vertex after the viewport: x to the right and y down in 1/256 pixel, depth, and 1/w.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ScreenVertex {
@@ -35,22 +38,27 @@ impl ScreenVertex {
     /// positive. Geometry that was clipped to the view volume and a guard band always can.
     #[must_use]
     pub fn snap(point: Point<Screen>, w: f64) -> Option<Self> {
-        let drawable = GUARD_BAND.contains(&point.x())
-            && GUARD_BAND.contains(&point.y())
-            && (point.z() as f32).is_finite()
-            && w > 0.0;
-        drawable.then(|| Self {
-            x: to_grid(point.x()),
-            y: to_grid(point.y()),
+        let vertex = Self {
+            x: to_grid(point.x())?,
+            y: to_grid(point.y())?,
             depth: point.z() as f32,
             inv_w: (1.0 / w) as f32,
-        })
+        };
+        vertex.is_drawable().then_some(vertex)
+    }
+
+    /// Whether the vertex is one that [`snap`](Self::snap) might have made. Primitives with others are not drawn.
+    #[must_use]
+    pub fn is_drawable(&self) -> bool {
+        let on_grid = GRID.contains(&self.x) && GRID.contains(&self.y);
+        on_grid && self.depth.is_finite() && self.inv_w > 0.0 && self.inv_w.is_finite()
     }
 }
 
 /// The nearest grid step; halves go up, so that moving a picture by whole pixels moves its grid with it.
-fn to_grid(pixels: f64) -> i32 {
-    (pixels * f64::from(SUBPIXELS) + 0.5).floor() as i32
+fn to_grid(pixels: f64) -> Option<i32> {
+    let step = || (pixels * f64::from(SUBPIXELS) + 0.5).floor() as i32;
+    GUARD_BAND.contains(&pixels).then(step)
 }
 
 #[cfg(test)]

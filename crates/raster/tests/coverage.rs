@@ -38,7 +38,7 @@ fn coordinate() -> impl Strategy<Value = i32> {
         (-4..28_i32).prop_map(|n| n * 256 + 128),
         (-8..56_i32).prop_map(|n| n * 128),
         -far..2 * far,
-        -8_000_000..8_000_000_i32,
+        -2_097_152..=6_291_456_i32,
     ]
 }
 

@@ -1,6 +1,6 @@
 //! Drawing: samples, layers, masks and threads.
 
-use raster::{Cover, Fragment, Frame, Samples, ScreenVertex, Surface};
+use raster::{Cover, Cull, Fragment, Frame, Samples, ScreenVertex, Surface};
 
 fn vertex(x: f64, y: f64, depth: f64) -> ScreenVertex {
     ScreenVertex::snap(homog::Point::new(x, y, depth), 1.0).expect("within the grid")
@@ -125,4 +125,43 @@ fn sizes_out_of_range_are_refused() {
         let error = Frame::new(width, height, Samples::One).expect_err("refused").to_string();
         assert!(error.contains(&format!("{width} x {height}")), "{error}");
     }
+}
+
+#[test]
+fn vertices_that_no_snap_would_make_are_never_drawn() {
+    let good = vertex(2.0, 2.0, 0.5);
+    let wrong = [
+        ScreenVertex { x: i32::MIN, ..good },
+        ScreenVertex { y: i32::MAX, ..good },
+        ScreenVertex { depth: f32::NAN, ..good },
+        ScreenVertex { depth: f32::INFINITY, ..good },
+        ScreenVertex { inv_w: f32::NAN, ..good },
+        ScreenVertex { inv_w: 0.0, ..good },
+        ScreenVertex { inv_w: -1.0, ..good },
+    ];
+    let mut frame = Frame::new(8, 8, Samples::Four).expect("a small frame");
+    for (id, bad) in (0..).zip(wrong) {
+        frame.triangle([bad, vertex(8.0, 0.0, 0.5), vertex(0.0, 8.0, 0.5)], id, Cover::Solid);
+        frame.line([bad, good], 2.0, id, Cover::Solid);
+        frame.point(bad, 5.0, id, Cover::Translucent);
+        frame.mesh(&[Some(bad), None], &[[0, 0, 0], [0, 1, 7]], id, Cover::Solid, Cull::Nothing);
+    }
+    assert!(draw(&frame, &[RED; 7], CLEAR, 1).iter().all(|&color| color == CLEAR));
+    // However wide, a line is drawn within the grid.
+    for width in [1e12, f64::INFINITY, f64::NAN, -3.0] {
+        frame.line([good, vertex(5.0, 3.0, 0.5)], width, 0, Cover::Solid);
+    }
+    let _ = draw(&frame, &[RED; 7], CLEAR, 1);
+}
+
+#[test]
+fn a_mesh_keeps_the_side_that_is_asked_for() {
+    let corners = [vertex(0.0, 0.0, 0.5), vertex(8.0, 0.0, 0.5), vertex(0.0, 8.0, 0.5)].map(Some);
+    let seen = |cull: Cull| {
+        let mut frame = Frame::new(8, 8, Samples::One).expect("a small frame");
+        frame.mesh(&corners, &[[0, 1, 2], [0, 2, 1]], 5, Cover::Solid, cull);
+        frame.visibility().ids[0]
+    };
+    assert_eq!([Cull::Nothing, Cull::CounterClockwise].map(seen), [Some(5); 2]);
+    assert_eq!(seen(Cull::Clockwise), Some(6));
 }

@@ -1,0 +1,56 @@
+//! A shader of one's own: a floor that runs to the horizon with a checker that is computed, not stored: `shader.png`.
+//!
+//! The corners carry places on the floor. Their blend by the fragment's weights is the place a pixel shows, right in
+//! perspective because the vertices bring their w along. One pixel to the right and one below, the places say how
+//! much of the floor a pixel covers: where that is a whole tile and more, the checker fades to its mean.
+
+use homog::{HPoint, Screen};
+use raster::{Cover, Cull, Fragment, Frame, Samples, ScreenVertex, Surface};
+
+/// The corners of the floor: x to the right, distance ahead.
+const FLOOR: [[f32; 2]; 4] = [[-9.0, 1.0], [9.0, 1.0], [400.0, 400.0], [-400.0, 400.0]];
+const TRIANGLES: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
+
+struct Checker;
+
+impl Surface for Checker {
+    fn keeps(&self, _: &Fragment<'_>) -> bool {
+        true
+    }
+
+    fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
+        let place = |weights: [f32; 3]| {
+            let corners = TRIANGLES[fragment.id as usize].map(|n| FLOOR[n as usize]);
+            [0, 1].map(|k| (0..3).map(|n| weights[n] * corners[n][k]).sum::<f32>())
+        };
+        let here = place(fragment.weights);
+        let (right, below) = (place(fragment.weights_right()), place(fragment.weights_below()));
+        let reach = |there: [f32; 2]| (there[0] - here[0]).abs().max((there[1] - here[1]).abs());
+        let fade = (1.0 - reach(right).max(reach(below))).max(0.0);
+        let odd = (here[0].floor() + here[1].floor()).rem_euclid(2.0) == 1.0;
+        let light = 0.5 + if odd { 0.35 } else { -0.35 } * fade;
+        [light, light * 0.95, light * 0.85, 1.0]
+    }
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let (width, height) = (640, 360);
+    let vertices = FLOOR.map(|[x, ahead]| {
+        // The eye is one unit above the floor: similar triangles, and w is the distance ahead.
+        let (x, ahead) = (f64::from(x), f64::from(ahead));
+        let image =
+            HPoint::<Screen>::new(320.0 * ahead + 360.0 * x, 120.0 * ahead + 240.0, 1.0, ahead);
+        ScreenVertex::snap(image.divide()?, ahead)
+    });
+    let mut frame = Frame::new(width, height, Samples::Four)?;
+    frame.mesh(&vertices, &TRIANGLES, 0, Cover::Solid, Cull::Nothing);
+    let mut pixels = vec![[0_u8; 3]; (width * height) as usize];
+    let sky = [0.55, 0.72, 0.9, 1.0];
+    frame.draw(&Checker, sky, 2, &mut pixels, |[r, g, b, _]| {
+        [r, g, b].map(|channel| (channel.sqrt() * 255.0 + 0.5) as u8)
+    });
+    let mut encoder = png::Encoder::new(std::fs::File::create("shader.png")?, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.write_header()?.write_image_data(pixels.as_flattened())?;
+    Ok(())
+}
