@@ -114,7 +114,8 @@ impl Frame {
 
     /// Adds a point as a square of `size` pixels. Its fragments have the weights (1, 0, 0).
     pub fn point(&mut self, center: ScreenVertex, size: f64, id: u32, cover: Cover) {
-        for (corners, weights) in point_pieces(center, size) {
+        let pieces = center.is_drawable().then(|| point_pieces(center, size));
+        for (corners, weights) in pieces.into_iter().flatten() {
             self.push(corners, Some(weights), id, cover);
         }
     }

@@ -74,7 +74,7 @@ pub(crate) fn clockwise([p, q, r]: [ScreenVertex; 3]) -> Option<([ScreenVertex; 
     }
 }
 
-/// A rectangle of the screen around a line, as two triangles; none if the ends coincide.
+/// A rectangle of the screen around a line, as two triangles; none if the ends coincide or cannot be drawn.
 ///
 /// The ends are square and flush with the line's ends. Depth and 1/w are constant across the line.
 pub(crate) fn line_pieces(
@@ -83,7 +83,7 @@ pub(crate) fn line_pieces(
 ) -> [Option<([ScreenVertex; 3], SourceWeights)>; 2] {
     let (dx, dy) = (f64::from(b.x) - f64::from(a.x), f64::from(b.y) - f64::from(a.y));
     let length = (dx * dx + dy * dy).sqrt();
-    if length == 0.0 {
+    if length == 0.0 || !a.is_drawable() || !b.is_drawable() {
         return [None, None];
     }
     let reach = 0.5 * width * f64::from(SUBPIXELS) / length;
