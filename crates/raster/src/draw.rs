@@ -7,7 +7,7 @@ use crate::plane::{LANES, NOTHING, index_of};
 use crate::setup::TileRect;
 use crate::tile::{Layer, Tile};
 use crate::{Fragment, Frame};
-use fearless_simd::{Level, dispatch};
+use fearless_simd::dispatch;
 use std::sync::Mutex;
 
 /// What the primitives of a frame look like.
@@ -36,7 +36,7 @@ impl Frame {
         let bins = Bins::sort(&self.pieces, self.width, self.height);
         let band = self.width as usize * TILE as usize;
         let bands = Mutex::new(target.chunks_mut(band).enumerate());
-        let level = Level::new();
+        let level = self.instructions.level();
         let work = || {
             let mut tile = Tile::default();
             loop {
@@ -44,7 +44,7 @@ impl Frame {
                 let Some((row, pixels)) = next else { return };
                 for column in 0..self.width.div_ceil(TILE) {
                     let rect = TileRect::of(column, row as u32, self.width, self.height);
-                    tile.fill(level, self, rect, bins.of(column, row as u32), surface);
+                    tile.fill(self, rect, bins.of(column, row as u32), surface);
                     let shading = Shading { frame: self, surface, background, tile: &tile, rect };
                     dispatch!(level, _simd => shading.write(pixels, &encode));
                 }

@@ -2,7 +2,7 @@
 
 use crate::primitive::{Piece, Source, clockwise, line_pieces, point_pieces};
 use crate::vertex::SUBPIXEL_BITS;
-use crate::{Cover, Cull, RasterError, Samples, ScreenVertex, SourceWeights};
+use crate::{Cover, Cull, Instructions, RasterError, Samples, ScreenVertex, SourceWeights};
 
 /// The longest side of a picture in pixels.
 pub const MAX_SIDE: u32 = 16384;
@@ -16,6 +16,7 @@ pub struct Frame {
     pub(crate) width: u32,
     pub(crate) height: u32,
     pub(crate) samples: Samples,
+    pub(crate) instructions: Instructions,
     pub(crate) pieces: Vec<Piece>,
     pub(crate) source_weights: Vec<SourceWeights>,
 }
@@ -30,7 +31,15 @@ impl Frame {
         if !fits(width) || !fits(height) {
             return Err(RasterError::Size { width, height });
         }
-        Ok(Self { width, height, samples, pieces: Vec::new(), source_weights: Vec::new() })
+        let (pieces, source_weights) = (Vec::new(), Vec::new());
+        let instructions = Instructions::best();
+        Ok(Self { width, height, samples, instructions, pieces, source_weights })
+    }
+
+    /// The same frame, drawn with the given instructions: for measurements, and for proofs that they do not matter.
+    #[must_use]
+    pub fn with_instructions(self, instructions: Instructions) -> Self {
+        Self { instructions, ..self }
     }
 
     /// Takes all primitives out again and keeps the memory for the next picture.

@@ -3,7 +3,7 @@
 use crate::plane::{LANES, Lanes, NOTHING, Plane};
 use crate::setup::{Setup, TileRect};
 use crate::{Cover, Fragment, Frame, Surface};
-use fearless_simd::{Level, Simd, dispatch};
+use fearless_simd::{Simd, dispatch};
 
 /// One pixel's share of a translucent piece.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -50,7 +50,6 @@ impl Tile {
     /// Finds what is visible in `rect` of the pieces `bin`.
     pub(crate) fn fill(
         &mut self,
-        level: Level,
         frame: &Frame,
         rect: TileRect,
         bin: &[u32],
@@ -59,7 +58,7 @@ impl Tile {
         self.planes.resize_with(frame.samples.count(), Plane::new);
         self.planes.iter_mut().for_each(Plane::clear);
         self.layers.clear();
-        dispatch!(level, simd => self.fill_pieces(simd, frame, rect, bin, surface));
+        dispatch!(frame.instructions.level(), simd => self.fill_pieces(simd, frame, rect, bin, surface));
         self.sort_layers();
     }
 

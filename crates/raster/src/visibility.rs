@@ -6,7 +6,6 @@ use crate::primitive::Piece;
 use crate::setup::TileRect;
 use crate::tile::Tile;
 use crate::{Fragment, Frame, Surface};
-use fearless_simd::Level;
 
 /// What is seen at the first sample of each pixel (its centre, with one sample), rows from the top.
 #[derive(Clone, PartialEq, Debug)]
@@ -57,7 +56,7 @@ impl Frame {
         for row in 0..self.height.div_ceil(TILE) {
             for column in 0..self.width.div_ceil(TILE) {
                 let rect = TileRect::of(column, row, self.width, self.height);
-                tile.fill(Level::new(), self, rect, bins.of(column, row), &Whole);
+                tile.fill(self, rect, bins.of(column, row), &Whole);
                 for pixel in 0..rect.width() * rect.height() {
                     let (x, y) = (pixel % rect.width(), pixel / rect.width());
                     let at = index_of(x, y);

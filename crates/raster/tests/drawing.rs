@@ -1,6 +1,6 @@
 //! Drawing: samples, layers, masks and threads.
 
-use raster::{Cover, Cull, Fragment, Frame, Samples, ScreenVertex, Surface};
+use raster::{Cover, Cull, Fragment, Frame, Instructions, Samples, ScreenVertex, Surface};
 
 fn vertex(x: f64, y: f64, depth: f64) -> ScreenVertex {
     ScreenVertex::snap(homog::Point::new(x, y, depth), 1.0).expect("within the grid")
@@ -97,7 +97,7 @@ fn a_masked_surface_is_absent_where_it_is_not_kept_and_hides_where_it_is() {
 }
 
 #[test]
-fn the_number_of_threads_and_the_place_in_the_picture_change_nothing() {
+fn neither_threads_nor_instructions_change_a_bit() {
     let mut frame = Frame::new(200, 333, Samples::Four).expect("a frame of several tiles");
     let colors: Vec<[f32; 4]> =
         (0..200_u32).map(|n| [n as f32 / 200.0, 0.3, 1.0 - n as f32 / 300.0, 0.8]).collect();
@@ -116,6 +116,11 @@ fn the_number_of_threads_and_the_place_in_the_picture_change_nothing() {
     let once = draw(&frame, &colors, CLEAR, 1);
     for threads in [2, 3, 7, 100] {
         assert!(draw(&frame, &colors, CLEAR, threads) == once, "{threads} threads");
+    }
+    for instructions in Instructions::available() {
+        let again = frame.clone().with_instructions(instructions);
+        assert!(draw(&again, &colors, CLEAR, 1) == once, "{instructions:?}");
+        assert!(again.visibility() == frame.visibility(), "{instructions:?}");
     }
 }
 
