@@ -69,7 +69,7 @@ impl Orbit {
     }
 
     /// The place of `camera` on the sphere around `target`; `None` if it does not look at the
-    /// target, or is rolled.
+    /// target, or is rolled, or is too far from it for the distance to be a number.
     ///
     /// The inverse of [`camera`](Self::camera), with the azimuth in (−π, π] and the elevation in
     /// [−π/2, π/2].
@@ -82,7 +82,8 @@ impl Orbit {
         let level = camera.u().y().abs() < 1e-9 && camera.v().y() > -1e-9;
         let azimuth = libm::atan2(-camera.u().z(), camera.u().x());
         let elevation = libm::atan2(camera.w().y(), camera.v().y());
-        (looks_at_it && level).then_some(Self { target, azimuth, elevation, distance })
+        let found = looks_at_it && level && distance.is_finite();
+        found.then_some(Self { target, azimuth, elevation, distance })
     }
 }
 

@@ -217,6 +217,16 @@ fn orbits_pass_through_the_named_views_poles_included() {
 }
 
 #[test]
+fn too_far_away_to_measure_is_no_orbit() {
+    let orbit = |size: f64| {
+        let target = Point::new(-size, 0.0, -size);
+        Orbit::of(Camera::look_at(Point::ORIGIN, target, Vector::Y).expect("a gaze"), target)
+    };
+    assert!(orbit(1e308).is_some());
+    assert_eq!(orbit(1.5e308), None, "√2 times that is no number");
+}
+
+#[test]
 fn a_turntable_closes_without_repeating_its_first_frame() {
     let start = Orbit { target: Point::ORIGIN, azimuth: 0.3, elevation: 0.2, distance: 2.0 };
     let places: Vec<Orbit> = start.turntable(8).collect();

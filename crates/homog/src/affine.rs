@@ -151,11 +151,12 @@ impl<A: Space, B: Space> Affine<A, B> {
         Normal::from_raw(if mirrored { -image } else { image })
     }
 
-    /// The image of a plane; `None` if the map flattens space.
+    /// The image of a plane; `None` if the map flattens space, or the image has a coefficient that
+    /// is not finite.
     #[must_use]
     pub fn plane(self, plane: Plane<A>) -> Option<Plane<B>> {
-        let inverse = self.inverse()?;
-        Some(Plane::from_raw(inverse.raw.transpose() * plane.raw()))
+        let image = self.inverse()?.raw.transpose() * plane.raw();
+        image.is_finite().then_some(Plane::from_raw(image))
     }
 
     fn linear(self) -> [DVec3; 3] {

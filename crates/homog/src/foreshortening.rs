@@ -73,7 +73,7 @@ impl Foreshortening {
     /// Some for every t in [0, 1]; beyond the ends `None` from where the line leaves for infinity.
     #[must_use]
     pub fn image(self, t: f64) -> Option<f64> {
-        fraction(t, self.end * t, self.start + t * (self.end - self.start))
+        fraction(t, self.end * t, between(self.start, self.end, t))
     }
 
     /// The inverse of f: which fraction of the segment is seen at fraction `s` of its image.
@@ -81,14 +81,14 @@ impl Foreshortening {
     /// Some for every s in [0, 1]; beyond the ends `None` from the vanishing point on.
     #[must_use]
     pub fn source(self, s: f64) -> Option<f64> {
-        fraction(s, self.start * s, self.end + s * (self.start - self.end))
+        fraction(s, self.start * s, between(self.end, self.start, s))
     }
 
     /// f'(t) = w_r w_R / (w_r + t(w_R − w_r))²: how much a short piece at `t` is stretched against
     /// the average.
     #[must_use]
     pub fn derivative(self, t: f64) -> Option<f64> {
-        let w = self.start + t * (self.end - self.start);
+        let w = between(self.start, self.end, t);
         quotient(self.start, w)?;
         quotient(self.start / w * self.end, w)
     }
@@ -101,6 +101,11 @@ impl Foreshortening {
         let t = self.source(s)?;
         Some(a * (1.0 - t) + b * t).filter(|value| value.is_finite())
     }
+}
+
+/// From `start` at 0 to `end` at 1. Both ends come out exactly, and between them nothing cancels.
+fn between(start: f64, end: f64, t: f64) -> f64 {
+    start * (1.0 - t) + end * t
 }
 
 /// The quotient; where `of` is a fraction of the segment, so is the quotient, whatever rounding
@@ -138,6 +143,13 @@ mod tests {
         assert_eq!([0.0, 0.5, 1.0].map(|t| f.image(t)), [0.0, 0.75, 1.0].map(Some));
         assert_eq!(f.derivative(0.0), Some(3.0));
         assert_eq!(f.derivative(1.0), Some(1.0 / 3.0));
+    }
+
+    #[test]
+    fn every_fraction_of_a_segment_has_an_image_however_far_the_end() {
+        let f = Foreshortening::new(3.0, 1e-180).expect("both positive");
+        assert_eq!([0.0, 1.0].map(|t| f.image(t)), [Some(0.0), Some(1.0)]);
+        assert_eq!([0.0, 1.0].map(|s| f.source(s)), [Some(0.0), Some(1.0)]);
     }
 
     #[test]

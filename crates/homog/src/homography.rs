@@ -75,10 +75,12 @@ impl Homography {
         Hom2::from_raw(self.raw * point.raw())
     }
 
-    /// The image of a line; `None` if the map is singular.
+    /// The image of a line; `None` if the map is singular, or the image has a coefficient that is
+    /// not finite.
     #[must_use]
     pub fn line(self, line: Line2) -> Option<Line2> {
-        Some(Line2::from_raw(self.inverse()?.raw.transpose() * line.raw()))
+        let image = self.inverse()?.raw.transpose() * line.raw();
+        image.is_finite().then_some(Line2::from_raw(image))
     }
 
     /// The line that goes to infinity: its points get w = 0. For an affine map it is the line at

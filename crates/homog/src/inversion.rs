@@ -10,9 +10,11 @@ pub struct Inversion<A: Space, B: Space> {
     /// The inverse map.
     pub map: Projective<A, B>,
     /// The condition number ‖M‖ ‖M⁻¹‖ in the norm of the greatest row sum: by how much relative
-    /// errors may grow, at least 1. A perspective with near and far far apart has a large one.
+    /// errors may grow, at least 1. A perspective with near and far far apart has a large one. It
+    /// stops at [`f64::MAX`].
     pub condition: f64,
-    /// The greatest entry of |M M⁻¹ − I|: how well the inverse undoes the map as computed.
+    /// The greatest entry of |M M⁻¹ − I|: how well the inverse undoes the map as computed. It stops
+    /// at [`f64::MAX`], also where the product itself is beyond the range of f64.
     pub residual: f64,
 }
 
@@ -69,7 +71,7 @@ impl<A: Space, B: Space> Projective<A, B> {
             return Err(if rank < 4 { singular } else { InversionError::OutOfRange });
         };
         let map = Projective::from_rows(rows);
-        let condition = row_sum_norm(self.rows()) * row_sum_norm(rows);
+        let condition = (row_sum_norm(self.rows()) * row_sum_norm(rows)).min(f64::MAX);
         let residual = self.residual(map);
         Ok(Inversion { map, condition, residual })
     }
@@ -83,6 +85,9 @@ impl<A: Space, B: Space> Projective<A, B> {
 
     fn residual(self, inverse: Projective<B, A>) -> f64 {
         let product = self.raw() * inverse.raw() - glam::DMat4::IDENTITY;
+        if !product.is_finite() {
+            return f64::MAX;
+        }
         product.to_cols_array().iter().fold(0.0, |largest: f64, entry| largest.max(entry.abs()))
     }
 }

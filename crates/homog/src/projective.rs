@@ -58,10 +58,12 @@ impl<A: Space, B: Space> Projective<A, B> {
         HPoint::from_raw(self.raw * point.raw())
     }
 
-    /// The image of a plane; `None` if the map is singular.
+    /// The image of a plane; `None` if the map is singular, or the image has a coefficient that is
+    /// not finite.
     #[must_use]
     pub fn plane(self, plane: Plane<A>) -> Option<Plane<B>> {
-        Some(Plane::from_raw(self.inverse()?.raw.transpose() * plane.raw()))
+        let image = self.inverse()?.raw.transpose() * plane.raw();
+        image.is_finite().then_some(Plane::from_raw(image))
     }
 
     /// This map, then `next`.

@@ -2,8 +2,8 @@
 //! inverses undo, factors do not matter, planes and normals go along.
 
 use homog::{
-    Affine, Clip, Foreshortening, HPoint, Hom2, Homography, Meaning, Model, Normal, Plane, Point,
-    Projective, Vector, View, World, remap,
+    Affine, Clip, Foreshortening, HPoint, Hom2, Homography, Line2, Meaning, Model, Normal, Plane,
+    Point, Projective, Vector, View, World, remap,
 };
 use proptest::prelude::*;
 
@@ -181,6 +181,20 @@ fn c3_a_chain_is_the_product_of_its_factors() {
     let view_to_clip = Map::from_row_major(core::array::from_fn(|i| (i * i % 7) as f64));
     let chain = model_to_world.then(world_to_view).then_project(view_to_clip);
     assert_eq!(chain.raw(), view_to_clip.raw() * (world_to_view.raw() * model_to_world.raw()));
+}
+
+/// Finite numbers whose products are beyond the range of f64: there is no answer, not an infinite one.
+#[test]
+fn what_overflows_is_none() {
+    let stretch = Affine::<World, World>::scale(1e-200, 1.0, 1.0);
+    let steep = Plane::from_raw(glam::DVec4::new(1e200, 1.0, 1.0, 1.0));
+    assert_eq!(stretch.plane(steep), None);
+    assert_eq!(Projective::from(stretch).plane(steep), None);
+    let flat = Homography::from_rows([[1e-200, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+    assert_eq!(flat.line(Line2::new(1e200, 1.0, 1.0)), None);
+    let uneven = Affine::<World, World>::scale(1e-160, 1e160, 1e160);
+    let report = Projective::from(uneven).inverse_with_report().expect("regular");
+    assert_eq!(report.condition, f64::MAX);
 }
 
 #[test]

@@ -70,6 +70,8 @@ impl ApexMovedFrustum {
         finite("far", far)?;
         let centred = Window::centred(window.width(), window.height())?;
         Frustum::from_window(window, near, far)?;
+        // The lesson scales the window by itself, not together with near.
+        centred.fit(1.0)?;
         Ok(Self { window, about_apex: Frustum::from_window(centred, near, far)? })
     }
 

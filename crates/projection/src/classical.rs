@@ -8,7 +8,7 @@ use crate::{
     Axonometric, Convention, NPoint, Oblique, Orthographic, Planometric, PrincipalView,
     ProjectionError,
 };
-use homog::{Affine, Clip, Projective, View};
+use homog::{Affine, Clip, Projective, Space, View};
 
 /// One of the planar projections of the textbooks.
 ///
@@ -80,7 +80,8 @@ impl Classical {
     /// = 0 before the divide.
     ///
     /// # Errors
-    /// If a perspective's near or far plane lies behind its eye.
+    /// If a perspective's near or far plane lies behind its eye, or the product of picture and
+    /// volume is beyond the range of f64.
     pub fn view_to_clip(
         self,
         volume: Orthographic,
@@ -88,7 +89,7 @@ impl Classical {
     ) -> Result<Projective<View, Clip>, ProjectionError> {
         let upright = convention.right_handed();
         let fit = self.picture_box(volume)?.view_to_clip(upright);
-        Ok(upright.convert(convention, self.depth_kept().then(fit)))
+        finite(upright.convert(convention, self.depth_kept().then(fit)))
     }
 
     /// The inverse of [`view_to_clip`](Self::view_to_clip), in closed form.
@@ -104,7 +105,7 @@ impl Classical {
         let unfit = self.picture_box(volume)?.clip_to_view(upright);
         let inverse = convention.clip_to_clip(upright).then(unfit).then(self.depth_kept_inverse());
         let turn = Affine::<View, View>::scale(1.0, 1.0, upright.ahead() * convention.ahead());
-        Ok(inverse.then(turn))
+        finite(inverse.then(turn))
     }
 
     /// The box of the picture after the divide.
@@ -121,6 +122,10 @@ impl Classical {
         let (near, far) = (image("near", volume.near())?, image("far", volume.far())?);
         Orthographic::from_window(volume.window(), near, far)
     }
+}
+
+fn finite<A: Space, B: Space>(map: Projective<A, B>) -> Result<Projective<A, B>, ProjectionError> {
+    map.is_finite().then_some(map).ok_or(ProjectionError::Unrepresentable { what: "projection" })
 }
 
 impl From<PrincipalView> for Classical {

@@ -87,6 +87,22 @@ pub struct Decomposition {
     pub factor: f64,
 }
 
+impl Decomposition {
+    /// Whether the parts that no builder has checked are finite.
+    fn is_finite(&self) -> bool {
+        let kind = match self.kind {
+            Decomposed::PlacedFrustum { placement, .. }
+            | Decomposed::PlacedOrthographic { placement, .. } => placement.is_finite(),
+            Decomposed::ObliqueNear { placement, near_plane, .. } => {
+                placement.is_finite() && near_plane.raw().is_finite()
+            }
+            Decomposed::Flat { centre, .. } => centre.is_finite(),
+            _ => true,
+        };
+        kind && self.factor.is_finite()
+    }
+}
+
 /// Why a matrix is no projection of the given convention.
 #[derive(Clone, Copy, PartialEq, Debug, Error)]
 #[non_exhaustive]
@@ -138,6 +154,12 @@ pub enum DecomposeError {
 /// If an entry is not finite, or the matrix is no projection of this convention.
 pub fn decompose(matrix: DMat4, convention: Convention) -> Result<Decomposition, DecomposeError> {
     check_finite(matrix)?;
+    let found = recognised(matrix, convention)?;
+    let lost = ProjectionError::Unrepresentable { what: "projection in this matrix" };
+    if found.is_finite() { Ok(found) } else { Err(lost.into()) }
+}
+
+fn recognised(matrix: DMat4, convention: Convention) -> Result<Decomposition, DecomposeError> {
     let largest = matrix.to_cols_array().iter().fold(0.0, |size: f64, entry| size.max(entry.abs()));
     if largest == 0.0 {
         return Err(DecomposeError::RankTooLow { rank: 0 });

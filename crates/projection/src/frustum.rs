@@ -58,7 +58,9 @@ impl Frustum {
     pub fn from_window(window: Window, near: f64, far: f64) -> Result<Self, ProjectionError> {
         check_planes(near, far)?;
         window.fit(near)?;
-        Ok(Self { window, near, far })
+        let frustum = Self { window, near, far };
+        frustum.slopes().check()?;
+        Ok(frustum)
     }
 
     /// The frustum whose window, one unit ahead of the eye, has the edges `slopes`: the tangents of

@@ -55,7 +55,7 @@ impl<S: Space> VanishingPoint<S> {
 /// ```
 ///
 /// # Errors
-/// If the direction is zero or not finite, or the map not finite.
+/// If the direction is zero or not finite, or the map not finite, or the point too far away.
 pub fn vanishing_point<A: Space, B: Space>(
     map: Projective<A, B>,
     direction: Vector<A>,
@@ -69,7 +69,7 @@ pub fn vanishing_point<A: Space, B: Space>(
     if !image.is_finite() {
         return Err(ProjectionError::Unrepresentable { what: "image of the direction" });
     }
-    Ok(classified(image, rounding(map, unit)))
+    classified(image, rounding(map, unit))
 }
 
 /// The largest part of each image coordinate that can be rounding only.
@@ -79,16 +79,21 @@ fn rounding<A: Space, B: Space>(map: Projective<A, B>, direction: Vector<A>) -> 
     (m.x_axis.abs() * d.x + m.y_axis.abs() * d.y + m.z_axis.abs() * d.z) * (4.0 * f64::EPSILON)
 }
 
-fn classified<S: Space>(image: DVec4, rounding: DVec4) -> VanishingPoint<S> {
+fn classified<S: Space>(
+    image: DVec4,
+    rounding: DVec4,
+) -> Result<VanishingPoint<S>, ProjectionError> {
     let significant = image.abs().cmpgt(rounding);
     if significant.w {
         let point = Point::from_raw(image.truncate() / image.w);
-        return VanishingPoint::At { point, ahead: image.w > 0.0 };
+        let too_far = ProjectionError::Unrepresentable { what: "vanishing point" };
+        let at = VanishingPoint::At { point, ahead: image.w > 0.0 };
+        return point.is_finite().then_some(at).ok_or(too_far);
     }
     if significant.x || significant.y || significant.z {
-        return VanishingPoint::AtInfinity { direction: Vector::from_raw(image.truncate()) };
+        return Ok(VanishingPoint::AtInfinity { direction: Vector::from_raw(image.truncate()) });
     }
-    VanishingPoint::AlongProjectors
+    Ok(VanishingPoint::AlongProjectors)
 }
 
 /// How many of the three axes have a vanishing point at a finite place.

@@ -68,7 +68,8 @@ impl ViewVolume {
             .map(Plane::from_raw)
     }
 
-    /// The eight corners, those at infinity with w = 0; `None` if the projection is singular.
+    /// The eight corners, those at infinity with w = 0; `None` if the projection is singular, or a
+    /// corner has a coordinate that is not finite.
     #[must_use]
     pub fn corners(self) -> Option<[HPoint<View>; 8]> {
         let clip_to_view = self.view_to_clip.inverse()?;
@@ -78,7 +79,9 @@ impl ViewVolume {
             |z: f64| [(-1.0, -up), (1.0, -up), (1.0, up), (-1.0, up)].map(|(x, y)| [x, y, z, 1.0]);
         let [a, b, c, d] = face(near);
         let [e, f, g, h] = face(far);
-        Some([a, b, c, d, e, f, g, h].map(|corner| clip_to_view.hpoint(HPoint::from(corner))))
+        let corners =
+            [a, b, c, d, e, f, g, h].map(|corner| clip_to_view.hpoint(HPoint::from(corner)));
+        corners.iter().all(|corner| corner.is_finite()).then_some(corners)
     }
 
     /// True if the point is shown; the borders belong to the volume (CL-1).

@@ -8,8 +8,8 @@ use crate::matrix::Fit;
 /// (C85).
 ///
 /// # Guarantees
-/// All edges are finite and opposite ones differ. Mirrored windows, left > right or bottom > top,
-/// are allowed: they give a mirrored picture.
+/// All edges are finite, opposite ones differ, and width and height are finite.
+/// Mirrored windows, left > right or bottom > top, are allowed: they give a mirrored picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Window {
     left: f64,
@@ -22,7 +22,7 @@ impl Window {
     /// The window with the given edges.
     ///
     /// # Errors
-    /// If an edge is not finite or opposite edges coincide.
+    /// If an edge is not finite, opposite edges coincide, or they are too far apart.
     pub fn new(left: f64, right: f64, bottom: f64, top: f64) -> Result<Self, ProjectionError> {
         finite("left", left)?;
         finite("right", right)?;
@@ -34,7 +34,13 @@ impl Window {
         if bottom == top {
             return Err(ProjectionError::EmptyWindow { low: "bottom", high: "top", value: bottom });
         }
-        Ok(Self { left, right, bottom, top })
+        Self { left, right, bottom, top }.check()
+    }
+
+    /// Refuses edges too far apart, or beyond the numbers themselves.
+    pub(crate) fn check(self) -> Result<Self, ProjectionError> {
+        let usable = self.width().is_finite() && self.height().is_finite();
+        usable.then_some(self).ok_or(ProjectionError::Unrepresentable { what: "window" })
     }
 
     /// The window of the given size around the line of sight.

@@ -129,7 +129,7 @@ impl<S: Space> Unprojector<S> {
         };
         let direction = (beyond - near).normalized()?;
         let origin = if self.is_parallel() { near } else { place(self.centre())? };
-        Some(Ray { origin, direction, near, far })
+        far.is_finite().then_some(Ray { origin, direction, near, far })
     }
 
     /// Rounding must not turn a parallel projection into one from very far away.

@@ -143,6 +143,7 @@ fn rays_reach_to_infinity() {
     assert_eq!(ray.far.w(), 0.0);
     assert_eq!((ray.direction, ray.origin, ray.near.z()), (-Vector::Z, Point::ORIGIN, -0.5));
     assert_eq!(back.ray([f64::NAN, 0.0], [1.0, 0.0]), None);
+    assert_eq!(back.ray([50.0, 50.0], [1.0, -1.7e308]), None, "the far point is no number");
 }
 
 #[test]

@@ -2,12 +2,13 @@
 
 use crate::samples::{self, convention, conventions};
 use glam::DMat4;
-use homog::{Normal, Plane, Point, Vector, View};
+use homog::{Clip, Normal, Plane, Point, Projective, Vector, View};
 use projection::{
     ApexMovedFrustum, Axonometric, Classical, ConstructedPerspective, Convention, DepthCurve,
     DepthFormat, Film, FourAngles, Fov, Frustum, Jitter, NPoint, Oblique, Orthographic,
     Perspective, Planometric, Projector, Tile, ViewVolume, Window, chapter, decompose,
     oblique_near_plane, opening_angle_of, principal_vanishing_points, symptoms, third_row,
+    vanishing_point,
 };
 use proptest::prelude::*;
 
@@ -65,11 +66,11 @@ proptest! {
         for matrix in [
             chapter::m_orth(l, r, b, t, near, far).map(homog::Affine::raw),
             chapter::m_orth_inverse(l, r, b, t, near, far).map(homog::Affine::raw),
-            chapter::m_per(l, r, b, t, -near, -far).map(homog::Projective::raw),
-            chapter::m_per_inverse(l, r, b, t, -near, -far).map(homog::Projective::raw),
-            chapter::p(l, r).map(homog::Projective::raw),
-            chapter::p_inverse(l, r).map(homog::Projective::raw),
-            chapter::p_inverse_scaled(l, r).map(homog::Projective::raw),
+            chapter::m_per(l, r, b, t, -near, -far).map(Projective::raw),
+            chapter::m_per_inverse(l, r, b, t, -near, -far).map(Projective::raw),
+            chapter::p(l, r).map(Projective::raw),
+            chapter::p_inverse(l, r).map(Projective::raw),
+            chapter::p_inverse_scaled(l, r).map(Projective::raw),
         ]
         .into_iter()
         .flatten()
@@ -255,4 +256,25 @@ proptest! {
         let matrix = DMat4::from_cols_array(&entries);
         let _ = (decompose(matrix, c), symptoms(matrix).count());
     }
+}
+
+/// Each by itself is a number, their products are not.
+#[test]
+fn what_only_overflows_in_the_end_is_refused_too() {
+    let c = Convention::OPENGL;
+    assert!(Window::new(-1e308, 1e308, -1.0, 1.0).is_err());
+    assert!(Frustum::new(-1e150, 1e150, -1e150, 1e150, 1e-159, 1.0).is_err());
+    let tiny = 4e-309;
+    assert!(ApexMovedFrustum::new(0.0, tiny, 0.0, 1.0, tiny * 1e60, 1.0).is_err());
+    let volume = Orthographic::new(0.0, 1e-200, 0.0, 1.0, 0.0, 1.0).expect("valid");
+    let slanted = Classical::from(Oblique::new(1e200, 0.0).expect("valid"));
+    assert!(slanted.view_to_clip(volume, c).is_err());
+    let mut nearly_parallel = DMat4::IDENTITY;
+    (nearly_parallel.x_axis.x, nearly_parallel.x_axis.w) = (1e200, 1e-200);
+    let map = Projective::<View, Clip>::from_raw(nearly_parallel);
+    assert!(vanishing_point(map, Vector::X).is_err());
+    assert!(principal_vanishing_points(map).is_err());
+    let deep = DMat4::from_diagonal(glam::DVec4::new(1e-308, 1e-308, 1e-308, 1.0));
+    let shallow = DMat4::from_translation(glam::DVec3::new(1e308, 0.0, 0.0)) * deep;
+    assert_eq!(ViewVolume::new(Projective::from_raw(shallow), c).corners(), None);
 }
