@@ -11,6 +11,7 @@ mod gallery;
 mod golden;
 mod models;
 mod program;
+mod soak;
 mod test;
 mod tidy;
 mod workspace;
@@ -64,6 +65,12 @@ const COMMANDS: &[Command] = &[
         arguments: "",
         about: "Render every scene onto one page, target/gallery/index.html",
         run: gallery::run,
+    },
+    Command {
+        name: "soak",
+        arguments: "[--calls N] [--seed S] [NAME…]",
+        about: "Millions of random calls: nothing panics, finite numbers give finite ones",
+        run: soak::run,
     },
     Command {
         name: "models",

@@ -85,6 +85,13 @@ pub fn output(command: &mut Command) -> Result<String, String> {
     Err(format!("`{shown}` failed ({})\n{stdout}{stderr}", output.status))
 }
 
+/// Runs a command to its end while the person sees what it prints.
+pub fn watch(command: &mut Command) -> Result<(), String> {
+    let shown = shown(command);
+    let status = command.status().map_err(|error| format!("{shown}: {error}"))?;
+    if status.success() { Ok(()) } else { Err(format!("`{shown}` failed ({status})")) }
+}
+
 /// A command as one would type it.
 pub fn shown(command: &Command) -> String {
     let program = Path::new(command.get_program()).file_stem().unwrap_or_default();

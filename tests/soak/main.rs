@@ -1,0 +1,102 @@
+//! Millions of random calls of every function that may refuse: nothing panics, and what is made of
+//! finite numbers is finite.
+//!
+//! `cargo xtask soak [--calls N] [--seed S] [NAME…]` runs it in release mode; names choose functions
+//! by a part of theirs. A call draws its arguments from a generator whose whole state is one number,
+//! so that a call that went wrong is made again from that number, to print its arguments.
+
+#![allow(clippy::print_stdout, reason = "a program speaks on its standard output")]
+#![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
+
+mod camera;
+mod clip;
+mod finite;
+mod homog;
+mod projection;
+mod random;
+mod subject;
+mod viewport;
+
+use std::num::NonZeroUsize;
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+use subject::{Report, Subject};
+
+/// All functions, by the crate they belong to.
+const SUBJECTS: [&[Subject]; 5] =
+    [homog::SUBJECTS, camera::SUBJECTS, projection::SUBJECTS, clip::SUBJECTS, viewport::SUBJECTS];
+
+/// What the person asked for.
+struct Order {
+    calls: u64,
+    seed: u64,
+    names: Vec<String>,
+}
+
+fn main() -> ExitCode {
+    let order = match order(std::env::args().skip(1)) {
+        Ok(order) => order,
+        Err(message) => {
+            println!("{message}");
+            return ExitCode::from(2);
+        }
+    };
+    let chosen = |(name, _): &&Subject| {
+        order.names.is_empty() || order.names.iter().any(|part| name.contains(part.as_str()))
+    };
+    let subjects: Vec<&Subject> = SUBJECTS.into_iter().flatten().filter(chosen).collect();
+    subject::catch_panics_quietly();
+    let start = Instant::now();
+    let reports = run(&subjects, &order);
+    let calls: u64 = reports.iter().map(|report| report.calls).sum();
+    let failed = reports.iter().filter(|report| report.fault.is_some()).count();
+    println!(
+        "{} functions, {calls} calls in {:.0} s, seed {}: {} passed, {failed} failed",
+        reports.len(),
+        start.elapsed().as_secs_f64(),
+        order.seed,
+        reports.len() - failed,
+    );
+    // An order that chooses nothing is a slip in a name.
+    if failed == 0 && !reports.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+fn order(mut arguments: impl Iterator<Item = String>) -> Result<Order, String> {
+    let mut order = Order { calls: 10_000_000, seed: 1, names: Vec::new() };
+    while let Some(argument) = arguments.next() {
+        let mut number = || {
+            let text = arguments.next().unwrap_or_default();
+            let digits = text.replace('_', "");
+            digits.parse().map_err(|_| format!("{argument} needs a number, not `{text}`"))
+        };
+        match argument.as_str() {
+            "--calls" => order.calls = number()?,
+            "--seed" => order.seed = number()?,
+            // Cargo says so to every benchmark.
+            "--bench" => {}
+            flag if flag.starts_with('-') => return Err(format!("unknown flag `{flag}`")),
+            _ => order.names.push(argument),
+        }
+    }
+    Ok(order)
+}
+
+/// Runs the functions on all cores, each on one, and prints a line as it is done.
+fn run(subjects: &[&Subject], order: &Order) -> Vec<Report> {
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut reports = Vec::new();
+        while let Some(subject) = subjects.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let report = subject::run(subject, order.calls, order.seed);
+            println!("{report}");
+            reports.push(report);
+        }
+        reports
+    };
+    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..cores).map(|_| scope.spawn(work)).collect();
+        workers.into_iter().filter_map(|worker| worker.join().ok()).flatten().collect()
+    })
+}

@@ -1,0 +1,246 @@
+//! Random arguments: ordinary numbers most of the time, and every other sort there is.
+//!
+//! splitmix64 (Steele, Lea, Flood 2014): the state is a counter, so any call can be made again.
+
+use glam::{DMat3, DMat4, DVec3, DVec4};
+use homog::{Affine, HPoint, Normal, Plane, Point, Projective, Space, Vector};
+
+/// Which sorts of numbers a call draws. Were each number of every sort, calls with six of them would
+/// hardly ever be accepted.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Mood {
+    /// Between −10 and 10, whole, zero of either sign, or the one before once more.
+    Ordinary,
+    /// Those, and of every size down to the subnormal and up to the largest.
+    Extreme,
+    /// Those, NaN, infinities, and any 64 bits.
+    Anything,
+}
+
+/// The generator, and what it notes about the current call.
+pub struct Random {
+    state: u64,
+    mood: Mood,
+    last: f64,
+    only_finite: bool,
+    drawn: Option<Vec<f64>>,
+}
+
+const EXTREMES: [f64; 12] = [
+    f64::MAX,
+    f64::MIN,
+    f64::MIN_POSITIVE,
+    -f64::MIN_POSITIVE,
+    5e-324,
+    -5e-324,
+    f64::EPSILON,
+    1.0 + f64::EPSILON,
+    1.0 - f64::EPSILON / 2.0,
+    1e154,
+    1e-154,
+    9_007_199_254_740_993.0,
+];
+
+impl Random {
+    pub fn new(seed: u64) -> Self {
+        Self { state: seed, mood: Mood::Ordinary, last: 0.0, only_finite: true, drawn: None }
+    }
+
+    /// The generator in the state of an earlier call, which notes what it draws.
+    pub fn recording(state: u64) -> Self {
+        let mut random = Self { drawn: Some(Vec::new()), ..Self::new(state) };
+        random.settle();
+        random
+    }
+
+    /// Begins a call.
+    pub fn begin(&mut self) {
+        self.bits();
+        self.settle();
+    }
+
+    pub fn state(&self) -> u64 {
+        self.state
+    }
+
+    /// Chooses the mood of a call from the state alone.
+    fn settle(&mut self) {
+        self.mood = match mixed(self.state ^ 0x5bd1_e995) & 7 {
+            0..=4 => Mood::Ordinary,
+            5 | 6 => Mood::Extreme,
+            _ => Mood::Anything,
+        };
+        self.only_finite = true;
+        self.last = 0.0;
+    }
+
+    /// True if no argument of this call was NaN or infinite.
+    pub fn drew_only_finite(&self) -> bool {
+        self.only_finite
+    }
+
+    pub fn drawn(&self) -> &[f64] {
+        self.drawn.as_deref().unwrap_or_default()
+    }
+
+    fn bits(&mut self) -> u64 {
+        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        mixed(self.state)
+    }
+
+    /// From 0 to `count` − 1.
+    pub fn below(&mut self, count: usize) -> usize {
+        (self.bits() >> 32) as usize % count
+    }
+
+    pub fn pick<T: Copy>(&mut self, all: &[T]) -> T {
+        all[self.below(all.len())]
+    }
+
+    pub fn coin(&mut self) -> bool {
+        self.bits() >> 63 == 1
+    }
+
+    /// Any 32 bits; small numbers half of the time.
+    pub fn count(&mut self) -> u32 {
+        let bits = self.bits();
+        let count = (bits >> 32) as u32;
+        let count = if bits & 1 == 0 { count % 64 } else { count };
+        self.given(count.into());
+        count
+    }
+
+    /// A number of the current call's sorts.
+    pub fn number(&mut self) -> f64 {
+        let mood = self.mood;
+        let number = self.of(mood);
+        self.last = number;
+        self.given(number)
+    }
+
+    pub fn numbers<const N: usize>(&mut self) -> [f64; N] {
+        std::array::from_fn(|_| self.number())
+    }
+
+    /// Mostly without its sign.
+    pub fn size(&mut self) -> f64 {
+        let number = self.number();
+        if self.below(32) == 0 { number } else { self.instead(number.abs()) }
+    }
+
+    /// Two sizes, mostly the smaller one first.
+    pub fn near_far(&mut self) -> [f64; 2] {
+        let [a, b] = [self.size(), self.size()];
+        if a > b && self.below(32) > 0 { [b, a] } else { [a, b] }
+    }
+
+    /// As [`Self::near_far`], and sometimes without end where that is allowed.
+    pub fn near_and_any_far(&mut self) -> [f64; 2] {
+        let [near, far] = self.near_far();
+        [near, if self.below(8) == 0 { f64::INFINITY } else { far }]
+    }
+
+    /// Mostly between 0 and π.
+    pub fn opening(&mut self) -> f64 {
+        let number = self.number();
+        if self.below(8) == 0 { number } else { self.instead(number.abs() % 3.141_592) }
+    }
+
+    /// Mostly between 0 and 1.
+    pub fn fraction(&mut self) -> f64 {
+        let number = self.number();
+        if self.below(8) == 0 { number } else { self.instead(number.abs().fract()) }
+    }
+
+    /// Notes an argument that was made of others.
+    pub fn given(&mut self, argument: f64) -> f64 {
+        self.only_finite &= argument.is_finite();
+        if let Some(drawn) = &mut self.drawn {
+            drawn.push(argument);
+        }
+        argument
+    }
+
+    /// Notes an argument in the place of the number that it was made of.
+    pub fn instead(&mut self, argument: f64) -> f64 {
+        if let Some(drawn) = &mut self.drawn {
+            drawn.pop();
+        }
+        self.given(argument)
+    }
+
+    fn of(&mut self, mood: Mood) -> f64 {
+        let bits = self.bits();
+        let unit = (bits >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0);
+        match (mood, bits & 15) {
+            (Mood::Anything, 0) => f64::NAN,
+            (Mood::Anything, 1) => f64::INFINITY,
+            (Mood::Anything, 2) => f64::NEG_INFINITY,
+            (Mood::Anything, 3) => f64::from_bits(self.bits()),
+            (Mood::Anything, _) => self.of(Mood::Extreme),
+            (Mood::Extreme, 0 | 1) => EXTREMES[(bits >> 32) as usize % EXTREMES.len()],
+            (Mood::Extreme, 2..=7) => signed(libm::exp10(unit * 632.0 - 324.0), bits),
+            (Mood::Extreme, _) => self.of(Mood::Ordinary),
+            (Mood::Ordinary, 0) => signed(0.0, bits),
+            (Mood::Ordinary, 1 | 2) => libm::trunc(unit * 21.0 - 10.0),
+            (Mood::Ordinary, 3) => self.last,
+            (Mood::Ordinary, 4) => -self.last,
+            (Mood::Ordinary, _) => unit * 20.0 - 10.0,
+        }
+    }
+}
+
+/// The output function of splitmix64.
+fn mixed(state: u64) -> u64 {
+    let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+fn signed(size: f64, bits: u64) -> f64 {
+    if bits & 16 == 0 { size } else { -size }
+}
+
+/// Things made of numbers.
+impl Random {
+    pub fn point<S: Space>(&mut self) -> Point<S> {
+        Point::from(self.numbers())
+    }
+
+    pub fn points<S: Space, const N: usize>(&mut self) -> [Point<S>; N] {
+        std::array::from_fn(|_| self.point())
+    }
+
+    pub fn vector<S: Space>(&mut self) -> Vector<S> {
+        Vector::from(self.numbers())
+    }
+
+    pub fn normal<S: Space>(&mut self) -> Normal<S> {
+        Normal::from_raw(DVec3::from(self.numbers()))
+    }
+
+    pub fn plane<S: Space>(&mut self) -> Plane<S> {
+        Plane::from_raw(DVec4::from(self.numbers()))
+    }
+
+    pub fn hpoint<S: Space>(&mut self) -> HPoint<S> {
+        HPoint::from(self.numbers::<4>())
+    }
+
+    pub fn matrix3(&mut self) -> DMat3 {
+        DMat3::from_cols_array(&self.numbers())
+    }
+
+    pub fn matrix4(&mut self) -> DMat4 {
+        DMat4::from_cols_array(&self.numbers())
+    }
+
+    pub fn affine<A: Space, B: Space>(&mut self) -> Affine<A, B> {
+        let [x, y, z] = [self.vector(), self.vector(), self.vector()];
+        Affine::from_frame(x, y, z, self.point())
+    }
+
+    pub fn projective<A: Space, B: Space>(&mut self) -> Projective<A, B> {
+        Projective::from_raw(self.matrix4())
+    }
+}

@@ -1,0 +1,71 @@
+//! One function under test: called over and over, and what came of it.
+
+use crate::random::Random;
+use std::cell::RefCell;
+use std::fmt;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::{Duration, Instant};
+
+/// A name, and one call with random arguments: `None` if they were refused or there was nothing to
+/// give, else whether all numbers of the answer are finite.
+pub type Subject = (&'static str, fn(&mut Random) -> Option<bool>);
+
+/// What came of the calls.
+pub struct Report {
+    name: &'static str,
+    pub calls: u64,
+    made: u64,
+    time: Duration,
+    pub fault: Option<String>,
+}
+
+/// Calls the function until it fails or has been called often enough.
+pub fn run(&(name, call): &Subject, calls: u64, seed: u64) -> Report {
+    let start = Instant::now();
+    let mut random = Random::new(seed);
+    let mut report = Report { name, calls: 0, made: 0, time: Duration::ZERO, fault: None };
+    while report.calls < calls && report.fault.is_none() {
+        report.calls += 1;
+        random.begin();
+        let state = random.state();
+        match catch_unwind(AssertUnwindSafe(|| call(&mut random))) {
+            Ok(None) => {}
+            Ok(Some(finite)) if finite || !random.drew_only_finite() => report.made += 1,
+            Ok(Some(_)) => {
+                report.fault = Some(format!("not finite for {}", arguments(call, state)));
+            }
+            Err(_) => {
+                let message = LAST_PANIC.take();
+                report.fault = Some(format!("panicked {message} for {}", arguments(call, state)));
+            }
+        }
+    }
+    report.time = start.elapsed();
+    report
+}
+
+/// What the call from this state drew, in order.
+fn arguments(call: fn(&mut Random) -> Option<bool>, state: u64) -> String {
+    let mut random = Random::recording(state);
+    let _ = catch_unwind(AssertUnwindSafe(|| call(&mut random)));
+    format!("{:?}", random.drawn())
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, calls, made, time, fault } = self;
+        let refused = calls - made;
+        let seconds = time.as_secs_f64();
+        write!(f, "{name:44} {calls:9} calls {made:9} made {refused:9} refused {seconds:6.1} s")?;
+        fault.iter().try_for_each(|fault| write!(f, "\n  FAILED {fault}"))
+    }
+}
+
+thread_local! {
+    static LAST_PANIC: RefCell<String> = const { RefCell::new(String::new()) };
+}
+
+/// Keeps a panic's message for the report instead of printing it.
+pub fn catch_panics_quietly() {
+    std::panic::set_hook(Box::new(|panic| LAST_PANIC.set(format!("({panic})"))));
+}
