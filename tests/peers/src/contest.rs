@@ -1,0 +1,243 @@
+//! The contests: each scene drawn by everybody who can, then the limits, then threads.
+
+use crate::clock::{Took, timed};
+use crate::gl::Context;
+use crate::limits::{Clearing, Kernel};
+use crate::measure::{Contestant, Series, Spread, rounds};
+use crate::peer::{Euc, Llvmpipe, Peer, Raster, Render};
+use crate::scene::{Order, Scene, assets, floor, helmet, layers, sphere};
+use raster::Samples;
+use std::rc::Rc;
+
+/// What is to be measured.
+pub struct Options {
+    /// How often everybody runs.
+    pub rounds: usize,
+    /// Parts of the names of what is to be measured; all if empty.
+    pub only: Vec<String>,
+}
+
+impl Options {
+    /// Whether something with this name is to be measured.
+    pub fn wants(&self, name: &str) -> bool {
+        self.only.is_empty() || self.only.iter().any(|part| name.contains(part.as_str()))
+    }
+}
+
+/// A scene's figures.
+pub struct Heat {
+    /// The scene's name.
+    pub scene: &'static str,
+    /// What it is.
+    pub about: String,
+    /// Everybody's times, ours first.
+    pub series: Vec<Series>,
+    /// How far our picture is from each other peer's.
+    pub agreements: Vec<Agreement>,
+}
+
+/// How far two pictures are apart.
+pub struct Agreement {
+    /// Whose picture was compared with ours.
+    pub peer: String,
+    /// Pixels that one drew and the other did not.
+    pub coverage: usize,
+    /// Pixels both drew whose colours differ by more than 3 of 255.
+    pub color: usize,
+    /// Pixels we drew.
+    pub drawn: usize,
+}
+
+/// A scene's name and how to make it.
+type Recipe = (&'static str, fn(&'static str) -> Result<Scene, String>);
+
+/// Name and maker of each scene; the helmet needs the shared models.
+const SCENES: [Recipe; 8] = [
+    ("sphere-1m", |name| sphere(name, 500)),
+    ("sphere-4m", |name| sphere(name, 1000)),
+    ("helmet", |name| {
+        helmet(name, &assets().ok_or("the folder of shared models was not found (set ASSETS)")?)
+    }),
+    ("layers-back-to-front-flat", |name| layers(name, 50, Order::BackToFront, false)),
+    ("layers-front-to-back-flat", |name| layers(name, 50, Order::FrontToBack, false)),
+    ("layers-back-to-front-textured", |name| layers(name, 50, Order::BackToFront, true)),
+    ("layers-front-to-back-textured", |name| layers(name, 50, Order::FrontToBack, true)),
+    ("floor", floor),
+];
+
+/// Scenes that are drawn with four samples too: those with edges.
+const WITH_SAMPLES: [&str; 4] = ["sphere-1m", "helmet", "layers-back-to-front-flat", "floor"];
+
+/// Draws the scenes, one after the other. What cannot be drawn is said on the standard output.
+pub fn scenes(gl: Option<&Rc<Context>>, options: &Options) -> Result<Vec<Heat>, String> {
+    let mut heats = Vec::new();
+    for (name, make) in SCENES {
+        if !options.wants(name) {
+            continue;
+        }
+        match make(name) {
+            Ok(scene) => heats.push(heat(&scene, gl, options.rounds)?),
+            Err(reason) => println!("{name}: left out: {reason}"),
+        }
+    }
+    Ok(heats)
+}
+
+fn heat(scene: &Scene, gl: Option<&Rc<Context>>, count: usize) -> Result<Heat, String> {
+    eprintln!("{}: {}", scene.name, scene.about);
+    let mut peers = peers(scene, gl)?;
+    let mut contestants: Vec<Contestant<'_>> = peers
+        .iter_mut()
+        .map(|peer| Contestant { name: peer.name(), work: Box::new(|| peer.draw()) })
+        .collect();
+    let series = rounds(&mut contestants, count);
+    drop(contestants);
+    let ours = peers[0].pixels();
+    let others = peers[1..].iter_mut().filter(|peer| peer.is_comparable());
+    let agreements = others.map(|peer| agreement(peer.name(), &ours, &peer.pixels())).collect();
+    Ok(Heat { scene: scene.name, about: scene.about.clone(), series, agreements })
+}
+
+/// Everybody who can draw the scene.
+fn peers<'a>(
+    scene: &'a Scene,
+    gl: Option<&Rc<Context>>,
+) -> Result<Vec<Box<dyn Peer + 'a>>, String> {
+    let mut peers: Vec<Box<dyn Peer + 'a>> = vec![
+        Box::new(Raster::new(scene, Samples::One, 1)?),
+        Box::new(Render::new(scene, Samples::One, 1)),
+    ];
+    if let Some(gl) = gl {
+        peers.push(Box::new(Llvmpipe::new(gl, scene, 1)?));
+    }
+    // euc does not clip: what is behind the eye would be drawn as well.
+    if !scene.behind_the_eye {
+        peers.push(Box::new(Euc::new(scene)));
+    }
+    peers.push(Box::new(Raster::new(scene, Samples::One, 1)?.baseline()));
+    if WITH_SAMPLES.contains(&scene.name) {
+        peers.push(Box::new(Raster::new(scene, Samples::Four, 1)?));
+        peers.push(Box::new(Render::new(scene, Samples::Four, 1)));
+        if let Some(gl) = gl {
+            peers.push(Box::new(Llvmpipe::new(gl, scene, 4)?));
+        }
+    }
+    Ok(peers)
+}
+
+/// Draws one scene over and over, by the crate alone or by the whole pipeline.
+pub fn repeat(name: &str, frames: usize, whole: bool, samples: u32) -> Result<(), String> {
+    let known = SCENES.iter().find(|(known, _)| *known == name);
+    let (name, make) = known.ok_or_else(|| format!("there is no scene `{name}`"))?;
+    let scene = make(name)?;
+    let samples = Samples::from_count(samples).ok_or("1, 4, 8 or 16 samples")?;
+    let mut peer: Box<dyn Peer + '_> = if whole {
+        Box::new(Render::new(&scene, samples, 1))
+    } else {
+        Box::new(Raster::new(&scene, samples, 1)?)
+    };
+    (0..frames).for_each(|_| peer.draw());
+    Ok(())
+}
+
+fn agreement(peer: String, ours: &[[u8; 4]], theirs: &[[u8; 4]]) -> Agreement {
+    let mut found = Agreement { peer, coverage: 0, color: 0, drawn: 0 };
+    for (a, b) in ours.iter().zip(theirs) {
+        let differs = (0..3).any(|k| a[k].abs_diff(b[k]) > 3);
+        match (a[3] > 0, b[3] > 0) {
+            (true, true) => found.color += usize::from(differs),
+            (false, false) => {}
+            _ => found.coverage += 1,
+        }
+        found.drawn += usize::from(a[3] > 0);
+    }
+    found
+}
+
+/// The figures beside the limits of the machine.
+pub struct Bounds {
+    /// The instructions that the kernel used.
+    pub level: String,
+    /// The times of `clear`, `kernel`, `kernel, plain loop`, and of our layers.
+    pub series: Vec<Series>,
+}
+
+/// The limits, and beside them in the same rounds the scenes that are held to them.
+pub fn bounds(count: usize) -> Result<Bounds, String> {
+    eprintln!("limits: clearing, the innermost loop, layers");
+    let back = layers("back to front, flat", 50, Order::BackToFront, false)?;
+    let front = layers("front to back, flat", 50, Order::FrontToBack, false)?;
+    let textured = layers("back to front, textured", 50, Order::BackToFront, true)?;
+    let (mut clearing, mut kernel, mut plain) = (Clearing::new(), Kernel::new(), Kernel::new());
+    let level = kernel.level();
+    let mut contestants = vec![
+        Contestant { name: "clear".into(), work: Box::new(|| clearing.run()) },
+        Contestant { name: "kernel".into(), work: Box::new(|| kernel.vectors()) },
+        Contestant { name: "kernel, plain loop".into(), work: Box::new(|| plain.plain()) },
+    ];
+    for scene in [&back, &front, &textured] {
+        let mut ours = Raster::new(scene, Samples::One, 1)?;
+        contestants
+            .push(Contestant { name: scene.name.into(), work: Box::new(move || ours.draw()) });
+    }
+    Ok(Bounds { level, series: rounds(&mut contestants, count) })
+}
+
+/// What a second thread brings to a scene.
+pub struct Threads {
+    /// Whose frame: the crate's alone, or that of the whole program.
+    pub peer: &'static str,
+    /// The scene's name.
+    pub scene: &'static str,
+    /// Wall time with two threads over wall time with one, in the rounds in which each had its processors to itself.
+    pub wall: Option<Spread>,
+    /// CPU time over wall time with two threads, in all rounds.
+    pub parallel: Option<Spread>,
+    /// The rounds that counted.
+    pub counted: usize,
+    /// Whether the picture was the same.
+    pub same: bool,
+}
+
+/// A single thread that got less of the wall's time than this was disturbed, and its round does not count.
+const ALONE: f64 = 0.97;
+
+/// One and two threads by turns.
+pub fn threads(options: &Options) -> Result<Vec<Threads>, String> {
+    let mut found = Vec::new();
+    for (name, make) in [SCENES[0], SCENES[2], SCENES[3]] {
+        let Ok(scene) = make(name) else { continue };
+        eprintln!("threads: {name}");
+        let raster = |threads| Raster::new(&scene, Samples::One, threads);
+        let render = |threads| Render::new(&scene, Samples::One, threads);
+        let rounds = options.rounds;
+        found.push(two_threads("raster", &scene, [&mut raster(1)?, &mut raster(2)?], rounds));
+        found.push(two_threads("render", &scene, [&mut render(1), &mut render(2)], rounds));
+    }
+    Ok(found)
+}
+
+fn two_threads(
+    peer: &'static str,
+    scene: &Scene,
+    [one, two]: [&mut dyn Peer; 2],
+    count: usize,
+) -> Threads {
+    one.draw();
+    two.draw();
+    let same = one.pixels() == two.pixels();
+    let pairs: Vec<(Took, Took)> =
+        (0..count).map(|_| (timed(|| one.draw()), timed(|| two.draw()))).collect();
+    let parallel = |took: &Took| took.cpu.as_secs_f64() / took.wall.as_secs_f64();
+    let quiet = pairs.iter().filter(|(one, _)| parallel(one) > ALONE);
+    let ratios: Vec<f64> =
+        quiet.map(|(one, two)| two.wall.as_secs_f64() / one.wall.as_secs_f64()).collect();
+    Threads {
+        peer,
+        scene: scene.name,
+        wall: Spread::of(ratios.iter().copied()),
+        parallel: Spread::of(pairs.iter().map(|(_, two)| parallel(two))),
+        counted: ratios.len(),
+        same,
+    }
+}

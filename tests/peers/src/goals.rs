@@ -1,0 +1,163 @@
+//! What the figures are held to: the ratios that the rasteriser was built for.
+//!
+//! Nothing fails here; the report says what is met.
+
+use crate::measure::{Series, Spread};
+use crate::report::Figures;
+
+/// A goal with what was reached.
+pub struct Goal {
+    /// What is compared.
+    pub about: String,
+    /// Whose figure: `raster`, `render`, `alberti`.
+    pub whose: &'static str,
+    /// The figure.
+    pub reached: Spread,
+    /// The bound.
+    pub wanted: f64,
+    /// Whether the figure is to be at least as large, not at most.
+    pub at_least: bool,
+}
+
+impl Goal {
+    /// Whether the median keeps the bound.
+    pub fn met(&self) -> bool {
+        if self.at_least {
+            self.reached.median >= self.wanted
+        } else {
+            self.reached.median <= self.wanted
+        }
+    }
+}
+
+/// Scene, peer, and how many times as long the peer is to take.
+const FASTER: [(&str, &str, f64); 14] = [
+    ("sphere-1m", "llvmpipe", 2.2),
+    ("sphere-1m", "euc 0.5", 2.2),
+    ("sphere-4m", "llvmpipe", 2.2),
+    ("sphere-4m", "euc 0.5", 3.0),
+    ("helmet", "llvmpipe", 1.6),
+    ("helmet", "euc 0.5", 3.0),
+    ("layers-back-to-front-flat", "llvmpipe", 3.0),
+    ("layers-back-to-front-flat", "euc 0.5", 3.0),
+    ("layers-back-to-front-textured", "llvmpipe", 10.0),
+    ("layers-back-to-front-textured", "euc 0.5", 3.0),
+    ("layers-front-to-back-flat", "llvmpipe", 15.0),
+    ("layers-front-to-back-flat", "euc 0.5", 3.0),
+    ("layers-front-to-back-textured", "llvmpipe", 15.0),
+    ("layers-front-to-back-textured", "euc 0.5", 3.0),
+];
+
+/// The goals for which there are figures.
+pub fn goals(figures: &Figures) -> Vec<Goal> {
+    let mut found = faster(figures);
+    found.extend(instructions(figures));
+    found.extend(samples(figures));
+    found.extend(limits(figures));
+    for threads in &figures.threads {
+        let Some(reached) = threads.wall else { continue };
+        let about = format!("{}: wall time of two threads over one", threads.scene);
+        found.push(Goal { about, whose: threads.peer, reached, wanted: 0.58, at_least: false });
+    }
+    found.extend(files(figures));
+    found
+}
+
+fn faster(figures: &Figures) -> Vec<Goal> {
+    let mut found = Vec::new();
+    for (scene, peer, wanted) in FASTER {
+        let Some(heat) = figures.scenes.iter().find(|heat| heat.scene == scene) else { continue };
+        for whose in ["raster", "render"] {
+            if let Some(reached) = over(&heat.series, peer, whose) {
+                let about = format!("{scene}: time of {peer} over ours");
+                found.push(Goal { about, whose, reached, wanted, at_least: true });
+            }
+        }
+    }
+    found
+}
+
+fn instructions(figures: &Figures) -> Vec<Goal> {
+    let goal = |heat: &crate::contest::Heat| {
+        let reached = over(&heat.series, "raster, baseline", "raster")?;
+        let about = format!("{}: baseline instructions over the best", heat.scene);
+        Some(Goal { about, whose: "raster", reached, wanted: 1.6, at_least: false })
+    };
+    figures.scenes.iter().filter_map(goal).collect()
+}
+
+fn samples(figures: &Figures) -> Vec<Goal> {
+    let helmet = figures.scenes.iter().find(|heat| heat.scene == "helmet");
+    let Some(heat) = helmet else { return Vec::new() };
+    let goal = |many: &str, one: &str, whose, wanted, at_least| {
+        let about = format!("helmet: time of {many} over {one}");
+        Some(Goal { about, whose, reached: over(&heat.series, many, one)?, wanted, at_least })
+    };
+    [
+        goal("raster 4x", "raster", "raster", 1.6, false),
+        goal("render 4x", "render", "render", 1.6, false),
+        goal("llvmpipe 4x", "raster 4x", "raster", 1.8, true),
+        goal("llvmpipe 4x", "render 4x", "render", 1.8, true),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+fn limits(figures: &Figures) -> Vec<Goal> {
+    let Some(bounds) = &figures.bounds else { return Vec::new() };
+    let goal = |a: &str, b: &str, about: &str, wanted, at_least| {
+        let reached = over(&bounds.series, a, b)?;
+        Some(Goal { about: about.into(), whose: "raster", reached, wanted, at_least })
+    };
+    [
+        goal(
+            "kernel",
+            "back to front, flat",
+            "fifty flat layers: share of the kernel's rate",
+            0.6,
+            true,
+        ),
+        goal(
+            "front to back, flat",
+            "clear",
+            "fifty layers front to back over clearing",
+            4.0,
+            false,
+        ),
+        goal(
+            "back to front, textured",
+            "back to front, flat",
+            "fifty layers: textured over flat",
+            1.4,
+            false,
+        ),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+fn files(figures: &Figures) -> Vec<Goal> {
+    let mut found = Vec::new();
+    for heat in &figures.files {
+        let [ours, theirs] = &heat.cpu[..] else { continue };
+        let whose = "alberti";
+        if let Some(reached) = ours.over(theirs) {
+            let about = format!("{}: CPU time over f3d's", heat.model);
+            found.push(Goal { about, whose, reached, wanted: 0.2, at_least: false });
+        }
+        if let [Some(ours), Some(theirs)] = &heat.peak[..] {
+            let about = format!("{}: peak memory over f3d's", heat.model);
+            let reached = ours.times(1.0 / theirs.median);
+            found.push(Goal { about, whose, reached, wanted: 1.0 / 3.0, at_least: false });
+        }
+    }
+    found
+}
+
+/// How many times as long the first took as the second.
+fn over(series: &[Series], first: &str, second: &str) -> Option<Spread> {
+    let find = |name: &str| series.iter().find(|series| series.name == name);
+    find(first)?.over(find(second)?)
+}

@@ -1,0 +1,122 @@
+//! What the machine can do at best, measured in the same process: filling memory, and the innermost loop of a rasteriser.
+
+use crate::scene::SIZE;
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f32x8, u32x8};
+use std::hint::black_box;
+
+/// Pixels of a tile: 32 KiB of depth and numbers, which the nearest cache holds.
+const TILE: usize = 64 * 64;
+/// How often the kernel fills its tile: as many pixels as fifty layers have.
+pub const KERNEL_PIXELS: usize = 50 * (SIZE.0 * SIZE.1) as usize / TILE * TILE;
+
+/// Colour and depth of a picture, to be cleared.
+pub struct Clearing {
+    color: Vec<[u8; 4]>,
+    depth: Vec<f32>,
+}
+
+impl Clearing {
+    /// Of the size of the scenes' pictures.
+    pub fn new() -> Self {
+        let area = (SIZE.0 * SIZE.1) as usize;
+        Self { color: vec![[1; 4]; area], depth: vec![1.0; area] }
+    }
+
+    /// Clears both.
+    pub fn run(&mut self) {
+        self.color.fill(black_box([0; 4]));
+        self.depth.fill(black_box(0.0));
+        black_box((&self.color, &self.depth));
+    }
+}
+
+/// The innermost loop: for each pixel of a tile, interpolate depth, compare, keep the nearer with its number. No edges, no
+/// set-up, no occlusion test, every pixel passes: what no rasteriser that stores depth and number can beat with the same
+/// instructions.
+pub struct Kernel {
+    depth: Vec<f32>,
+    number: Vec<u32>,
+    level: Level,
+}
+
+impl Kernel {
+    /// With the best instructions there are.
+    pub fn new() -> Self {
+        Self { depth: vec![0.0; TILE], number: vec![0; TILE], level: Level::new() }
+    }
+
+    /// The instructions in use.
+    pub fn level(&self) -> String {
+        let text = format!("{:?}", self.level);
+        text.split('(').next().unwrap_or(&text).to_owned()
+    }
+
+    /// Fills the tile as often as [`KERNEL_PIXELS`] says, each time a little nearer.
+    pub fn vectors(&mut self) {
+        let level = self.level;
+        for layer in 0..KERNEL_PIXELS / TILE {
+            dispatch!(level, simd => fill(simd, &mut self.depth, &mut self.number, layer as u32));
+        }
+        self.empty();
+    }
+
+    /// The same as a plain loop, left to the compiler.
+    pub fn plain(&mut self) {
+        for layer in 0..KERNEL_PIXELS / TILE {
+            let (start, dx) = plane(layer as u32);
+            let pixels = self.depth.iter_mut().zip(&mut self.number);
+            for (x, (depth, number)) in pixels.enumerate() {
+                let z = start + dx * (x % 64) as f32;
+                if z > *depth {
+                    *depth = z;
+                    *number = layer as u32;
+                }
+            }
+        }
+        self.empty();
+    }
+
+    fn empty(&mut self) {
+        black_box((&self.depth, &self.number));
+        self.depth.fill(0.0);
+        self.number.fill(0);
+    }
+}
+
+/// Depth at the first pixel, and its step.
+fn plane(layer: u32) -> (f32, f32) {
+    (black_box(0.001 * (layer + 1) as f32), black_box(1e-6))
+}
+
+#[inline(always)]
+fn fill<S: Simd>(simd: S, depth: &mut [f32], number: &mut [u32], layer: u32) {
+    let (start, dx) = plane(layer);
+    let along: f32x8<S> = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0].simd_into(simd);
+    let along = along * f32x8::splat(simd, dx);
+    let name = u32x8::splat(simd, layer);
+    let groups = depth.as_chunks_mut::<8>().0.iter_mut().zip(number.as_chunks_mut::<8>().0);
+    for (group, (depth, number)) in groups.enumerate() {
+        let z = along + f32x8::splat(simd, start + dx * (group % 8 * 8) as f32);
+        let old = f32x8::from_slice(simd, depth);
+        let nearer = z.simd_gt(old);
+        nearer.select(z, old).store_slice(depth);
+        let old = u32x8::from_slice(simd, number);
+        nearer.select(name, old).store_slice(number);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_kernel_keeps_the_nearest() {
+        let mut kernel = Kernel::new();
+        for layer in [4, 2] {
+            dispatch!(Level::new(), simd => fill(simd, &mut kernel.depth, &mut kernel.number, layer));
+        }
+        assert!(kernel.number.iter().all(|&number| number == 4));
+        assert!(kernel.depth.iter().all(|&depth| depth >= 0.005));
+    }
+}

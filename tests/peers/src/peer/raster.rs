@@ -1,0 +1,188 @@
+//! The crate `raster` with the stages before it and a shader of this comparison's own: what the other peers do, no more.
+
+use super::{AREA, Peer, quantized};
+use crate::scene::{Part, SIZE, Scene, light};
+use clip::{Outcode, Volume, clip_triangle};
+use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, Screen, World};
+use projection::Convention;
+use raster::{
+    Cover, Cull, Fragment, Frame, GUARD_BAND, Instructions, Samples, ScreenVertex, Surface,
+    signed_area,
+};
+use viewport::Viewport;
+
+/// Our rasteriser with a scene.
+pub struct Raster<'a> {
+    look: Look<'a>,
+    samples: Samples,
+    threads: usize,
+    baseline: bool,
+    world_to_clip: Projective<World, Clip>,
+    ndc_to_screen: Affine<Ndc, Screen>,
+    volume: Volume,
+    frame: Frame,
+    clip: Vec<HPoint<Clip>>,
+    screen: Vec<Option<ScreenVertex>>,
+    /// Whether all vertices are on the screen, so that nothing needs to be cut.
+    whole: bool,
+    pixels: Vec<[u8; 4]>,
+}
+
+impl<'a> Raster<'a> {
+    /// With `samples` for each pixel and so many threads.
+    pub fn new(scene: &'a Scene, samples: Samples, threads: usize) -> Result<Self, String> {
+        let viewport = Viewport::image(SIZE.0, SIZE.1).map_err(|error| error.to_string())?;
+        let band = |side: u32| 1.0 - (GUARD_BAND.start() + 1.0) / (0.5 * f64::from(side));
+        let volume = Volume::CHAPTER.with_guard_band(band(SIZE.0), band(SIZE.1));
+        Ok(Self {
+            look: Look::new(scene),
+            samples,
+            threads,
+            baseline: false,
+            world_to_clip: scene.world_to_clip(Convention::CHAPTER),
+            ndc_to_screen: viewport.ndc_to_screen(),
+            volume: volume.map_err(|error| error.to_string())?,
+            frame: Frame::new(SIZE.0, SIZE.1, samples).map_err(|error| error.to_string())?,
+            clip: Vec::new(),
+            screen: Vec::new(),
+            whole: true,
+            pixels: vec![[0; 4]; AREA],
+        })
+    }
+
+    /// The same without the vector instructions that not every processor has.
+    pub fn baseline(self) -> Self {
+        let frame = self.frame.with_instructions(Instructions::baseline());
+        Self { frame, baseline: true, ..self }
+    }
+
+    /// The vertices in clip space and, where nothing needs to be cut, on the screen.
+    fn vertices(&mut self) {
+        let (map, volume, ndc_to_screen) = (self.world_to_clip, self.volume, self.ndc_to_screen);
+        let vertices = self.look.scene.vertices.iter();
+        self.clip.clear();
+        self.clip.extend(vertices.map(|v| map.point(Point::from(v.position.map(f64::from)))));
+        self.screen.clear();
+        self.screen.extend(self.clip.iter().map(|&point| {
+            volume.outcode(point).is_inside().then(|| snap(ndc_to_screen, point)).flatten()
+        }));
+        self.whole = self.screen.iter().all(Option::is_some);
+    }
+
+    fn submit(&mut self) {
+        self.frame.clear();
+        let scene = self.look.scene;
+        for part in &scene.parts {
+            let first = (part.indices.start / 3) as u32;
+            let triangles = scene.indices[part.indices.clone()].as_chunks::<3>().0;
+            // Counter-clockwise in the world is negative on a screen whose y runs down.
+            let cull = if part.two_sided { Cull::Nothing } else { Cull::Clockwise };
+            self.frame.mesh(&self.screen, triangles, first, Cover::Solid, cull);
+            if self.whole {
+                continue;
+            }
+            for (id, &corners) in (first..).zip(triangles) {
+                if corners.iter().any(|&at| self.screen[at as usize].is_none()) {
+                    self.cut(corners, id, part);
+                }
+            }
+        }
+    }
+
+    /// A triangle that reaches beyond the near or far plane or the guard band.
+    fn cut(&mut self, corners: [u32; 3], id: u32, part: &Part) {
+        let points = corners.map(|at| self.clip[at as usize]);
+        if !Outcode::rejects(&points.map(|point| self.volume.outcode(point))).is_inside() {
+            return;
+        }
+        for piece in clip_triangle(points, &self.volume).triangles() {
+            let corners = piece.map(|vertex| snap(self.ndc_to_screen, vertex.point));
+            let [Some(p), Some(q), Some(r)] = corners else { continue };
+            if part.two_sided || signed_area([p, q, r]) < 0 {
+                let weights = piece.map(|vertex| vertex.weights.map(|weight| weight as f32));
+                self.frame.triangle_piece([p, q, r], weights, id, Cover::Solid);
+            }
+        }
+    }
+}
+
+fn snap(ndc_to_screen: Affine<Ndc, Screen>, point: HPoint<Clip>) -> Option<ScreenVertex> {
+    ScreenVertex::snap(ndc_to_screen.point(point.divide()?), point.w())
+}
+
+impl Peer for Raster<'_> {
+    fn name(&self) -> String {
+        let mut name = String::from("raster");
+        if self.samples != Samples::One {
+            name += &format!(" {}x", self.samples.count());
+        }
+        if self.threads > 1 {
+            name += &format!(", {} threads", self.threads);
+        }
+        name + if self.baseline { ", baseline" } else { "" }
+    }
+
+    fn is_comparable(&self) -> bool {
+        self.samples == Samples::One
+    }
+
+    fn draw(&mut self) {
+        self.vertices();
+        self.submit();
+        self.frame.draw(&self.look, [0.0; 4], self.threads, &mut self.pixels, quantized);
+    }
+
+    fn pixels(&mut self) -> Vec<[u8; 4]> {
+        self.pixels.clone()
+    }
+}
+
+/// The shader: tint × texture × light, as the GLSL of the other peer has it.
+struct Look<'a> {
+    scene: &'a Scene,
+    /// For each triangle the number of its part.
+    parts: Vec<u32>,
+}
+
+impl<'a> Look<'a> {
+    fn new(scene: &'a Scene) -> Self {
+        let mut parts = vec![0; scene.triangles()];
+        for (number, part) in (0..).zip(&scene.parts) {
+            parts[part.indices.start / 3..part.indices.end / 3].fill(number);
+        }
+        Self { scene, parts }
+    }
+
+    fn blend<const N: usize>(
+        &self,
+        fragment: &Fragment<'_>,
+        value: impl Fn(&crate::scene::Vertex) -> [f32; N],
+    ) -> [f32; N] {
+        let first = fragment.id as usize * 3;
+        let [a, b, c] =
+            [0, 1, 2].map(|k| value(&self.scene.vertices[self.scene.indices[first + k] as usize]));
+        let [wa, wb, wc] = fragment.weights;
+        std::array::from_fn(|k| a[k] * wa + b[k] * wb + c[k] * wc)
+    }
+}
+
+impl Surface for Look<'_> {
+    fn keeps(&self, _: &Fragment<'_>) -> bool {
+        true
+    }
+
+    #[inline]
+    fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
+        let part = &self.scene.parts[self.parts[fragment.id as usize] as usize];
+        let mut color = part.tint;
+        if let Some(texture) = part.texture {
+            let texel = self.scene.textures[texture].bilinear(self.blend(fragment, |v| v.uv));
+            color = [0, 1, 2].map(|k| color[k] * texel[k]);
+        }
+        if part.lit {
+            let light = light(self.blend(fragment, |v| v.normal));
+            color = color.map(|channel| channel * light);
+        }
+        [color[0], color[1], color[2], 1.0]
+    }
+}

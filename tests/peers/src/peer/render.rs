@@ -1,0 +1,141 @@
+//! The whole of `pipeline::render`: our rasteriser with the shading of the finished program, colours in linear light.
+//!
+//! It does more than the peers do: everything is made anew for each frame, colours go through the sRGB curve both ways. What a
+//! frame of the program costs is what people wait for, so it stands beside the bare rasteriser.
+
+use super::Peer;
+use crate::scene::{AMBIENT, Part, SIZE, Scene, TOWARDS_LIGHT, Texture};
+use homog::Affine;
+use pipeline::model::{
+    Image, Material, Mesh, Mipmap, Model, Node, Primitive, Sampler, Texture as Used, TextureUse,
+};
+use pipeline::render::Shot;
+use pipeline::scene::{ImageSpec, Placed, Style};
+use pipeline::shade::Light;
+use projection::Convention;
+use raster::Samples;
+use std::f32::consts::PI;
+use std::sync::Arc;
+
+/// The pipeline with a scene.
+pub struct Render {
+    scene: pipeline::Scene,
+    threads: usize,
+    pixels: Vec<[u8; 4]>,
+}
+
+impl Render {
+    /// With `samples` for each pixel and so many threads.
+    pub fn new(scene: &Scene, samples: Samples, threads: usize) -> Self {
+        let lux = |share: f32| [share * PI; 3];
+        let (width, height) = SIZE;
+        let scene = pipeline::Scene {
+            models: vec![Placed {
+                model: Arc::new(model(scene)),
+                model_to_world: Affine::IDENTITY,
+            }],
+            shot: Shot {
+                camera: scene.camera,
+                view_to_clip: scene.view_to_clip(Convention::CHAPTER),
+            },
+            lights: vec![
+                Light::Sun { towards: TOWARDS_LIGHT, lux: lux(1.0 - AMBIENT) },
+                Light::Ambient { lux: lux(AMBIENT) },
+            ],
+            style: Style::Shaded,
+            image: ImageSpec { width, height, background: [0.0; 4], samples },
+        };
+        Self { scene, threads, pixels: Vec::new() }
+    }
+}
+
+impl Peer for Render {
+    fn name(&self) -> String {
+        let samples = self.scene.image.samples.count();
+        if samples == 1 { "render".into() } else { format!("render {samples}x") }
+    }
+
+    fn is_comparable(&self) -> bool {
+        false
+    }
+
+    fn draw(&mut self) {
+        self.pixels = pipeline::render(&self.scene, self.threads).map_or(Vec::new(), |p| p.pixels);
+    }
+
+    fn pixels(&mut self) -> Vec<[u8; 4]> {
+        self.pixels.clone()
+    }
+}
+
+/// The scene as the importer would have read it: one node, one mesh, a primitive for each part.
+fn model(scene: &Scene) -> Model {
+    let numbered = || scene.parts.iter().enumerate();
+    let mesh = Mesh {
+        primitives: numbered().map(|(number, part)| primitive(scene, part, number)).collect(),
+        ..Mesh::default()
+    };
+    let node = Node {
+        name: None,
+        to_parent: Affine::IDENTITY,
+        to_model: Affine::IDENTITY,
+        parent: None,
+        children: Vec::new(),
+        mesh: Some(0),
+        weights: None,
+        skin: None,
+        camera: None,
+    };
+    // As the peers read textures: no mip maps.
+    let sampler = Sampler { mipmap: Mipmap::None, ..Sampler::default() };
+    let count = scene.textures.len();
+    Model {
+        meshes: vec![mesh],
+        materials: scene.parts.iter().map(material).collect(),
+        textures: (0..count).map(|image| Used { image: Some(image), sampler }).collect(),
+        images: scene.textures.iter().map(|texture| Some(image(texture))).collect(),
+        nodes: vec![node],
+        roots: vec![0],
+        ..Model::default()
+    }
+}
+
+/// The part with the vertices it uses, renumbered.
+fn primitive(scene: &Scene, part: &Part, number: usize) -> Primitive {
+    let mut places = vec![u32::MAX; scene.vertices.len()];
+    let mut used = Vec::new();
+    let indices = scene.indices[part.indices.clone()].iter().map(|&index| {
+        let place = &mut places[index as usize];
+        if *place == u32::MAX {
+            *place = used.len() as u32;
+            used.push(scene.vertices[index as usize]);
+        }
+        *place
+    });
+    let indices = indices.collect();
+    Primitive {
+        indices,
+        positions: used.iter().map(|vertex| vertex.position).collect(),
+        normals: part.lit.then(|| used.iter().map(|vertex| vertex.normal).collect()),
+        uvs: part.texture.map(|_| used.iter().map(|v| v.uv).collect()).into_iter().collect(),
+        material: Some(number),
+        ..Primitive::default()
+    }
+}
+
+fn material(part: &Part) -> Material {
+    let [r, g, b] = part.tint;
+    let used = |texture| TextureUse { texture, uv_set: 0, uv_map: TextureUse::KEEP_UV };
+    Material {
+        base_color: [r, g, b, 1.0],
+        base_color_texture: part.texture.map(used),
+        metallic: 0.0,
+        double_sided: part.two_sided,
+        unlit: !part.lit,
+        ..Material::default()
+    }
+}
+
+fn image(texture: &Texture) -> Image {
+    Image { width: texture.width as u32, height: texture.height as u32, rgba: texture.rgba.clone() }
+}

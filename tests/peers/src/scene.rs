@@ -1,0 +1,173 @@
+//! The scenes of the comparison: plain arrays that every rasteriser draws from, and one camera for all.
+
+mod floor;
+mod layers;
+mod model;
+mod sphere;
+
+pub use floor::floor;
+pub use layers::{Order, layers};
+pub use model::{assets, helmet};
+pub use sphere::sphere;
+
+use camera::Camera;
+use homog::{Clip, Projective, World};
+use projection::{Convention, Orthographic, Perspective};
+use std::ops::Range;
+
+/// The picture's width and height.
+pub const SIZE: (u32, u32) = (1920, 1080);
+
+/// The direction towards the light, of length 1.
+pub const TOWARDS_LIGHT: [f32; 3] = [0.48, 0.6, 0.64];
+/// The share of light that comes from everywhere; the rest comes from the light.
+pub const AMBIENT: f32 = 0.2;
+
+/// A vertex as it lies in the buffers: 32 bytes.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C)]
+pub struct Vertex {
+    /// In the world.
+    pub position: [f32; 3],
+    /// Of length 1, in the world.
+    pub normal: [f32; 3],
+    /// Texture coordinates, (0, 0) at the first texel.
+    pub uv: [f32; 2],
+}
+
+/// An image: 8-bit RGBA, shown as it is, repeated in both directions, bilinear between texels, without mip maps.
+#[derive(Clone, Debug)]
+pub struct Texture {
+    /// Texels of a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// The texels, row by row.
+    pub rgba: Vec<[u8; 4]>,
+}
+
+/// A run of triangles that look alike: `tint` × texture × (ambient + Lambert).
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// Its part of the indices.
+    pub indices: Range<usize>,
+    /// The colour.
+    pub tint: [f32; 3],
+    /// Whether light falls on it.
+    pub lit: bool,
+    /// The number of its texture.
+    pub texture: Option<usize>,
+    /// Whether its back is seen too.
+    pub two_sided: bool,
+}
+
+/// How the world becomes a picture.
+#[derive(Clone, Copy, Debug)]
+pub enum Lens {
+    /// In perspective.
+    Perspective(Perspective),
+    /// In parallel.
+    Parallel(Orthographic),
+}
+
+/// A scene.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The name in reports.
+    pub name: &'static str,
+    /// What it is, for people.
+    pub about: String,
+    /// All vertices.
+    pub vertices: Vec<Vertex>,
+    /// Three for each triangle, counter-clockwise seen from the front.
+    pub indices: Vec<u32>,
+    /// The parts, in the order of their triangles.
+    pub parts: Vec<Part>,
+    /// The textures.
+    pub textures: Vec<Texture>,
+    /// Where the eye is.
+    pub camera: Camera,
+    /// The projection.
+    pub lens: Lens,
+    /// Whether something lies behind the eye, where a rasteriser must clip.
+    pub behind_the_eye: bool,
+}
+
+impl Scene {
+    /// The number of triangles.
+    pub fn triangles(&self) -> usize {
+        self.indices.len() / 3
+    }
+
+    /// From the world to clip space in a convention.
+    pub fn world_to_clip(&self, convention: Convention) -> Projective<World, Clip> {
+        self.camera.world_to_view().then_project(self.view_to_clip(convention))
+    }
+
+    /// The projection's matrix in a convention.
+    pub fn view_to_clip(&self, convention: Convention) -> Projective<homog::View, Clip> {
+        match self.lens {
+            Lens::Perspective(lens) => lens.view_to_clip(convention),
+            Lens::Parallel(lens) => lens.view_to_clip(convention),
+        }
+    }
+}
+
+impl Texture {
+    /// A board of two colours with softly varying brightness, `size` × `size` texels in `fields` × `fields` squares.
+    pub fn board(size: usize, fields: usize, colors: [[u8; 3]; 2]) -> Self {
+        let texel = |n: usize| {
+            let (x, y) = (n % size, n / size);
+            let [r, g, b] = colors[(x * fields / size + y * fields / size) % 2];
+            let shade = |c: u8| (u32::from(c) * (192 + (x * 7 + y * 13) as u32 % 64) / 255) as u8;
+            [shade(r), shade(g), shade(b), 255]
+        };
+        Self { width: size, height: size, rgba: (0..size * size).map(texel).collect() }
+    }
+
+    /// The colour at texture coordinates, 0 to 1 each: how the shaders of all rasterisers in Rust read it.
+    #[inline]
+    pub fn bilinear(&self, [u, v]: [f32; 2]) -> [f32; 3] {
+        let (x, y) = (u * self.width as f32 - 0.5, v * self.height as f32 - 0.5);
+        let (left, top) = (floor_of(x), floor_of(y));
+        let (s, t) = (x - left as f32, y - top as f32);
+        let columns = [wrap(left, self.width), wrap(left + 1, self.width)];
+        let rows = [wrap(top, self.height), wrap(top + 1, self.height)].map(|y| y * self.width);
+        let at = |row: usize, column: usize| self.rgba[rows[row] + columns[column]].map(f32::from);
+        let (a, b, c, d) = (at(0, 0), at(0, 1), at(1, 0), at(1, 1));
+        [0, 1, 2].map(|k| {
+            let upper = a[k] + (b[k] - a[k]) * s;
+            let lower = c[k] + (d[k] - c[k]) * s;
+            (upper + (lower - upper) * t) * (1.0 / 255.0)
+        })
+    }
+}
+
+#[inline]
+fn floor_of(x: f32) -> i32 {
+    let cut = x as i32;
+    cut - i32::from(cut as f32 > x)
+}
+
+#[inline]
+fn wrap(at: i32, size: usize) -> usize {
+    if size.is_power_of_two() {
+        return at as usize & (size - 1);
+    }
+    at.rem_euclid(size as i32) as usize
+}
+
+/// The share of light that a surface with this normal sends to the eye.
+#[inline]
+pub fn light(normal: [f32; 3]) -> f32 {
+    let [x, y, z] = normal;
+    let squared = x * x + y * y + z * z;
+    let [lx, ly, lz] = TOWARDS_LIGHT;
+    let cosine = (x * lx + y * ly + z * lz) / squared.sqrt();
+    AMBIENT + (1.0 - AMBIENT) * cosine.max(0.0)
+}
+
+/// Width over height of the picture.
+fn aspect() -> f64 {
+    f64::from(SIZE.0) / f64::from(SIZE.1)
+}
