@@ -67,7 +67,7 @@ fn lines(scene: &Scene) -> Result<Picture, RenderError> {
     let image = scene.image;
     let segments = wireframe::segments(scene)?;
     let (width, height) = (image.width, image.height);
-    let too_large = raster::RasterError::Size { width, height };
+    let too_large = raster::RasterError::Size { x: 0, y: 0, width, height };
     let mut canvas = Canvas::new(width, height, image.background).ok_or(too_large)?;
     canvas.lines(&segments, wireframe::LINE_WIDTH, wireframe::ink(image.background));
     Ok(canvas.into_picture())

@@ -2,9 +2,10 @@
 //!
 //! Tiles know nothing of each other, so threads may take them in any order: the picture is the same for any number.
 
-use crate::bins::{Bins, TILE};
+use crate::bins::Bins;
+use crate::fragment::FragmentRow;
+use crate::grid::{Part, TILE, TileRect};
 use crate::plane::{LANES, NOTHING, index_of};
-use crate::setup::TileRect;
 use crate::tile::{Layer, Tile};
 use crate::{Fragment, Frame};
 use fearless_simd::dispatch;
@@ -33,29 +34,43 @@ impl Frame {
         target: &mut [P],
         encode: impl Fn([f32; 4]) -> P + Sync,
     ) {
-        let bins = Bins::sort(&self.pieces, self.width, self.height);
-        let band = self.width as usize * TILE as usize;
-        let bands = Mutex::new(target.chunks_mut(band).enumerate());
+        let bins = Bins::sort(&self.pieces, self.part);
         let level = self.instructions.level();
+        let bands = Mutex::new(self.bands(target).into_iter());
         let work = || {
             let mut tile = Tile::default();
             loop {
                 let next = bands.lock().unwrap_or_else(std::sync::PoisonError::into_inner).next();
                 let Some((row, pixels)) = next else { return };
-                for column in 0..self.width.div_ceil(TILE) {
-                    let rect = TileRect::of(column, row as u32, self.width, self.height);
-                    tile.fill(self, rect, bins.of(column, row as u32), surface);
+                let (left, right) = self.part.columns();
+                for column in left..right {
+                    let rect = self.part.tile(column, row);
+                    tile.fill(self, rect, bins.of(column, row), surface);
                     let shading = Shading { frame: self, surface, background, tile: &tile, rect };
                     dispatch!(level, _simd => shading.write(pixels, &encode));
                 }
             }
         };
+        let (top, bottom) = self.part.rows();
         std::thread::scope(|scope| {
-            for _ in 1..threads.min(self.height.div_ceil(TILE) as usize) {
+            for _ in 1..threads.min((bottom - top) as usize) {
                 scope.spawn(work);
             }
             work();
         });
+    }
+
+    /// The rows of tiles, each with its pixels.
+    fn bands<'a, P>(&self, mut target: &'a mut [P]) -> Vec<(u32, &'a mut [P])> {
+        let (top, bottom) = self.part.rows();
+        let band = |row: u32| {
+            let length = self.part.rows_of(row) * self.part.width as usize;
+            let all = std::mem::take(&mut target);
+            let (band, rest) = all.split_at_mut(length.min(all.len()));
+            target = rest;
+            (row, band)
+        };
+        (top..bottom).map(band).collect()
     }
 }
 
@@ -76,26 +91,46 @@ struct Pixel {
     at: usize,
 }
 
+/// Neighbouring pixels of a row, all in one block, with the layers over them.
+struct Run<'a> {
+    y: u32,
+    lanes: std::ops::Range<u32>,
+    over: &'a [Layer],
+}
+
+/// The pixels of a block's row.
+const WIDE: u32 = LANES as u32;
+
 impl<S: Surface> Shading<'_, S> {
-    /// Writes the tile into a band of the picture that is as wide as the picture and begins at the tile's top row.
+    /// Writes the tile into its band: the rows of the frame that the tile's row shows.
     #[inline(always)]
     fn write<P>(&self, band: &mut [P], encode: &impl Fn([f32; 4]) -> P) {
+        let TileRect { x, left, top, right, bottom, .. } = self.rect;
+        let Part { x: from, width, .. } = self.frame.part;
         let mut layers = self.tile.layers.as_slice();
-        for y in 0..self.rect.height() {
-            let start = y * self.frame.width as usize + self.rect.x0 as usize;
-            let Some(row) = band.get_mut(start..start + self.rect.width()) else { return };
-            for (block, targets) in row.chunks_mut(LANES).enumerate() {
-                let x = block * LANES;
-                let first = Pixel { x: x as u32, y: y as u32, at: index_of(x, y) };
+        for y in top..bottom {
+            let start = (y - top) as usize * width as usize + (x + left - from) as usize;
+            let Some(row) = band.get_mut(start..start + (right - left) as usize) else { return };
+            let mut rest = row;
+            for block in left / WIDE..right.div_ceil(WIDE) {
+                let lanes = left.max(block * WIDE)..right.min((block + 1) * WIDE);
+                let targets;
+                (targets, rest) = rest.split_at_mut(lanes.len());
                 let over;
-                (over, layers) = split_before(layers, y * self.rect.width() + x + targets.len());
-                match self.uniform_row(first.at) {
-                    Some(pieces) if over.is_empty() => {
-                        self.write_row(first, pieces, targets, encode);
-                    }
-                    _ => self.write_mixed(first, over, targets, encode),
-                }
+                (over, layers) = split_before(layers, (y * TILE + lanes.end) as usize);
+                self.write_lanes(&Run { y, lanes, over }, targets, encode);
             }
+        }
+    }
+
+    #[inline(always)]
+    fn write_lanes<P>(&self, run: &Run<'_>, targets: &mut [P], encode: &impl Fn([f32; 4]) -> P) {
+        let block = run.lanes.start / WIDE * WIDE;
+        match self.uniform_row(index_of(block as usize, run.y as usize)) {
+            Some(pieces) if run.over.is_empty() => {
+                self.write_row(block, run, pieces, targets, encode);
+            }
+            _ => self.write_mixed(run, targets, encode),
         }
     }
 
@@ -107,11 +142,12 @@ impl<S: Surface> Shading<'_, S> {
         planes.all(|pieces| pieces == first).then_some(first)
     }
 
-    /// Writes neighbouring pixels with one piece each.
+    /// Writes neighbouring pixels with one piece each, of the row of the block that begins at column `block`.
     #[inline(always)]
     fn write_row<P>(
         &self,
-        first: Pixel,
+        block: u32,
+        run: &Run<'_>,
         pieces: [u32; LANES],
         targets: &mut [P],
         encode: &impl Fn([f32; 4]) -> P,
@@ -120,31 +156,30 @@ impl<S: Surface> Shading<'_, S> {
             targets.iter_mut().for_each(|target| *target = encode(self.background));
             return;
         };
-        let piece = |n: u32| &self.frame.pieces[if n == NOTHING { any } else { n } as usize];
-        let (x, y) = (self.rect.x0 + first.x, self.rect.y0 + first.y);
-        let fragments = Fragment::row(pieces.map(piece), &self.frame.source_weights, x, y);
-        for ((target, fragment), piece) in targets.iter_mut().zip(&fragments).zip(pieces) {
-            let color = match piece {
+        let mut seen = [&self.frame.pieces[any as usize]; LANES];
+        for (seen, piece) in seen.iter_mut().zip(pieces) {
+            if piece != NOTHING {
+                *seen = &self.frame.pieces[piece as usize];
+            }
+        }
+        let (x, y) = (self.rect.x + block, self.rect.y + run.y);
+        let row = FragmentRow::new(seen, &self.frame.source_weights, x, y);
+        for (lane, target) in ((run.lanes.start - block) as usize..).zip(targets) {
+            let color = match pieces[lane] {
                 NOTHING => self.background,
-                _ => opaque(self.surface.shade(fragment)),
+                _ => opaque(self.surface.shade(&row.lane(lane))),
             };
             *target = encode(color);
         }
     }
 
     /// Writes neighbouring pixels some of which see several pieces or layers.
-    fn write_mixed<P>(
-        &self,
-        first: Pixel,
-        mut layers: &[Layer],
-        targets: &mut [P],
-        encode: &impl Fn([f32; 4]) -> P,
-    ) {
-        for (lane, target) in targets.iter_mut().enumerate() {
-            let pixel = Pixel { x: first.x + lane as u32, y: first.y, at: first.at + lane };
+    fn write_mixed<P>(&self, run: &Run<'_>, targets: &mut [P], encode: &impl Fn([f32; 4]) -> P) {
+        let mut layers = run.over;
+        for (x, target) in run.lanes.clone().zip(targets) {
+            let pixel = Pixel { x, y: run.y, at: index_of(x as usize, run.y as usize) };
             let over;
-            let number = pixel.y as usize * self.rect.width() + pixel.x as usize;
-            (over, layers) = split_before(layers, number + 1);
+            (over, layers) = split_before(layers, (run.y * TILE + x + 1) as usize);
             *target = encode(self.color(pixel, over));
         }
     }
@@ -191,7 +226,7 @@ impl<S: Surface> Shading<'_, S> {
 
     #[inline]
     fn shade(&self, piece: u32, pixel: Pixel) -> [f32; 4] {
-        let (x, y) = (self.rect.x0 + pixel.x, self.rect.y0 + pixel.y);
+        let (x, y) = (self.rect.x + pixel.x, self.rect.y + pixel.y);
         let piece = &self.frame.pieces[piece as usize];
         self.surface.shade(&Fragment::new(piece, &self.frame.source_weights, x, y))
     }

@@ -6,11 +6,16 @@ use crate::MAX_SIDE;
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RasterError {
-    /// The picture has no pixels or too many.
+    /// The picture has no pixels, or it reaches too far.
     #[error(
-        "a picture of {width} x {height} pixels cannot be drawn; each side must be between 1 and {MAX_SIDE}"
+        "a picture of {width} x {height} pixels from pixel ({x}, {y}) on cannot be drawn; each side must be at least 1 \
+         and end within {MAX_SIDE}"
     )]
     Size {
+        /// The first column.
+        x: u32,
+        /// The first row.
+        y: u32,
         /// The requested width in pixels.
         width: u32,
         /// The requested height in pixels.

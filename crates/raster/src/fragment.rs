@@ -42,33 +42,6 @@ impl<'a> Fragment<'a> {
         Self { id: piece.id, x, y, weights, areas, piece, source_weights }
     }
 
-    /// Eight pieces at the centres of eight neighbouring pixels, from (x, y) to the right: the same as eight times
-    /// [`new`](Self::new), bit for bit, and several times as fast, for the loops over the lanes become vector instructions.
-    #[inline(always)]
-    pub(crate) fn row(
-        pieces: [&'a Piece; 8],
-        source_weights: &'a [SourceWeights],
-        x: u32,
-        y: u32,
-    ) -> [Self; 8] {
-        let areas = areas_of_row(pieces, center(x), center(y));
-        let inv_w = |corner: usize| pieces.map(|piece| piece.corners[corner].inv_w);
-        let mut shares = [0, 1, 2].map(|k| {
-            let inv_w = inv_w(k);
-            LANES.map(|lane| areas[k][lane].max(0.0) * inv_w[lane])
-        });
-        let per_sum = LANES.map(|lane| 1.0 / (shares[0][lane] + shares[1][lane] + shares[2][lane]));
-        for share in &mut shares {
-            *share = LANES.map(|lane| share[lane] * per_sum[lane]);
-        }
-        LANES.map(|lane| {
-            let piece = pieces[lane];
-            let weights = in_source(piece, source_weights, shares.map(|share| share[lane]));
-            let areas = areas.map(|area| area[lane]);
-            Self { id: piece.id, x: x + lane as u32, y, weights, areas, piece, source_weights }
-        })
-    }
-
     /// The corners' shares one pixel to the right, beyond the primitive's borders too; the same as here where its plane has
     /// its horizon.
     #[must_use]
@@ -106,23 +79,131 @@ fn areas(corners: [ScreenVertex; 3], x: i32, y: i32) -> [f32; 3] {
     [area(q, r), area(r, p), area(p, q)]
 }
 
-/// [`areas`] for eight pixels of a row. Products and differences of grid coordinates are exact in double precision.
-#[inline(always)]
-fn areas_of_row(pieces: [&Piece; 8], x: i32, y: i32) -> [[f32; 8]; 3] {
-    let away = [0, 1, 2].map(|k: usize| {
-        let dx = LANES.map(|lane| pieces[lane].corners[k].x - (x + lane as i32 * SUBPIXELS));
-        let dy = LANES.map(|lane| pieces[lane].corners[k].y - y);
-        (dx.map(f64::from), dy.map(f64::from))
-    });
-    let area = |a: usize, b: usize| {
-        let ((ax, ay), (bx, by)) = (&away[a], &away[b]);
-        LANES.map(|lane| (ax[lane] * by[lane] - ay[lane] * bx[lane]) as f32)
-    };
-    [area(1, 2), area(2, 0), area(0, 1)]
+/// Eight pieces at the centres of eight neighbouring pixels: the same as eight fragments, bit for bit, and several times as
+/// fast to find, for the loops over the lanes become vector instructions.
+pub(crate) struct FragmentRow<'a> {
+    pieces: [&'a Piece; 8],
+    source_weights: &'a [SourceWeights],
+    x: u32,
+    y: u32,
+    areas: [[f32; 8]; 3],
+    shares: [[f32; 8]; 3],
 }
 
-/// The lanes of a row of eight pixels.
-const LANES: [usize; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
+impl<'a> FragmentRow<'a> {
+    /// The pieces at the pixels from (x, y) to the right.
+    #[inline(always)]
+    pub(crate) fn new(
+        pieces: [&'a Piece; 8],
+        source_weights: &'a [SourceWeights],
+        x: u32,
+        y: u32,
+    ) -> Self {
+        let same = pieces.iter().all(|piece| std::ptr::eq(*piece, pieces[0]));
+        let (cx, cy) = (center(x), center(y));
+        let corners = if same {
+            Corners::of_one(pieces[0], cx, cy)
+        } else {
+            Corners::of_each(pieces, cx, cy)
+        };
+        let areas = corners.areas();
+        let shares = corners.shares(&areas);
+        Self { pieces, source_weights, x, y, areas, shares }
+    }
+
+    /// The fragment of one of the pixels.
+    #[inline(always)]
+    pub(crate) fn lane(&self, lane: usize) -> Fragment<'a> {
+        let piece = self.pieces[lane];
+        let [a, b, c] = &self.areas;
+        let [p, q, r] = &self.shares;
+        let weights = in_source(piece, self.source_weights, [p[lane], q[lane], r[lane]]);
+        Fragment {
+            id: piece.id,
+            x: self.x + lane as u32,
+            y: self.y,
+            weights,
+            areas: [a[lane], b[lane], c[lane]],
+            piece,
+            source_weights: self.source_weights,
+        }
+    }
+}
+
+/// The corners of the pieces of eight pixels of a row: how far they are from the pixels' centres, and 1/w.
+///
+/// Plain loops everywhere: closures over arrays are not always taken into the function that has the vector instructions.
+struct Corners {
+    dx: [[f64; 8]; 3],
+    dy: [[f64; 8]; 3],
+    inv_w: [[f32; 8]; 3],
+}
+
+impl Corners {
+    const NONE: Self = Self { dx: [[0.0; 8]; 3], dy: [[0.0; 8]; 3], inv_w: [[0.0; 8]; 3] };
+
+    /// All pixels show one piece, the usual case, and nothing has to be gathered.
+    #[inline(always)]
+    fn of_one(piece: &Piece, x: i32, y: i32) -> Self {
+        let mut corners = Self::NONE;
+        for (k, corner) in piece.corners.iter().enumerate() {
+            let first = f64::from(corner.x - x);
+            for (lane, dx) in corners.dx[k].iter_mut().enumerate() {
+                *dx = first - f64::from(lane as i32 * SUBPIXELS);
+            }
+            corners.dy[k] = [f64::from(corner.y - y); 8];
+            corners.inv_w[k] = [corner.inv_w; 8];
+        }
+        corners
+    }
+
+    #[inline(always)]
+    fn of_each(pieces: [&Piece; 8], x: i32, y: i32) -> Self {
+        let mut corners = Self::NONE;
+        for (lane, piece) in pieces.iter().enumerate() {
+            for (k, corner) in piece.corners.iter().enumerate() {
+                corners.dx[k][lane] = f64::from(corner.x - (x + lane as i32 * SUBPIXELS));
+                corners.dy[k][lane] = f64::from(corner.y - y);
+                corners.inv_w[k][lane] = corner.inv_w;
+            }
+        }
+        corners
+    }
+
+    /// [`areas`] for each pixel. Products and differences of grid coordinates are exact in double precision.
+    #[inline(always)]
+    fn areas(&self) -> [[f32; 8]; 3] {
+        let Self { dx, dy, .. } = self;
+        let mut areas = [[0.0_f32; 8]; 3];
+        for (area, (a, b)) in areas.iter_mut().zip([(1, 2), (2, 0), (0, 1)]) {
+            for (lane, area) in area.iter_mut().enumerate() {
+                *area = (dx[a][lane] * dy[b][lane] - dy[a][lane] * dx[b][lane]) as f32;
+            }
+        }
+        areas
+    }
+
+    /// [`shares`] for each pixel, of the areas that are not negative.
+    #[inline(always)]
+    fn shares(&self, areas: &[[f32; 8]; 3]) -> [[f32; 8]; 3] {
+        let mut shares = self.inv_w;
+        for (share, area) in shares.iter_mut().zip(areas) {
+            for (share, area) in share.iter_mut().zip(area) {
+                *share *= area.max(0.0);
+            }
+        }
+        let mut per_sum = [0.0_f32; 8];
+        for (lane, per) in per_sum.iter_mut().enumerate() {
+            *per = 1.0 / (shares[0][lane] + shares[1][lane] + shares[2][lane]);
+        }
+        for share in &mut shares {
+            for (share, per) in share.iter_mut().zip(per_sum) {
+                *share *= per;
+            }
+        }
+        shares
+    }
+}
 
 /// Shares of a piece's corners from shares of area on the screen (IN-2).
 #[inline]

@@ -1,5 +1,6 @@
 //! A frame: the primitives of one picture, in the order in which they were given.
 
+use crate::grid::Part;
 use crate::primitive::{Piece, Source, clockwise, line_pieces, point_pieces};
 use crate::vertex::SUBPIXEL_BITS;
 use crate::{Cover, Cull, Instructions, RasterError, Samples, ScreenVertex, SourceWeights};
@@ -13,8 +14,7 @@ pub const MAX_SIDE: u32 = 16384;
 /// [`draw`](Self::draw) it. At equal depth the primitive given first wins, whatever the number of threads.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    pub(crate) width: u32,
-    pub(crate) height: u32,
+    pub(crate) part: Part,
     pub(crate) samples: Samples,
     pub(crate) instructions: Instructions,
     pub(crate) pieces: Vec<Piece>,
@@ -27,13 +27,27 @@ impl Frame {
     /// # Errors
     /// [`RasterError::Size`] unless both sides are between 1 and [`MAX_SIDE`].
     pub fn new(width: u32, height: u32, samples: Samples) -> Result<Self, RasterError> {
-        let fits = |side: u32| (1..=MAX_SIDE).contains(&side);
-        if !fits(width) || !fits(height) {
-            return Err(RasterError::Size { width, height });
+        Self::part([0, 0], [width, height], samples)
+    }
+
+    /// An empty frame that shows a part of a larger picture: `size` pixels from the pixel `corner` on.
+    ///
+    /// Vertices and fragments keep their places in the whole picture, and parts that are drawn one by one have the
+    /// pixels of the whole, bit for bit: so pictures too large for memory are drawn, or only what has changed.
+    ///
+    /// # Errors
+    /// [`RasterError::Size`] unless both sides are at least 1 and the part ends within [`MAX_SIDE`].
+    pub fn part(corner: [u32; 2], size: [u32; 2], samples: Samples) -> Result<Self, RasterError> {
+        let ([x, y], [width, height]) = (corner, size);
+        let fits = |from: u32, side: u32| {
+            side > 0 && from.checked_add(side).is_some_and(|end| end <= MAX_SIDE)
+        };
+        if !fits(x, width) || !fits(y, height) {
+            return Err(RasterError::Size { x, y, width, height });
         }
         let (pieces, source_weights) = (Vec::new(), Vec::new());
-        let instructions = Instructions::best();
-        Ok(Self { width, height, samples, instructions, pieces, source_weights })
+        let (part, instructions) = (Part { x, y, width, height }, Instructions::best());
+        Ok(Self { part, samples, instructions, pieces, source_weights })
     }
 
     /// The same frame, drawn with the given instructions: for measurements, and for proofs that they do not matter.
@@ -51,13 +65,13 @@ impl Frame {
     /// Width in pixels.
     #[must_use]
     pub const fn width(&self) -> u32 {
-        self.width
+        self.part.width
     }
 
     /// Height in pixels.
     #[must_use]
     pub const fn height(&self) -> u32 {
-        self.height
+        self.part.height
     }
 
     /// Adds a whole triangle; its corners may run either way. Leave out those that face away, if they are to be

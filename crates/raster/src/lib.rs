@@ -46,6 +46,7 @@ mod edge;
 mod error;
 mod fragment;
 mod frame;
+mod grid;
 mod instructions;
 mod plane;
 mod primitive;

@@ -4,7 +4,7 @@
 //! the depth of its farthest sample is remembered: what is farther than that is hidden in the whole block (hierarchical
 //! z). The memory may lag behind, for depths only grow, but it is never too near.
 
-use crate::bins::TILE;
+use crate::grid::TILE;
 use crate::setup::{Setup, Start};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, i32x8, mask32x8, u32x8};

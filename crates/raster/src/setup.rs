@@ -5,35 +5,10 @@
 //! and fits 32 bits. Where it is too large, it is cut off at ±2³⁰: the steps across a tile are smaller than that,
 //! so the sign, which is all that counts, stays right.
 
-use crate::bins::TILE;
 use crate::edge::Edge;
+use crate::grid::TileRect;
 use crate::primitive::Piece;
 use crate::vertex::{SUBPIXEL_BITS, SUBPIXELS};
-
-/// The part of the picture a tile stands for, in pixels: [x0, x1) × [y0, y1).
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct TileRect {
-    pub(crate) x0: u32,
-    pub(crate) y0: u32,
-    pub(crate) x1: u32,
-    pub(crate) y1: u32,
-}
-
-impl TileRect {
-    /// The tile in the given column and row of a picture.
-    pub(crate) fn of(column: u32, row: u32, width: u32, height: u32) -> Self {
-        let (x0, y0) = (column * TILE, row * TILE);
-        Self { x0, y0, x1: (x0 + TILE).min(width), y1: (y0 + TILE).min(height) }
-    }
-
-    pub(crate) fn width(&self) -> usize {
-        (self.x1 - self.x0) as usize
-    }
-
-    pub(crate) fn height(&self) -> usize {
-        (self.y1 - self.y0) as usize
-    }
-}
 
 /// A triangle as one tile sees it. Pixels are counted from the tile's corner.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +19,8 @@ pub(crate) struct Setup {
     pub(crate) a: [i32; 3],
     /// The step of E/256 per pixel down.
     pub(crate) b: [i32; 3],
-    /// The pixels that may have a sample within the triangle's bounds: [x0, x1) × [y0, y1), not empty.
+    /// The pixels that may have a sample within the triangle's bounds: [x0, x1) × [y0, y1), not empty. Depth is counted from
+    /// the first, so that it must not depend on what of the tile is shown.
     pub(crate) x0: i32,
     pub(crate) y0: i32,
     pub(crate) x1: i32,
@@ -90,13 +66,13 @@ impl Setup {
         let [p, q, r] = piece.corners;
         let (left, right) = (p.x.min(q.x).min(r.x), p.x.max(q.x).max(r.x));
         let (top, bottom) = (p.y.min(q.y).min(r.y), p.y.max(q.y).max(r.y));
-        let origin = (tile.x0 as i32 * SUBPIXELS, tile.y0 as i32 * SUBPIXELS);
+        let origin = (tile.x as i32 * SUBPIXELS, tile.y as i32 * SUBPIXELS);
         // The first pixel whose last sample is not before a bound, and the first whose first sample is behind one.
         let first = |bound: i32, from: i32| (bound - from - reach.1 + 255) >> SUBPIXEL_BITS;
         let beyond = |bound: i32, from: i32| ((bound - from - reach.0) >> SUBPIXEL_BITS) + 1;
         let (x0, y0) = (first(left, origin.0).max(0), first(top, origin.1).max(0));
-        let x1 = beyond(right, origin.0).min(tile.width() as i32);
-        let y1 = beyond(bottom, origin.1).min(tile.height() as i32);
+        let x1 = beyond(right, origin.0).min(tile.right as i32);
+        let y1 = beyond(bottom, origin.1).min(tile.bottom as i32);
         if x0 >= x1 || y0 >= y1 {
             return None;
         }

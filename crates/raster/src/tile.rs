@@ -1,7 +1,8 @@
 //! Visibility in one tile: for each sample, how near the nearest solid surface is and which it is.
 
+use crate::grid::{TILE, TileRect};
 use crate::plane::{LANES, Lanes, NOTHING, Plane};
-use crate::setup::{Setup, TileRect};
+use crate::setup::Setup;
 use crate::{Cover, Fragment, Frame, Surface};
 use fearless_simd::{Simd, dispatch};
 
@@ -112,9 +113,9 @@ impl Tile {
         let lanes = Lanes::new(simd, &setup);
         for (plane, offset) in self.planes.iter_mut().zip(frame.samples.offsets()) {
             plane.visit(simd, &lanes, &setup.start(offset), false, |plane, at, x, y, depth| {
-                let (x, y) = (rect.x0 + x as u32, rect.y0 + y as u32);
-                let fragment = Fragment::new(piece, &frame.source_weights, x, y);
-                if surface.keeps(&fragment) {
+                let (px, py) = (rect.x + x as u32, rect.y + y as u32);
+                let fragment = Fragment::new(piece, &frame.source_weights, px, py);
+                if rect.shows(x, y) && surface.keeps(&fragment) {
                     plane.depth[at] = depth;
                     plane.piece[at] = index;
                 }
@@ -133,8 +134,10 @@ impl Tile {
         let samples = planes.iter_mut().zip(frame.samples.offsets()).enumerate();
         for (sample, (plane, offset)) in samples {
             plane.visit(simd, &lanes, &setup.start(offset), true, |_, _, x, y, depth| {
-                let pixel = (y * rect.width() + x) as u16;
-                layers.push(Layer { pixel, mask: 1 << sample, piece: index, depth });
+                if rect.shows(x, y) {
+                    let pixel = (y * TILE as usize + x) as u16;
+                    layers.push(Layer { pixel, mask: 1 << sample, piece: index, depth });
+                }
             });
         }
         merge_samples(layers, first);

@@ -1,9 +1,9 @@
 //! Visibility without shading: which primitive is seen in each pixel, and how near it is.
 
-use crate::bins::{Bins, TILE};
+use crate::bins::Bins;
+use crate::grid::Part;
 use crate::plane::index_of;
 use crate::primitive::Piece;
-use crate::setup::TileRect;
 use crate::tile::Tile;
 use crate::{Fragment, Frame, Surface};
 
@@ -32,10 +32,11 @@ impl Frame {
     /// Finds the nearest primitive of each pixel. Masked primitives count as whole, translucent ones as absent.
     #[must_use]
     pub fn visibility(&self) -> Visibility {
-        let size = self.width as usize * self.height as usize;
+        let Part { x: left, y: top, width, height } = self.part;
+        let size = width as usize * height as usize;
         let mut seen = Visibility { depth: vec![0.0; size], ids: vec![None; size] };
         self.each_seen(|x, y, depth, piece| {
-            let at = y as usize * self.width as usize + x as usize;
+            let at = (y - top) as usize * width as usize + (x - left) as usize;
             seen.depth[at] = depth;
             seen.ids[at] = Some(piece.id);
         });
@@ -51,18 +52,18 @@ impl Frame {
     }
 
     fn each_seen(&self, mut each: impl FnMut(u32, u32, f32, &Piece)) {
-        let bins = Bins::sort(&self.pieces, self.width, self.height);
+        let bins = Bins::sort(&self.pieces, self.part);
         let mut tile = Tile::default();
-        for row in 0..self.height.div_ceil(TILE) {
-            for column in 0..self.width.div_ceil(TILE) {
-                let rect = TileRect::of(column, row, self.width, self.height);
-                tile.fill(self, rect, bins.of(column, row), &Whole);
-                for pixel in 0..rect.width() * rect.height() {
-                    let (x, y) = (pixel % rect.width(), pixel / rect.width());
-                    let at = index_of(x, y);
-                    let seen = self.pieces.get(tile.piece(0, at) as usize);
-                    let Some(piece) = seen else { continue };
-                    each(rect.x0 + x as u32, rect.y0 + y as u32, tile.depth(0, at), piece);
+        let ((left, right), (top, bottom)) = (self.part.columns(), self.part.rows());
+        for (column, row) in (top..bottom).flat_map(|row| (left..right).map(move |c| (c, row))) {
+            let rect = self.part.tile(column, row);
+            tile.fill(self, rect, bins.of(column, row), &Whole);
+            for (x, y) in
+                (rect.top..rect.bottom).flat_map(|y| (rect.left..rect.right).map(move |x| (x, y)))
+            {
+                let at = index_of(x as usize, y as usize);
+                if let Some(piece) = self.pieces.get(tile.piece(0, at) as usize) {
+                    each(rect.x + x, rect.y + y, tile.depth(0, at), piece);
                 }
             }
         }

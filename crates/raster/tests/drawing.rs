@@ -99,20 +99,7 @@ fn a_masked_surface_is_absent_where_it_is_not_kept_and_hides_where_it_is() {
 #[test]
 fn neither_threads_nor_instructions_change_a_bit() {
     let mut frame = Frame::new(200, 333, Samples::Four).expect("a frame of several tiles");
-    let colors: Vec<[f32; 4]> =
-        (0..200_u32).map(|n| [n as f32 / 200.0, 0.3, 1.0 - n as f32 / 300.0, 0.8]).collect();
-    for id in 0..200_u32 {
-        let f = f64::from(id);
-        let corner = |k: f64| {
-            vertex(
-                (f * 37.0 + k * 91.0) % 260.0 - 30.0,
-                (f * 59.0 + k * 133.0) % 400.0 - 30.0,
-                ((f * 17.0 + k * 29.0) % 100.0) / 100.0,
-            )
-        };
-        let cover = if id % 3 == 0 { Cover::Translucent } else { Cover::Solid };
-        frame.triangle([corner(0.0), corner(1.0), corner(2.0)], id, cover);
-    }
+    let colors = crowd(&mut frame);
     let once = draw(&frame, &colors, CLEAR, 1);
     for threads in [2, 3, 7, 100] {
         assert!(draw(&frame, &colors, CLEAR, threads) == once, "{threads} threads");
@@ -125,10 +112,52 @@ fn neither_threads_nor_instructions_change_a_bit() {
 }
 
 #[test]
+fn parts_have_the_pixels_of_the_whole() {
+    let mut whole = Frame::new(200, 333, Samples::Four).expect("a frame of several tiles");
+    let colors = crowd(&mut whole);
+    let picture = draw(&whole, &colors, CLEAR, 1);
+    let depth = whole.visibility().depth;
+    for ([x, y], [width, height]) in
+        [([0, 0], [64, 64]), ([1, 1], [199, 332]), ([63, 127], [2, 2]), ([71, 200], [100, 7])]
+    {
+        let mut part = Frame::part([x, y], [width, height], Samples::Four).expect("a part");
+        crowd(&mut part);
+        let shown = draw(&part, &colors, CLEAR, 3);
+        let near = part.visibility().depth;
+        for (row, column) in (0..height).flat_map(|row| (0..width).map(move |c| (row, c))) {
+            let there = ((y + row) * 200 + x + column) as usize;
+            let here = (row * width + column) as usize;
+            assert_eq!(shown[here], picture[there], "({column}, {row}) of {width} x {height}");
+            assert_eq!(near[here], depth[there], "({column}, {row}) of {width} x {height}");
+        }
+    }
+}
+
+/// Adds two hundred triangles, a third of them translucent and a third masked, and returns their colours.
+fn crowd(frame: &mut Frame) -> Vec<[f32; 4]> {
+    let colors: Vec<[f32; 4]> =
+        (0..200_u32).map(|n| [n as f32 / 200.0, 0.3, 1.0 - n as f32 / 300.0, 0.8]).collect();
+    for id in 0..200_u32 {
+        let f = f64::from(id);
+        let corner = |k: f64| {
+            vertex(
+                (f * 37.0 + k * 91.0) % 260.0 - 30.0,
+                (f * 59.0 + k * 133.0) % 400.0 - 30.0,
+                ((f * 17.0 + k * 29.0) % 100.0) / 100.0,
+            )
+        };
+        let cover = [Cover::Translucent, Cover::Solid, Cover::Masked][id as usize % 3];
+        frame.triangle([corner(0.0), corner(1.0), corner(2.0)], id, cover);
+    }
+    colors
+}
+
+#[test]
 fn sizes_out_of_range_are_refused() {
     for (width, height) in [(0, 5), (5, 0), (raster::MAX_SIDE + 1, 1), (1, u32::MAX)] {
         let error = Frame::new(width, height, Samples::One).expect_err("refused").to_string();
         assert!(error.contains(&format!("{width} x {height}")), "{error}");
+        assert!(Frame::part([raster::MAX_SIDE, 3], [1, 1], Samples::One).is_err());
     }
 }
 

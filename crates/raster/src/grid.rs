@@ -1,0 +1,92 @@
+//! The tiles of a picture, and the part of them that a frame shows.
+//!
+//! Tiles are counted from the upper left corner of the whole picture, also where a frame is a part of it. A tile then sees
+//! the same triangles in the same numbers whichever part is drawn, and parts fit together bit for bit.
+
+/// The side of a tile in pixels: its depth and names stay in the nearest caches while it is filled.
+pub(crate) const TILE: u32 = 64;
+
+/// A rectangle of whole pixels: [x, x + width) × [y, y + height), y down.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Part {
+    pub(crate) x: u32,
+    pub(crate) y: u32,
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+}
+
+impl Part {
+    /// The columns of tiles that the part touches: the first, and the one behind the last.
+    pub(crate) fn columns(&self) -> (u32, u32) {
+        (self.x / TILE, (self.x + self.width).div_ceil(TILE))
+    }
+
+    /// The rows of tiles that the part touches.
+    pub(crate) fn rows(&self) -> (u32, u32) {
+        (self.y / TILE, (self.y + self.height).div_ceil(TILE))
+    }
+
+    /// The tile in the given column and row, with what of it the part shows.
+    pub(crate) fn tile(&self, column: u32, row: u32) -> TileRect {
+        let (x, y) = (column * TILE, row * TILE);
+        let within = |from: u32, size: u32, corner: u32| {
+            let first = from.saturating_sub(corner).min(TILE);
+            (first, (from + size - corner).min(TILE))
+        };
+        let (left, right) = within(self.x, self.width, x);
+        let (top, bottom) = within(self.y, self.height, y);
+        TileRect { x, y, left, top, right, bottom }
+    }
+
+    /// How many rows of pixels a row of tiles shows.
+    pub(crate) fn rows_of(&self, row: u32) -> usize {
+        let TileRect { top, bottom, .. } = self.tile(self.columns().0, row);
+        (bottom - top) as usize
+    }
+}
+
+/// A tile: its corner in the picture, and the pixels of it that are shown, counted from that corner:
+/// [left, right) × [top, bottom).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct TileRect {
+    pub(crate) x: u32,
+    pub(crate) y: u32,
+    pub(crate) left: u32,
+    pub(crate) top: u32,
+    pub(crate) right: u32,
+    pub(crate) bottom: u32,
+}
+
+impl TileRect {
+    /// Whether a pixel of the tile is shown.
+    pub(crate) fn shows(&self, x: usize, y: usize) -> bool {
+        let within = |at: usize, from: u32, to: u32| (from as usize..to as usize).contains(&at);
+        within(x, self.left, self.right) && within(y, self.top, self.bottom)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiles_of_a_part_show_each_of_its_pixels_once() {
+        for part in [
+            Part { x: 0, y: 0, width: 64, height: 64 },
+            Part { x: 63, y: 1, width: 2, height: 200 },
+            Part { x: 70, y: 130, width: 3, height: 1 },
+            Part { x: 128, y: 64, width: 129, height: 65 },
+        ] {
+            let mut shown = 0;
+            for row in part.rows().0..part.rows().1 {
+                for column in part.columns().0..part.columns().1 {
+                    let tile = part.tile(column, row);
+                    assert!(tile.left < tile.right && tile.top < tile.bottom, "{part:?} {tile:?}");
+                    assert!(tile.x + tile.left >= part.x && tile.y + tile.top >= part.y);
+                    shown += (tile.right - tile.left) * (tile.bottom - tile.top);
+                }
+            }
+            assert_eq!(shown, part.width * part.height, "{part:?}");
+        }
+    }
+}
