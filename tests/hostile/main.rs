@@ -13,6 +13,7 @@ mod case;
 mod document;
 mod images;
 mod members;
+mod meshopt;
 mod nodes;
 mod promises;
 mod text;
@@ -85,12 +86,13 @@ fn run(folder: &Path) -> Result<Tally, String> {
 
 type Cases = fn() -> Vec<Case>;
 
-fn groups() -> [(&'static str, Cases); 7] {
+fn groups() -> [(&'static str, Cases); 8] {
     [
         ("types", types::cases),
         ("accessors", accessors::cases),
         ("bytes", bytes::cases),
         ("members", members::cases),
+        ("meshopt", meshopt::cases),
         ("nodes", nodes::cases),
         ("images", images::cases),
         ("text", text::cases),

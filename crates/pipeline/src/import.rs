@@ -14,6 +14,7 @@
 mod accessor;
 mod animation;
 mod attribute;
+mod budget;
 mod buffers;
 mod camera;
 mod container;
@@ -25,6 +26,7 @@ mod image;
 mod json;
 mod limits;
 mod material;
+mod meshopt;
 mod normals;
 mod placement;
 mod primitive;
@@ -86,7 +88,7 @@ fn load_model(path: &Path, options: &ImportOptions) -> Result<Model, Fault> {
     let document = Document::parse(&bytes[container.json], limits)?;
     let chunk = container.binary.map(|range| &bytes[range]);
     extensions::check(&document.root, &mut warnings)?;
-    let buffers = Buffers::new(&document.root, &resolver, chunk);
+    let buffers = Buffers::new(&document.root, &resolver, chunk, limits);
     let source = Source::new(&document.root, &buffers, limits);
     let mut model = build(&document, &source, &mut warnings)?;
     model.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();

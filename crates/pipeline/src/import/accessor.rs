@@ -7,27 +7,22 @@
 
 use super::buffers::{Buffers, slice};
 use super::elements::{Elements, Run, Sparse};
-use super::error::{Fault, FaultKind};
+use super::error::Fault;
 use super::limits::Limits;
 use gltf::json::Root;
 use gltf::json::accessor::{Accessor, ComponentType, IndexComponentType, Type, sparse};
 use gltf::json::validation::Checked;
-use std::cell::Cell;
 
-/// The file's accessors, and how many bytes of arrays have been made of them.
+/// The file's accessors.
 pub(super) struct Source<'a> {
     pub(super) root: &'a Root,
     pub(super) buffers: &'a Buffers<'a>,
     pub(super) limits: &'a Limits,
-    made: Cell<u64>,
 }
-
-/// Arrays may take so many bytes however small the files are.
-const FREE_BYTES: u64 = 16 << 20;
 
 impl<'a> Source<'a> {
     pub(super) fn new(root: &'a Root, buffers: &'a Buffers<'a>, limits: &'a Limits) -> Self {
-        Self { root, buffers, limits, made: Cell::new(0) }
+        Self { root, buffers, limits }
     }
 
     /// The elements of an accessor. `user` is the pointer to the member that names it.
@@ -78,24 +73,10 @@ impl<'a> Source<'a> {
         Ok(of.indices())
     }
 
-    /// Counts an array that is about to be made; see [`Limits::array_bytes`] and [`Limits::array_growth`].
+    /// Counts an array that is about to be made of an accessor.
     pub(super) fn charge(&self, accessor: usize, count: usize, bytes: usize) -> Result<(), Fault> {
-        let more = (count as u64).saturating_mul(bytes as u64);
-        let made = self.made.get().saturating_add(more);
-        self.made.set(made);
-        let pointer = format!("/accessors/{accessor}/count");
-        let what = format!("the arrays take {made} bytes up to here");
-        let Limits { array_bytes, array_growth, .. } = *self.limits;
-        if made > array_bytes {
-            return Err(Fault::limit(&pointer, &what, "array_bytes", array_bytes));
-        }
-        let paid = self.buffers.resolver.total_bytes().saturating_mul(array_growth);
-        if made.saturating_sub(FREE_BYTES) > paid {
-            let problem = format!("{what}, more than {array_growth} times the files");
-            let remedy = "raise the limit `array_growth` if you trust the file";
-            return Err(Fault::new(FaultKind::Limit, &pointer, problem, remedy));
-        }
-        Ok(())
+        let bytes = (count as u64).saturating_mul(bytes as u64);
+        self.buffers.charge(&format!("/accessors/{accessor}/count"), bytes)
     }
 
     /// The bytes of a block from an offset in a buffer view on.

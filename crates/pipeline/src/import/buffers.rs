@@ -1,6 +1,9 @@
-//! The bytes of the file's buffers, each read once and when it is first needed.
+//! The bytes of the file's buffers and buffer views, each read, and decompressed, once and when it is first needed.
 
+use super::budget::Budget;
 use super::error::Fault;
+use super::limits::Limits;
+use super::meshopt::Packed;
 use super::resolver::Resolver;
 use gltf::json::Root;
 use std::sync::OnceLock;
@@ -13,12 +16,26 @@ pub(super) struct Buffers<'a> {
     chunk: Option<&'a [u8]>,
     /// What has been read from elsewhere.
     read: Vec<OnceLock<Vec<u8>>>,
+    /// The views that have been decompressed.
+    unpacked: Vec<OnceLock<Vec<u8>>>,
+    budget: Budget<'a>,
 }
 
 impl<'a> Buffers<'a> {
-    pub(super) fn new(root: &'a Root, resolver: &'a Resolver<'a>, chunk: Option<&'a [u8]>) -> Self {
+    pub(super) fn new(
+        root: &'a Root,
+        resolver: &'a Resolver<'a>,
+        chunk: Option<&'a [u8]>,
+        limits: &'a Limits,
+    ) -> Self {
         let read = root.buffers.iter().map(|_| OnceLock::new()).collect();
-        Self { root, resolver, chunk, read }
+        let unpacked = root.buffer_views.iter().map(|_| OnceLock::new()).collect();
+        Self { root, resolver, chunk, read, unpacked, budget: Budget::new(limits) }
+    }
+
+    /// Counts an array that is about to be made; `pointer` is the member that says how long it is.
+    pub(super) fn charge(&self, pointer: &str, bytes: u64) -> Result<(), Fault> {
+        self.budget.charge(pointer, bytes, self.resolver.total_bytes())
     }
 
     /// The bytes of a buffer view, and its stride if it has one. `user` is the pointer to the member that names it.
@@ -28,18 +45,38 @@ impl<'a> Buffers<'a> {
             return Err(Fault::unresolved(user, "buffer view", view, count));
         };
         let pointer = format!("/bufferViews/{view}");
-        let bytes = self.buffer(json.buffer.value(), &pointer)?;
-        let start = json.byte_offset.unwrap_or_default().0;
-        let part = slice(bytes, start, json.byte_length.0).ok_or_else(|| {
+        let bytes = match Packed::of(json, &pointer)? {
+            Some(packed) => self.unpacked(view, &packed)?,
+            None => {
+                let start = json.byte_offset.unwrap_or_default().0;
+                self.part(json.buffer.value(), start, json.byte_length.0, &pointer)?
+            }
+        };
+        Ok(View { bytes, stride: json.byte_stride.map(|stride| stride.0), pointer })
+    }
+
+    /// The bytes of a compressed view. The buffer that the view itself names need not have any.
+    fn unpacked(&self, view: usize, packed: &Packed) -> Result<&[u8], Fault> {
+        let slot = &self.unpacked[view];
+        if let Some(bytes) = slot.get() {
+            return Ok(bytes);
+        }
+        let stream = self.part(packed.buffer, packed.offset, packed.length, &packed.pointer)?;
+        self.charge(&format!("{}/count", packed.pointer), packed.unpacked_length())?;
+        let bytes = packed.unpack(stream)?;
+        Ok(slot.get_or_init(|| bytes))
+    }
+
+    /// So many bytes of a buffer; `user` is the pointer to what names it.
+    fn part(&self, buffer: usize, start: u64, length: u64, user: &str) -> Result<&[u8], Fault> {
+        let bytes = self.buffer(buffer, user)?;
+        slice(bytes, start, length).ok_or_else(|| {
+            let there = bytes.len();
             let problem = format!(
-                "bytes {start} to {start} + {} are not all in buffer {}, which has {}",
-                json.byte_length.0,
-                json.buffer.value(),
-                bytes.len()
+                "bytes {start} to {start} + {length} are not all in buffer {buffer}, which has {there}"
             );
-            Fault::invalid(&pointer, problem)
-        })?;
-        Ok(View { bytes: part, stride: json.byte_stride.map(|stride| stride.0), pointer })
+            Fault::invalid(user, problem)
+        })
     }
 
     fn buffer(&self, buffer: usize, view: &str) -> Result<&[u8], Fault> {

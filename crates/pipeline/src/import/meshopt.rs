@@ -1,0 +1,172 @@
+//! Buffer views compressed by meshopt: EXT_meshopt_compression, and KHR_meshopt_compression, which is a superset.
+//!
+//! ```text
+//!  stream ──ATTRIBUTES──► elements ──filter──► the view's bytes      deltas byte by byte, in blocks
+//!         ──TRIANGLES───► indices ───────────►                       edges and vertices seen lately
+//!         ──INDICES─────► indices ───────────►                       differences to one of two earlier indices
+//! ```
+//!
+//! Written after the text of the two extensions, whose appendices define the streams byte by byte. A stream has no
+//! lengths of its own: how long the result is, the JSON says, and a stream that ends earlier or later is invalid. Both
+//! names accept both versions of the streams and all filters.
+
+mod attributes;
+mod filters;
+mod indices;
+mod stream;
+#[cfg(test)]
+mod tests;
+mod triangles;
+
+use super::error::Fault;
+use gltf::json::buffer::View;
+use serde_json::{Map, Value};
+use stream::StreamError;
+
+/// What an extension says of a compressed view.
+#[derive(Debug)]
+pub(super) struct Packed {
+    /// Where it says so.
+    pub(super) pointer: String,
+    /// The buffer with the stream.
+    pub(super) buffer: usize,
+    /// The stream's first byte in it.
+    pub(super) offset: u64,
+    /// The stream's bytes.
+    pub(super) length: u64,
+    count: usize,
+    stride: usize,
+    mode: Mode,
+}
+
+/// How a stream is to be read, and what is done to its elements then.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Mode {
+    Attributes(Filter),
+    Triangles,
+    Indices,
+}
+
+/// What is done to each element of a stream of attributes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Filter {
+    None,
+    Octahedral,
+    Quaternion,
+    Exponential,
+    Color,
+}
+
+impl Packed {
+    /// What a view says of its compression, if it is compressed; `view` is the pointer to it.
+    pub(super) fn of(json: &View, view: &str) -> Result<Option<Self>, Fault> {
+        let Some(extensions) = &json.extensions else { return Ok(None) };
+        let named = |name: &'static str| extensions.others.get(name).map(|value| (name, value));
+        let found = named("KHR_meshopt_compression").or_else(|| named("EXT_meshopt_compression"));
+        let Some((name, value)) = found else { return Ok(None) };
+        let pointer = format!("{view}/extensions/{name}");
+        let members = value.as_object();
+        let members = members.ok_or_else(|| Fault::invalid(&pointer, "an object is due"))?;
+        let packed = Self::read(members, pointer)?;
+        if packed.unpacked_length() == json.byte_length.0 {
+            return Ok(Some(packed));
+        }
+        let Self { count, stride, .. } = packed;
+        let length = json.byte_length.0;
+        let problem =
+            format!("{count} elements of {stride} bytes are compressed, not {length} bytes");
+        Err(Fault::invalid(&format!("{view}/byteLength"), problem))
+    }
+
+    fn read(members: &Map<String, Value>, pointer: String) -> Result<Self, Fault> {
+        let number = |key: &str| {
+            let number = members.get(key).and_then(Value::as_u64);
+            let due = || Fault::invalid(&format!("{pointer}/{key}"), "an integer is due");
+            number.ok_or_else(due)
+        };
+        let size = |key: &str| Ok(usize::try_from(number(key)?).unwrap_or(usize::MAX));
+        let offset = if members.contains_key("byteOffset") { number("byteOffset")? } else { 0 };
+        let (buffer, length) = (size("buffer")?, number("byteLength")?);
+        let (count, stride) = (size("count")?, size("byteStride")?);
+        let mode = Mode::read(members, &pointer)?;
+        if let Err(allowed) = mode.accepts(stride) {
+            let problem = format!("the stride is {stride} and must be {allowed}");
+            return Err(Fault::invalid(&format!("{pointer}/byteStride"), problem));
+        }
+        if mode == Mode::Triangles && !count.is_multiple_of(3) {
+            let problem = format!("{count} indices are no triangles");
+            return Err(Fault::invalid(&format!("{pointer}/count"), problem));
+        }
+        Ok(Self { pointer, buffer, offset, length, count, stride, mode })
+    }
+
+    /// How many bytes the decompressed view has.
+    pub(super) fn unpacked_length(&self) -> u64 {
+        (self.count as u64).saturating_mul(self.stride as u64)
+    }
+
+    /// The bytes of the view; the caller has made sure that there may be so many.
+    pub(super) fn unpack(&self, stream: &[u8]) -> Result<Vec<u8>, Fault> {
+        let Self { count, stride, .. } = *self;
+        let unpacked = match self.mode {
+            Mode::Attributes(filter) => {
+                attributes::decode(stream, count, stride).map(|mut bytes| {
+                    filter.apply(&mut bytes, stride);
+                    bytes
+                })
+            }
+            Mode::Triangles => triangles::decode(stream, count, stride),
+            Mode::Indices => indices::decode(stream, count, stride),
+        };
+        unpacked.map_err(|error: StreamError| Fault::invalid(&self.pointer, error.to_string()))
+    }
+}
+
+impl Mode {
+    fn read(members: &Map<String, Value>, pointer: &str) -> Result<Self, Fault> {
+        let word = |key: &str| members.get(key).map(|value| value.as_str().unwrap_or("no string"));
+        let filter = match word("filter") {
+            None | Some("NONE") => Filter::None,
+            Some("OCTAHEDRAL") => Filter::Octahedral,
+            Some("QUATERNION") => Filter::Quaternion,
+            Some("EXPONENTIAL") => Filter::Exponential,
+            Some("COLOR") => Filter::Color,
+            Some(other) => {
+                let problem = format!("the filter {other:?} is not known");
+                return Err(Fault::invalid(&format!("{pointer}/filter"), problem));
+            }
+        };
+        match (word("mode"), filter) {
+            (Some("ATTRIBUTES"), filter) => Ok(Self::Attributes(filter)),
+            (Some("TRIANGLES"), Filter::None) => Ok(Self::Triangles),
+            (Some("INDICES"), Filter::None) => Ok(Self::Indices),
+            (Some("TRIANGLES" | "INDICES"), _) => {
+                let problem = "only the mode ATTRIBUTES may have a filter";
+                Err(Fault::invalid(&format!("{pointer}/filter"), problem))
+            }
+            (mode, _) => {
+                let problem = format!(
+                    "the mode must be ATTRIBUTES, TRIANGLES or INDICES, not {:?}",
+                    mode.unwrap_or("")
+                );
+                Err(Fault::invalid(&format!("{pointer}/mode"), problem))
+            }
+        }
+    }
+
+    /// Whether elements may have so many bytes; if not, how many they may have.
+    fn accepts(self, stride: usize) -> Result<(), &'static str> {
+        let fits = |fits: bool, allowed| if fits { Ok(()) } else { Err(allowed) };
+        match self {
+            Self::Triangles | Self::Indices => fits(matches!(stride, 2 | 4), "2 or 4"),
+            Self::Attributes(Filter::Octahedral | Filter::Color) => {
+                fits(matches!(stride, 4 | 8), "4 or 8")
+            }
+            Self::Attributes(Filter::Quaternion) => fits(stride == 8, "8"),
+            Self::Attributes(Filter::None | Filter::Exponential) => {
+                let fitting = stride.is_multiple_of(4) && (4..=256).contains(&stride);
+                fits(fitting, "a multiple of 4 from 4 to 256")
+            }
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! Views compressed by meshopt whose sizes lie and whose streams are cut, changed or made up.
+
+use crate::case::{Case, Expected};
+use crate::document::Document;
+use serde_json::json;
+
+/// The triangle with its positions and indices compressed: every byte in full, and every index written out.
+fn packed() -> Document {
+    let mut document = Document::triangle();
+    let plain = document.bytes.clone();
+    document.bytes.clear();
+    document.json["bufferViews"] = json!([]);
+    let positions = document.view(&attributes(&plain[..36], 12));
+    let indices = document.view(&[0xD1, 0, 4, 4, 0, 0, 0, 0]);
+    for (view, count, stride, mode) in
+        [(positions, 3, 12, "ATTRIBUTES"), (indices, 3, 2, "INDICES")]
+    {
+        let view = &mut document.json["bufferViews"][view];
+        let (start, length) = (view["byteOffset"].clone(), view["byteLength"].clone());
+        *view = json!({"buffer": 1, "byteLength": count * stride, "extensions": {"EXT_meshopt_compression": {
+            "buffer": 0, "byteOffset": start, "byteLength": length,
+            "count": count, "byteStride": stride, "mode": mode}}});
+    }
+    let fallback =
+        json!({"byteLength": 48, "extensions": {"EXT_meshopt_compression": {"fallback": true}}});
+    let streams = document.json["buffers"][0].clone();
+    document.with("/buffers", json!([streams, fallback]))
+}
+
+/// A stream of version 0 of up to 16 elements, every group with eight bits a delta.
+fn attributes(elements: &[u8], stride: usize) -> Vec<u8> {
+    let mut stream = vec![0xA0];
+    for byte in 0..stride {
+        let column = elements.iter().skip(byte).step_by(stride);
+        let mut before = 0u8;
+        stream.push(3);
+        let start = stream.len();
+        for &value in column {
+            let delta = value.wrapping_sub(before);
+            stream.push(if delta < 0x80 { delta << 1 } else { !(delta << 1) });
+            before = value;
+        }
+        stream.resize(start + 16, 0);
+    }
+    stream.resize(stream.len() + stride.max(32), 0);
+    stream
+}
+
+pub fn cases() -> Vec<Case> {
+    let mut cases = vec![Case::of("meshopt: whole", &packed(), Expected::LoadsClean)];
+    cases.extend(numbers());
+    cases.extend(streams());
+    cases.extend(promises_of_much());
+    cases
+}
+
+/// Every number and word of the extension replaced by one that is wrong.
+fn numbers() -> Vec<Case> {
+    let wrong = [
+        json!(null),
+        json!("x"),
+        json!(-1),
+        json!(0.5),
+        json!(0),
+        json!(1),
+        json!(3),
+        json!(4),
+        json!(255),
+        json!(256),
+        json!(260),
+        json!(1u64 << 32),
+        json!(u64::MAX / 12),
+        json!(u64::MAX),
+        json!([]),
+        json!({}),
+        json!("TRIANGLES"),
+        json!("INDICES"),
+        json!("OCTAHEDRAL"),
+        json!("EXPONENTIAL"),
+    ];
+    let members = ["buffer", "byteOffset", "byteLength", "count", "byteStride", "mode", "filter"];
+    let mut cases = Vec::new();
+    for view in [0, 1] {
+        for member in members {
+            for wrong in &wrong {
+                let place =
+                    format!("/bufferViews/{view}/extensions/EXT_meshopt_compression/{member}");
+                let document = packed().with(&place, wrong.clone());
+                cases.push(Case::of(format!("{place} is {wrong}"), &document, Expected::Anything));
+            }
+        }
+    }
+    for extension in [json!(null), json!(7), json!("x"), json!([]), json!({})] {
+        let place = "/bufferViews/0/extensions/EXT_meshopt_compression";
+        let document = packed().with(place, extension.clone());
+        cases.push(Case::of(format!("{place} is {extension}"), &document, Expected::Refused));
+    }
+    cases
+}
+
+/// The streams cut at every byte, and with every byte changed.
+fn streams() -> Vec<Case> {
+    let whole = packed();
+    let mut cases = Vec::new();
+    for view in [0, 1] {
+        let length =
+            &whole.json["bufferViews"][view]["extensions"]["EXT_meshopt_compression"]["byteLength"];
+        let place = format!("/bufferViews/{view}/extensions/EXT_meshopt_compression/byteLength");
+        for end in 0..length.as_u64().unwrap_or(0) {
+            let document = whole.clone().with(&place, json!(end));
+            cases.push(Case::of(format!("{place} is {end}"), &document, Expected::Refused));
+        }
+    }
+    for at in 0..whole.bytes.len() {
+        for change in [0x01, 0x10, 0x80, 0xFF] {
+            let mut document = whole.clone();
+            document.bytes[at] ^= change;
+            let name = format!("meshopt: byte {at} xor {change:#x}");
+            cases.push(Case::of(name, &document, Expected::Anything));
+        }
+    }
+    cases
+}
+
+/// Short streams that claim to be long.
+fn promises_of_much() -> Vec<Case> {
+    let claim = |mode: &str, stream: &[u8], count: u64, expected: Expected| {
+        let mut document = packed();
+        let view = document.view(stream);
+        let start = document.json["bufferViews"][view]["byteOffset"].clone();
+        let length = stream.len();
+        let document = document
+            .with(
+                &format!("/bufferViews/{view}"),
+                json!({"buffer": 1, "byteLength": count.saturating_mul(4), "extensions": {"KHR_meshopt_compression": {
+                    "buffer": 0, "byteOffset": start, "byteLength": length,
+                    "count": count, "byteStride": 4, "mode": mode}}}),
+            )
+            .with(
+                "/accessors/1",
+                json!({"bufferView": view, "componentType": 5125, "type": "SCALAR", "count": 3}),
+            );
+        Case::of(format!("meshopt: {count} elements by {mode}"), &document, expected)
+    };
+    let mut cases = Vec::new();
+    for mode in ["ATTRIBUTES", "TRIANGLES", "INDICES"] {
+        for stream in [&[0xA0; 64], &[0xA1; 64], &[0xE1; 64], &[0xD1; 64]] {
+            for count in [3_000, 3_000_000, 3_000_000_000, u64::MAX / 12 * 3] {
+                cases.push(claim(mode, stream, count, Expected::Refused));
+            }
+        }
+    }
+    // 4,096 bytes that say of a million elements that they are all the same: the cheapest there is.
+    let mut same = vec![0b10_10_10_10; 4_096];
+    same[0] = 0xA1;
+    let end = same.len() - 24;
+    same[end..].fill(0);
+    cases.push(claim("ATTRIBUTES", &same, 256 * 4_071, Expected::Loads));
+    cases
+}
