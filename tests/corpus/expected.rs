@@ -10,20 +10,8 @@ const REFUSED: &[(&str, &str)] = &[
     ("acme-box-unknown-required-extension", "ACME_gizmo"),
     ("animation-only-jump-flip", "nothing to draw"),
     ("blender-empty-scene", "nothing to draw"),
-    ("box-draco", "nothing to draw"),
-    ("box-meta-draco", "KHR_draco_mesh_compression"),
-    ("carbon-sphere-draco", "KHR_draco_mesh_compression"),
-    ("cave-draco", "KHR_draco_mesh_compression"),
-    ("dense-sphere-draco-quantized", "KHR_draco_mesh_compression"),
-    ("draco-sparse-mesh", "KHR_draco_mesh_compression"),
     ("empty-nodes", "nothing to draw"),
-    ("race-car-draco", "KHR_draco_mesh_compression"),
     ("scene-without-nodes", "nothing to draw"),
-    ("ship-light-draco", "KHR_draco_mesh_compression"),
-    ("skater-female-draco", "KHR_draco_mesh_compression"),
-    ("tower-draco", "KHR_draco_mesh_compression"),
-    ("truck-draco", "KHR_draco_mesh_compression"),
-    ("van-draco", "KHR_draco_mesh_compression"),
 ];
 
 /// Files outside of `models` whose pictures show nothing, with the reason.

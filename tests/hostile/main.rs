@@ -11,6 +11,7 @@ mod accessors;
 mod bytes;
 mod case;
 mod document;
+mod draco;
 mod images;
 mod members;
 mod meshopt;
@@ -86,13 +87,14 @@ fn run(folder: &Path) -> Result<Tally, String> {
 
 type Cases = fn() -> Vec<Case>;
 
-fn groups() -> [(&'static str, Cases); 8] {
+fn groups() -> [(&'static str, Cases); 9] {
     [
         ("types", types::cases),
         ("accessors", accessors::cases),
         ("bytes", bytes::cases),
         ("members", members::cases),
         ("meshopt", meshopt::cases),
+        ("draco", draco::cases),
         ("nodes", nodes::cases),
         ("images", images::cases),
         ("text", text::cases),

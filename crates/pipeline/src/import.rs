@@ -19,6 +19,7 @@ mod buffers;
 mod camera;
 mod container;
 mod decode;
+mod draco;
 mod elements;
 mod error;
 mod extensions;

@@ -1,6 +1,7 @@
 //! Attributes of vertices: the formats each may have, and reading those that the picture can do without.
 
 use super::accessor::Source;
+use super::draco::Decoded;
 use super::elements::Elements;
 use super::error::Fault;
 use super::warnings::Warnings;
@@ -68,8 +69,8 @@ pub(super) struct Span {
 pub(super) struct Attributes<'a, 'w> {
     pub(super) source: &'a Source<'a>,
     pub(super) span: Span,
-    /// Whether accessors without bytes have their data elsewhere, so that they are not zeros.
-    pub(super) has_data_elsewhere: bool,
+    /// What the primitive has in a compressed stream. An accessor without bytes then is not zeros.
+    pub(super) decoded: Option<&'a Decoded>,
     pub(super) warnings: &'w mut Warnings,
 }
 
@@ -83,11 +84,17 @@ impl Attributes<'_, '_> {
         read: impl Fn(&Source<'_>, Elements<'_>) -> Result<Vec<T>, Fault>,
     ) -> Result<Option<Vec<T>>, Fault> {
         let Some(accessor) = accessor else { return Ok(None) };
-        if self.has_data_elsewhere && self.source.is_empty(accessor) {
+        let is_absent =
+            |decoded: &Decoded| !decoded.has(accessor) && self.source.is_empty(accessor);
+        if self.decoded.is_some_and(is_absent) {
             return Ok(None);
         }
         let checked = self.source.elements(accessor, pointer).and_then(|elements| {
             format.check(&elements, pointer)?;
+            let elements = match self.decoded {
+                Some(decoded) => decoded.lend(elements),
+                None => elements,
+            };
             let Span { vertices, used } = &self.span;
             if elements.count == *vertices {
                 return read(self.source, elements.only(used.clone()));

@@ -19,6 +19,10 @@ enum Support {
 
 use Support::{Full, Harmless, None as Never, Without};
 
+/// Draco is a feature of this crate that can be left out.
+const DRACO: Support =
+    if cfg!(feature = "draco") { Full } else { Never("data compressed by Draco is not read") };
+
 /// All extensions that are known, by name.
 const KNOWN: [(&str, Support); 36] = [
     ("CESIUM_primitive_outline", Without("the outlines are not drawn")),
@@ -30,7 +34,7 @@ const KNOWN: [(&str, Support); 36] = [
     ("EXT_structural_metadata", Harmless),
     ("EXT_texture_webp", Full),
     ("KHR_animation_pointer", Without("the animations by pointer are left out")),
-    ("KHR_draco_mesh_compression", Never("data compressed by Draco is not read")),
+    ("KHR_draco_mesh_compression", DRACO),
     ("KHR_lights_punctual", Without("the lights of the file are not used")),
     ("KHR_materials_anisotropy", Without("highlights are shown round")),
     ("KHR_materials_clearcoat", Without("surfaces are shown without the coat")),

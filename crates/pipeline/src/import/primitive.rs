@@ -5,11 +5,12 @@
 
 use super::accessor::Source;
 use super::attribute::{Attributes, INDICES, JOINTS, NORMAL, POSITION, Span, WEIGHTS};
+use super::draco::Decoded;
 use super::elements::Elements;
 use super::error::{Fault, FaultKind};
 use super::warnings::Warnings;
-use super::{normals, topology};
-use crate::model::{Mesh, MorphTarget, Primitive};
+use super::{draco, normals, topology};
+use crate::model::{Mesh, MorphTarget, Primitive, Topology};
 use gltf::json;
 use gltf::json::mesh::Semantic;
 use gltf::json::validation::Checked;
@@ -54,38 +55,55 @@ impl<'a> Reader<'a, '_> {
             let pointer = format!("{}/mode", self.pointer);
             return Err(Fault::invalid(&pointer, "the mode is not one of 0 to 6"));
         };
-        let Some(positions) = self.positions()? else { return Ok(Primitive::default()) };
+        let mut decoded = self.decompressed()?;
+        let triangles = decoded.as_mut().map(|decoded| std::mem::take(&mut decoded.indices));
+        let decoded = decoded.as_ref();
+        let Some(positions) = self.positions(decoded)? else { return Ok(Primitive::default()) };
         let vertices = positions.count;
-        let (topology, indices) = topology::list(mode, self.indices(vertices)?);
+        let (topology, indices) = match triangles {
+            Some(triangles) => (Topology::Triangles, triangles),
+            None => topology::list(mode, self.indices(vertices)?),
+        };
         let mut primitive = Primitive { topology, indices, ..Primitive::default() };
         self.drop_lost_vertices(&mut primitive, vertices);
         let used = shift_to_zero(&mut primitive.indices);
         primitive.positions = self.source.floats(&positions.only(used.clone()))?;
         self.drop_lost_places(&mut primitive);
-        self.attributes(&mut primitive, Span { vertices, used })?;
+        self.attributes(&mut primitive, Span { vertices, used }, decoded)?;
         self.mend_normals(&mut primitive);
         primitive.material = self.material();
         Ok(primitive)
     }
 
+    /// What a compressed primitive has in its stream; `None` if there is none, or if it is broken and there is other data.
+    fn decompressed(&mut self) -> Result<Option<Decoded>, Fault> {
+        let positions = self.attribute(Semantic::Positions);
+        let has_other_data = positions.is_some_and(|accessor| !self.source.is_empty(accessor));
+        match draco::decode(self.source, self.json, &self.pointer) {
+            Err(fault) if fault.is_soft() && has_other_data => {
+                self.warnings.soft(&fault, "the uncompressed data is used");
+                Ok(None)
+            }
+            decoded => decoded,
+        }
+    }
+
     /// The positions; `None` if there is nothing to draw.
-    fn positions(&mut self) -> Result<Option<Elements<'a>>, Fault> {
+    fn positions<'e>(&mut self, decoded: Option<&'e Decoded>) -> Result<Option<Elements<'e>>, Fault>
+    where
+        'a: 'e,
+    {
         let Some(accessor) = self.attribute(Semantic::Positions) else {
             self.warnings.add(&self.pointer, "there are no positions; the primitive is left out");
             return Ok(None);
         };
-        if self.is_draco() && self.source.is_empty(accessor) {
-            return Err(Fault::no_data(&self.pointer, "the data is compressed by Draco"));
-        }
         let pointer = format!("{}/attributes/POSITION", self.pointer);
         let elements = self.source.elements(accessor, &pointer)?;
         POSITION.check(&elements, &pointer)?;
-        Ok(Some(elements))
-    }
-
-    fn is_draco(&self) -> bool {
-        let extensions = self.json.extensions.as_ref();
-        extensions.is_some_and(|e| e.others.contains_key("KHR_draco_mesh_compression"))
+        Ok(Some(match decoded {
+            Some(decoded) => decoded.lend(elements),
+            None => elements,
+        }))
     }
 
     /// The vertices in the order in which they are drawn; without indices that of the file.
@@ -130,18 +148,19 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Reads everything about the vertices but their positions.
-    fn attributes(&mut self, primitive: &mut Primitive, span: Span) -> Result<(), Fault> {
+    fn attributes(
+        &mut self,
+        primitive: &mut Primitive,
+        span: Span,
+        decoded: Option<&Decoded>,
+    ) -> Result<(), Fault> {
         let json = self.json;
         let named = |semantic: Semantic| {
             let pointer = format!("{}/attributes/{}", self.pointer, semantic.to_string());
             (json.attributes.get(&Checked::Valid(semantic)).map(json::Index::value), pointer)
         };
-        let mut attributes = Attributes {
-            source: self.source,
-            span,
-            has_data_elsewhere: self.is_draco(),
-            warnings: &mut *self.warnings,
-        };
+        let mut attributes =
+            Attributes { source: self.source, span, decoded, warnings: &mut *self.warnings };
         let (normal, pointer) = named(Semantic::Normals);
         primitive.normals = attributes.read(normal, &pointer, &NORMAL, |s, e| s.floats(&e))?;
         for set in 0..UV_SETS {
