@@ -154,33 +154,33 @@ fn agreement(peer: String, ours: &[[u8; 4]], theirs: &[[u8; 4]]) -> Agreement {
     found
 }
 
-/// The figures beside the limits of the machine.
-pub struct Bounds {
-    /// The instructions that the kernel used.
-    pub level: String,
-    /// The times of `clear`, `kernel`, `kernel, plain loop`, and of our layers.
-    pub series: Vec<Series>,
-}
-
-/// The limits, and beside them in the same rounds the scenes that are held to them.
-pub fn bounds(count: usize) -> Result<Bounds, String> {
+/// The limits, and beside them in the same rounds the scenes that are held to them. The first kernel is called `kernel`, the
+/// others bear the names of their instructions.
+pub fn bounds(count: usize) -> Result<Vec<Series>, String> {
     eprintln!("limits: clearing, the innermost loop, layers");
     let back = layers("back to front, flat", 50, Order::BackToFront, false)?;
     let front = layers("front to back, flat", 50, Order::FrontToBack, false)?;
     let textured = layers("back to front, textured", 50, Order::BackToFront, true)?;
-    let (mut clearing, mut kernel, mut plain) = (Clearing::new(), Kernel::new(), Kernel::new());
-    let level = kernel.level();
-    let mut contestants = vec![
-        Contestant { name: "clear".into(), work: Box::new(|| clearing.run()) },
-        Contestant { name: "kernel".into(), work: Box::new(|| kernel.vectors()) },
-        Contestant { name: "kernel, plain loop".into(), work: Box::new(|| plain.plain()) },
-    ];
+    let mut contestants: Vec<Contestant<'_>> = Vec::new();
+    let mut enter = |name: &str, work| {
+        contestants.push(Contestant { name: name.into(), work });
+    };
+    let (mut memory, mut cache) = (Clearing::new(false), Clearing::new(true));
+    enter("clear", Box::new(move || memory.run()));
+    enter("clear, in the cache", Box::new(move || cache.run()));
+    for (number, mut kernel) in Kernel::all().into_iter().enumerate() {
+        if number == 0 {
+            let mut plain = kernel.clone();
+            enter("kernel, plain loop", Box::new(move || plain.plain()));
+        }
+        let level = if number == 0 { String::new() } else { format!(", {}", kernel.level()) };
+        enter(&format!("kernel{level}"), Box::new(move || kernel.vectors()));
+    }
     for scene in [&back, &front, &textured] {
         let mut ours = Raster::new(scene, Samples::One, 1)?;
-        contestants
-            .push(Contestant { name: scene.name.into(), work: Box::new(move || ours.draw()) });
+        enter(scene.name, Box::new(move || ours.draw()));
     }
-    Ok(Bounds { level, series: rounds(&mut contestants, count) })
+    Ok(rounds(&mut contestants, count))
 }
 
 /// What a second thread brings to a scene.

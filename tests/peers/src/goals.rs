@@ -105,9 +105,9 @@ fn samples(figures: &Figures) -> Vec<Goal> {
 }
 
 fn limits(figures: &Figures) -> Vec<Goal> {
-    let Some(bounds) = &figures.bounds else { return Vec::new() };
+    let Some(series) = &figures.bounds else { return Vec::new() };
     let goal = |a: &str, b: &str, about: &str, wanted, at_least| {
-        let reached = over(&bounds.series, a, b)?;
+        let reached = over(series, a, b)?;
         Some(Goal { about: about.into(), whose: "raster", reached, wanted, at_least })
     };
     [

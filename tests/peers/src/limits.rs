@@ -10,30 +10,38 @@ const TILE: usize = 64 * 64;
 /// How often the kernel fills its tile: as many pixels as fifty layers have.
 pub const KERNEL_PIXELS: usize = 50 * (SIZE.0 * SIZE.1) as usize / TILE * TILE;
 
-/// Colour and depth of a picture, to be cleared.
+/// Pictures between two clearings of the same one: so much memory that no cache holds it.
+const PICTURES: usize = 16;
+
+/// Colour and depth of pictures, to be cleared.
 pub struct Clearing {
-    color: Vec<[u8; 4]>,
-    depth: Vec<f32>,
+    pictures: Vec<(Vec<[u8; 4]>, Vec<f32>)>,
+    next: usize,
 }
 
 impl Clearing {
-    /// Of the size of the scenes' pictures.
-    pub fn new() -> Self {
+    /// Of the size of the scenes' pictures: one that stays in the caches, or many that are cleared by turns.
+    pub fn new(cached: bool) -> Self {
         let area = (SIZE.0 * SIZE.1) as usize;
-        Self { color: vec![[1; 4]; area], depth: vec![1.0; area] }
+        let picture = || (vec![[1; 4]; area], vec![1.0; area]);
+        let count = if cached { 1 } else { PICTURES };
+        Self { pictures: (0..count).map(|_| picture()).collect(), next: 0 }
     }
 
-    /// Clears both.
+    /// Clears colour and depth of one picture.
     pub fn run(&mut self) {
-        self.color.fill(black_box([0; 4]));
-        self.depth.fill(black_box(0.0));
-        black_box((&self.color, &self.depth));
+        let (color, depth) = &mut self.pictures[self.next];
+        color.fill(black_box([0; 4]));
+        depth.fill(black_box(0.0));
+        black_box(&self.pictures);
+        self.next = (self.next + 1) % self.pictures.len();
     }
 }
 
 /// The innermost loop: for each pixel of a tile, interpolate depth, compare, keep the nearer with its number. No edges, no
 /// set-up, no occlusion test, every pixel passes: what no rasteriser that stores depth and number can beat with the same
 /// instructions.
+#[derive(Clone)]
 pub struct Kernel {
     depth: Vec<f32>,
     number: Vec<u32>,
@@ -41,9 +49,20 @@ pub struct Kernel {
 }
 
 impl Kernel {
-    /// With the best instructions there are.
-    pub fn new() -> Self {
-        Self { depth: vec![0.0; TILE], number: vec![0; TILE], level: Level::new() }
+    /// One for each set of vector instructions from AVX2 (or what there is) upwards.
+    pub fn all() -> Vec<Self> {
+        let best = Level::new();
+        let mut levels = vec![best];
+        #[cfg(target_arch = "x86_64")]
+        if let (Some(avx2), true) = (best.as_avx2(), best.as_avx512().is_some()) {
+            levels.insert(0, Level::Avx2(avx2));
+        }
+        levels.into_iter().map(Self::new).collect()
+    }
+
+    /// With these instructions.
+    fn new(level: Level) -> Self {
+        Self { depth: vec![0.0; TILE], number: vec![0; TILE], level }
     }
 
     /// The instructions in use.
@@ -112,7 +131,7 @@ mod tests {
 
     #[test]
     fn the_kernel_keeps_the_nearest() {
-        let mut kernel = Kernel::new();
+        let mut kernel = Kernel::new(Level::new());
         for layer in [4, 2] {
             dispatch!(Level::new(), simd => fill(simd, &mut kernel.depth, &mut kernel.number, layer));
         }

@@ -1,6 +1,6 @@
 //! The report: tables for a terminal, and the same figures as JSON.
 
-use crate::contest::{Bounds, Heat, Threads};
+use crate::contest::{Heat, Threads};
 use crate::files::FileHeat;
 use crate::goals::{Goal, goals};
 use crate::limits::KERNEL_PIXELS;
@@ -15,7 +15,7 @@ pub struct Figures {
     /// The scenes.
     pub scenes: Vec<Heat>,
     /// The limits of the machine.
-    pub bounds: Option<Bounds>,
+    pub bounds: Option<Vec<Series>>,
     /// One thread against two.
     pub threads: Vec<Threads>,
     /// From files to pictures.
@@ -36,13 +36,10 @@ pub fn text(figures: &Figures) -> String {
             );
         }
     }
-    if let Some(bounds) = &figures.bounds {
-        let _ = writeln!(
-            text,
-            "\nlimits, with {} (fifty layers are {KERNEL_PIXELS} pixels)",
-            bounds.level
-        );
-        table(&mut text, &bounds.series, ["clear", "kernel"]);
+    if let Some(series) = &figures.bounds {
+        let _ =
+            writeln!(text, "\nlimits: fifty layers, and the kernel, are {KERNEL_PIXELS} pixels");
+        table(&mut text, series, ["clear", "kernel"]);
     }
     for heat in &figures.files {
         let _ = writeln!(text, "\n{}: file to PNG, CPU time of the process", heat.model);
@@ -139,10 +136,7 @@ pub fn to_json(figures: &Figures) -> Value {
     json!({
         "llvmpipe": figures.llvmpipe,
         "scenes": scenes.collect::<Value>(),
-        "limits": figures.bounds.as_ref().map(|bounds| json!({
-            "instructions": bounds.level,
-            "contestants": contestants(&bounds.series, &["clear", "kernel"]),
-        })),
+        "limits": figures.bounds.as_ref().map(|series| contestants(series, &["clear", "kernel"])),
         "threads": threads.collect::<Value>(),
         "files": files.collect::<Value>(),
         "goals": goals.collect::<Value>(),
