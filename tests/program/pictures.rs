@@ -111,7 +111,7 @@ fn every_view_style_and_projection_shows_something() {
 }
 
 #[test]
-fn the_floor_is_whole_from_the_horizon_down_with_the_eye_just_above_it() {
+fn c36_the_floor_is_whole_from_the_horizon_down_with_the_eye_just_above_it() {
     let bench = Bench::new("floor");
     bench.bring("floor.glb");
     for height in [0.1, 0.01, 0.001] {

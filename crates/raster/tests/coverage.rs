@@ -139,7 +139,7 @@ fn the_nearer_wins_and_at_equal_depth_the_first() {
 }
 
 #[test]
-fn depth_is_that_of_the_plane_and_weights_that_of_the_projection() {
+fn c31_depth_is_that_of_the_plane_and_weights_that_of_the_projection() {
     // Corners at different distances: in the middle of the screen the nearer corner counts for less than half of the edge.
     let corner = |x: f64, y: f64, w: f64| {
         ScreenVertex::snap(Point::new(x, y, 1.0 / w), w).expect("within the grid")
