@@ -10,7 +10,7 @@ use std::path::Path;
 pub fn check(folder: &Path, rows: &[Row], known: bool, failures: &mut Vec<String>) -> usize {
     let mut agreed = 0;
     for row in rows.iter().filter(|row| row.group() == "models") {
-        let Some(expected) = row.scene_triangles else { continue };
+        let Some(expected) = expected::triangles(row) else { continue };
         let Ok(model) = load(&folder.join(&row.path), &ImportOptions::default()) else { continue };
         let found = shown(&model);
         if found == expected || known && expected::refusal(row).is_some() {
@@ -24,7 +24,7 @@ pub fn check(folder: &Path, rows: &[Row], known: bool, failures: &mut Vec<String
 }
 
 fn shown(model: &Model) -> usize {
-    let meshes = model.instances().into_iter().filter_map(|at| model.nodes[at.node].mesh);
+    let meshes = model.shown_meshes().filter_map(|at| model.nodes[at.node].mesh);
     let primitives = meshes.flat_map(|mesh| &model.meshes[mesh].primitives);
     primitives.filter(|p| p.topology == Topology::Triangles).map(Primitive::count).sum()
 }

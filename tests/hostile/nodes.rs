@@ -17,7 +17,62 @@ pub fn cases() -> Vec<Case> {
     cases.extend(sizes());
     cases.extend(transforms());
     cases.extend(scenes());
+    cases.extend(places());
     cases
+}
+
+/// A mesh with many places, whose accessors are wrong, or far too long.
+fn places() -> Vec<Case> {
+    let case = |name: &str, attributes: Value, count: u64, expected: Expected| {
+        let mut document = Document::triangle();
+        let numbers = super::document::floats(&[1.0, 2.0, f32::NAN, 0.0, 0.0, 0.0]);
+        document.accessor(&numbers, json!({"componentType": 5126, "type": "VEC3", "count": 2}));
+        let zeros = |shape: &str| json!({"componentType": 5126, "type": shape, "count": count});
+        let accessors =
+            document.json["accessors"].as_array_mut().expect("the document has accessors");
+        accessors.extend([zeros("VEC3"), zeros("VEC4")]);
+        let node = json!([{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": attributes}}}]);
+        Case::of(format!("places: {name}"), &document.with("/nodes", node), expected)
+    };
+    let warns =
+        |text: &str| Expected::Warns(format!("/nodes/0/extensions/EXT_mesh_gpu_instancing{text}"));
+    vec![
+        case("zeros", json!({"TRANSLATION": 3}), 100, Expected::LoadsClean),
+        case("none", json!({}), 100, Expected::LoadsClean),
+        case(
+            "no rotations",
+            json!({"ROTATION": 4}),
+            100,
+            warns(" places are no finite ones; they are left out (places: 100)"),
+        ),
+        case(
+            "not a number",
+            json!({"TRANSLATION": 2}),
+            1,
+            warns(" places are no finite ones; they are left out (places: 1)"),
+        ),
+        case(
+            "unequal",
+            json!({"TRANSLATION": 2, "SCALE": 3}),
+            5,
+            warns(
+                "/attributes the attributes have not equally many elements; the mesh is shown once",
+            ),
+        ),
+        case(
+            "another shape",
+            json!({"TRANSLATION": 4}),
+            5,
+            warns(
+                "/attributes/TRANSLATION must be VEC3 of component type 5126, not VEC4 of 5126; the mesh is shown once",
+            ),
+        ),
+        case("no accessor", json!({"TRANSLATION": 99}), 5, Expected::Warned),
+        case("no index", json!({"TRANSLATION": "x"}), 5, Expected::Warned),
+        case("no object", json!(7), 5, Expected::Warned),
+        case("many", json!({"TRANSLATION": 3}), 100_000_000, Expected::Refused),
+        case("too many for numbers", json!({"SCALE": 3}), u64::MAX, Expected::Refused),
+    ]
 }
 
 /// Nodes that name what they should not.

@@ -30,6 +30,9 @@ pub fn check(model: &Model) -> Result<(), String> {
     }
     for instance in model.instances() {
         must(instance.node_to_model.is_finite(), "a place is not finite")?;
+    }
+    for instance in model.shown_meshes() {
+        must(instance.node_to_model.is_finite(), "a place of many is not finite")?;
         let mesh = model.nodes[instance.node].mesh.map(|mesh| &model.meshes[mesh]);
         for primitive in mesh.iter().flat_map(|mesh| &mesh.primitives) {
             check_posed(model, instance, primitive)?;

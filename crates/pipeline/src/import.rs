@@ -24,6 +24,7 @@ mod elements;
 mod error;
 mod extensions;
 mod image;
+mod instancing;
 mod json;
 mod limits;
 mod material;
@@ -119,6 +120,7 @@ fn build(
     };
     drop_lost_references(&mut model, &usable);
     material::warn_of_missing_texcoords(&model, warnings);
+    instancing::read(source, &mut model.nodes, warnings)?;
     scene::check_items(&model, source.limits)?;
     let shown = shown_meshes(&model);
     let Model { meshes, materials, textures, .. } = &model;

@@ -64,6 +64,8 @@ pub struct Node {
     pub children: Vec<usize>,
     /// The mesh that is shown here.
     pub mesh: Option<usize>,
+    /// Where the mesh is shown, in the node's own coordinates, if not once and just here.
+    pub places: Option<Vec<Affine<ModelSpace, ModelSpace>>>,
     /// How much of each morph target of the mesh is shown here, if not as much as the mesh says.
     pub weights: Option<Vec<f32>>,
     /// The skin that bends the mesh.

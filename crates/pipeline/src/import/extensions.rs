@@ -27,7 +27,7 @@ const DRACO: Support =
 const KNOWN: [(&str, Support); 36] = [
     ("CESIUM_primitive_outline", Without("the outlines are not drawn")),
     ("EXT_mesh_features", Harmless),
-    ("EXT_mesh_gpu_instancing", Never("instances in accessors are not read")),
+    ("EXT_mesh_gpu_instancing", Full),
     ("EXT_mesh_manifold", Harmless),
     ("EXT_mesh_primitive_edge_visibility", Without("the edges are found from the shape")),
     ("EXT_meshopt_compression", Full),

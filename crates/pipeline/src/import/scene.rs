@@ -47,6 +47,7 @@ fn node(document: &Document, at: usize, warnings: &mut Warnings) -> Result<Node,
         parent: None,
         children,
         mesh,
+        places: None,
         weights: json.weights.clone(),
         skin,
         camera,
@@ -173,7 +174,8 @@ fn is_shown_once(
 }
 
 /// Counts what the shown scene draws, each item as often as it is drawn, and refuses more than the limit. A primitive
-/// counts as one item more, so that many empty ones are not free; for skinned meshes vertices and joints count as well.
+/// counts as one item more, so that many empty ones are not free; for skinned meshes vertices and joints count as well,
+/// and for meshes with many places vertices.
 pub(super) fn check_items(model: &Model, limits: &Limits) -> Result<(), Fault> {
     let sum = |count: fn(&Primitive) -> usize| -> Vec<u64> {
         let of_mesh = |mesh: &Mesh| mesh.primitives.iter().map(|p| count(p) as u64 + 1).sum();
@@ -187,7 +189,13 @@ pub(super) fn check_items(model: &Model, limits: &Limits) -> Result<(), Fault> {
         let parts = model.meshes[mesh].primitives.len() as u64;
         let bending =
             joints.map_or(0, |joints| vertices[mesh].saturating_add(joints.saturating_mul(parts)));
-        total = total.saturating_add(items[mesh]).saturating_add(bending);
+        let shown = match &model.nodes[node].places {
+            Some(places) => {
+                items[mesh].saturating_add(vertices[mesh]).saturating_mul(places.len() as u64)
+            }
+            None => items[mesh],
+        };
+        total = total.saturating_add(shown).saturating_add(bending);
     }
     if total <= limits.scene_items {
         return Ok(());

@@ -1,4 +1,4 @@
-//! Instances: the meshes and cameras of the shown scene, each with its place in the model.
+//! Instances: the nodes of the shown scene, each with its place in the model.
 
 use super::Model;
 use homog::{Affine, Model as ModelSpace};
@@ -27,6 +27,20 @@ impl Model {
             found.push(instance);
         }
         found
+    }
+
+    /// The instances of nodes with meshes, one for each time that a mesh is shown.
+    pub fn shown_meshes(&self) -> impl Iterator<Item = Instance> {
+        let meshes = self.instances().into_iter().filter(|at| self.nodes[at.node].mesh.is_some());
+        meshes.flat_map(|here| {
+            let places = self.nodes[here.node].places.as_deref();
+            let once = places.is_none().then_some(here);
+            let often = places.unwrap_or(&[]).iter();
+            once.into_iter().chain(often.map(move |place| Instance {
+                node_to_model: place.then(here.node_to_model),
+                ..here
+            }))
+        })
     }
 
     fn instance(&self, node: usize, above: Affine<ModelSpace, ModelSpace>) -> Instance {

@@ -153,6 +153,7 @@ mod tests {
             parent: None,
             children: Vec::new(),
             mesh: None,
+            places: None,
             weights: None,
             skin: None,
             camera: None,

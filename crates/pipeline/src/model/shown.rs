@@ -6,7 +6,7 @@ use homog::{Bounds, Model as ModelSpace, Point};
 impl Model {
     /// The primitives of the shown scene, as often as they are shown, each with its place.
     pub fn shown_primitives(&self) -> impl Iterator<Item = (Instance, &Primitive)> {
-        self.instances().into_iter().flat_map(|instance| {
+        self.shown_meshes().flat_map(|instance| {
             let mesh = self.nodes[instance.node].mesh;
             let primitives = mesh.map_or(&[][..], |mesh| self.meshes[mesh].primitives.as_slice());
             primitives.iter().map(move |primitive| (instance, primitive))
