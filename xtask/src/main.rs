@@ -5,6 +5,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program speaks to its person")]
 #![allow(unreachable_pub, reason = "in a program `pub` means: used by another file")]
 
+mod bench;
 mod conformance;
 mod determinism;
 mod gallery;
@@ -71,6 +72,12 @@ const COMMANDS: &[Command] = &[
         arguments: "[--calls N] [--seed S] [NAME…]",
         about: "Millions of random calls: nothing panics, finite numbers give finite ones",
         run: soak::run,
+    },
+    Command {
+        name: "bench",
+        arguments: "[NAME…]",
+        about: "Bulk forms against plain loops, as ratios",
+        run: bench::run,
     },
     Command {
         name: "models",

@@ -1,0 +1,100 @@
+//! How fast what is used in bulk is, against plain loops over glam's matrices.
+//!
+//! `cargo xtask bench [NAME…]` runs it optimised; names choose benchmarks by a part of theirs. Every
+//! benchmark does one job in several ways. The ways take turns, and what is printed is the time of each
+//! as a multiple of the first one's in the same turn: the median of all turns, and between which bounds
+//! eight turns in ten lay. A machine that is busy or slow slows all ways alike. Nothing is judged.
+
+#![allow(clippy::print_stdout, reason = "a program speaks on its standard output")]
+#![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
+
+mod measure;
+mod outcodes;
+mod points;
+mod scene;
+mod triangles;
+
+use measure::Way;
+use std::process::ExitCode;
+
+/// A job, and the ways to do it: the first is the measure of the others.
+struct Benchmark {
+    name: &'static str,
+    about: &'static str,
+    ways: fn() -> Vec<Way>,
+}
+
+const BENCHMARKS: &[Benchmark] = &[
+    Benchmark {
+        name: "points/cached",
+        about: "100,000 points to clip space, a thousand of them a hundred times",
+        ways: points::to_clip_cached,
+    },
+    Benchmark {
+        name: "points/uncached",
+        about: "100,000 points to clip space, each from main memory",
+        ways: points::to_clip_uncached,
+    },
+    Benchmark {
+        name: "affine/cached",
+        about: "100,000 points to world space, a thousand of them a hundred times",
+        ways: points::to_world_cached,
+    },
+    Benchmark {
+        name: "affine/uncached",
+        about: "100,000 points to world space, each from main memory",
+        ways: points::to_world_uncached,
+    },
+    Benchmark {
+        name: "outcodes/cached",
+        about: "the outcodes of 100,000 points, a thousand of them a hundred times",
+        ways: outcodes::cached,
+    },
+    Benchmark {
+        name: "outcodes/uncached",
+        about: "the outcodes of 100,000 points, each from main memory",
+        ways: outcodes::uncached,
+    },
+    Benchmark {
+        name: "project/cached",
+        about: "100,000 positions in f32 to clip space with outcodes, a thousand a hundred times",
+        ways: outcodes::project_cached,
+    },
+    Benchmark {
+        name: "project/uncached",
+        about: "100,000 positions in f32 to clip space with outcodes, each from main memory",
+        ways: outcodes::project_uncached,
+    },
+    Benchmark {
+        name: "triangles/visible",
+        about: "100,000 triangles of a floor, nine in ten of them wholly visible",
+        ways: triangles::mostly_visible,
+    },
+    Benchmark {
+        name: "triangles/cut",
+        about: "100,000 triangles, all of them cut by at least one plane",
+        ways: triangles::all_cut,
+    },
+];
+
+fn main() -> ExitCode {
+    let names: Vec<String> =
+        std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
+    let chosen = |benchmark: &&Benchmark| {
+        names.is_empty() || names.iter().any(|part| benchmark.name.contains(part.as_str()))
+    };
+    let mut count = 0;
+    for Benchmark { name, about, ways } in BENCHMARKS.iter().filter(chosen) {
+        println!("{name}: {about}");
+        for line in measure::compared(ways()) {
+            println!("{line}");
+        }
+        count += 1;
+    }
+    if count > 0 {
+        return ExitCode::SUCCESS;
+    }
+    let all: Vec<&str> = BENCHMARKS.iter().map(|benchmark| benchmark.name).collect();
+    println!("no such benchmark; there are {}", all.join(", "));
+    ExitCode::from(2)
+}

@@ -1,0 +1,73 @@
+//! What the benchmarks work on: points before a camera, as many as are asked for, always the same.
+
+use glam::{DMat4, DVec4};
+use homog::{Affine, Clip, Model, Point, Projective, Vector, World};
+
+/// How many points or triangles a way deals with in one turn.
+pub const COUNT: usize = 100_000;
+
+/// The points of a turn, as blocks to go through: one small block again and again, which stays in the
+/// nearest cache, or one large block, a different one each turn, which has long left all caches.
+#[derive(Clone, Copy)]
+pub enum Blocks {
+    Cached,
+    Uncached,
+}
+
+/// Before a block of 100,000 points is gone through again, 12 turns of every way have gone through more
+/// than 60 MB each.
+const LARGE_BLOCKS: usize = 12;
+const SMALL: usize = 1_000;
+
+impl Blocks {
+    /// How many items there are in all.
+    pub fn total(self) -> usize {
+        match self {
+            Self::Cached => SMALL,
+            Self::Uncached => LARGE_BLOCKS * COUNT,
+        }
+    }
+
+    /// Calls `each` with the ranges of one turn.
+    pub fn each(self, turn: usize, mut each: impl FnMut(std::ops::Range<usize>)) {
+        match self {
+            Self::Cached => (0..COUNT / SMALL).for_each(|_| each(0..SMALL)),
+            Self::Uncached => {
+                let start = turn % LARGE_BLOCKS * COUNT;
+                each(start..start + COUNT);
+            }
+        }
+    }
+}
+
+/// The i-th coordinate of a sequence without pattern, from −1 to 1.
+pub fn coordinate(i: usize) -> f64 {
+    let golden = (i as f64 * 0.618_033_988_749_894_9).fract();
+    golden * 2.0 - 1.0
+}
+
+/// The i-th point of a cube before the camera, of which a corner or two are out of sight.
+pub fn position(i: usize) -> [f64; 3] {
+    [coordinate(3 * i), coordinate(5 * i + 1), coordinate(7 * i + 2)]
+}
+
+/// Turned, scaled and moved: no entry is 0 or 1 by luck.
+pub fn model_to_world() -> Affine<Model, World> {
+    Affine::<Model, Model>::rotation_x(0.3)
+        .then(Affine::<Model, Model>::rotation_y(0.7))
+        .then(Affine::<Model, Model>::scale(1.1, 0.9, 1.2))
+        .then(Affine::translation(Vector::new(0.1, -0.2, -4.0)))
+}
+
+/// The cube as a camera at the origin sees it, in the chapter's canonical volume.
+pub fn model_to_clip() -> Projective<Model, Clip> {
+    let (near, far) = (0.5, 20.0);
+    let depth = DVec4::new(0.0, 0.0, (far + near) / (far - near), -1.0);
+    let offset = DVec4::new(0.0, 0.0, 2.0 * far * near / (far - near), 0.0);
+    let lens = DMat4::from_cols(DVec4::X * 2.2, DVec4::Y * 2.4, depth, offset);
+    model_to_world().then_project(Projective::<World, Clip>::from_raw(lens))
+}
+
+pub fn model_points(count: usize) -> Vec<Point<Model>> {
+    (0..count).map(|i| Point::from(position(i))).collect()
+}

@@ -1,0 +1,137 @@
+//! Clipping triangles of meshes.
+
+use crate::measure::Way;
+use crate::scene::{COUNT, coordinate};
+use clip::{Outcode, Volume, clip_triangle};
+use glam::DVec4;
+use homog::{Clip, HPoint};
+use std::hint::black_box;
+
+/// Projected points and the triangles between them, three indices each.
+struct Mesh {
+    points: Vec<HPoint<Clip>>,
+    triangles: Vec<[usize; 3]>,
+}
+
+impl Mesh {
+    fn corners(&self, triangle: [usize; 3]) -> [HPoint<Clip>; 3] {
+        triangle.map(|i| self.points[i])
+    }
+}
+
+/// A square of 2 × 224 × 224 triangles, of which the rim of the picture cuts or hides one in ten.
+fn floor() -> Mesh {
+    const SIDE: usize = 224;
+    let at = |i: usize| (i as f64 / SIDE as f64 * 2.0 - 1.0) * 1.05;
+    let point = |i: usize, j: usize| {
+        let w = 4.0 + at(j);
+        HPoint::new(at(i) * w, at(j) * w, 0.5 * w * coordinate(i * 7 + j), w)
+    };
+    let points = (0..=SIDE).flat_map(|j| (0..=SIDE).map(move |i| (i, j)));
+    let points = points.map(|(i, j)| point(i, j)).collect();
+    let index = |i: usize, j: usize| j * (SIDE + 1) + i;
+    let cells = (0..SIDE).flat_map(|j| (0..SIDE).map(move |i| (i, j)));
+    let halves = cells.flat_map(|(i, j)| {
+        let [a, b, c, d] = [index(i, j), index(i + 1, j), index(i + 1, j + 1), index(i, j + 1)];
+        [[a, b, c], [a, c, d]]
+    });
+    let mut triangles: Vec<_> = halves.collect();
+    triangles.truncate(COUNT);
+    Mesh { points, triangles }
+}
+
+/// Triangles around the border of the picture.
+fn border() -> Mesh {
+    let point = |i: usize| {
+        let out = if i.is_multiple_of(3) { 1.5 } else { 0.8 };
+        let along = coordinate(11 * i);
+        let [x, y] = if (i / 3).is_multiple_of(2) { [out, along] } else { [along, out] };
+        let w = 3.0 + coordinate(i);
+        HPoint::new(x * w, y * w, 0.3 * w, w)
+    };
+    let points = (0..3 * COUNT).map(point).collect();
+    Mesh { points, triangles: (0..COUNT).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect() }
+}
+
+/// Sutherland and Hodgman's loop as a textbook has it: all six planes, one after the other, no weights
+/// and no regard to which way a shared edge runs.
+fn textbook(triangle: [DVec4; 3], polygon: &mut Polygon) {
+    polygon.corners[..3].copy_from_slice(&triangle);
+    polygon.count = 3;
+    for plane in PLANES {
+        let whole = *polygon;
+        polygon.count = 0;
+        for i in 0..whole.count {
+            let (start, end) = (whole.corners[i], whole.corners[(i + 1) % whole.count]);
+            let (from, to) = (plane.dot(start), plane.dot(end));
+            if from >= 0.0 {
+                polygon.push(start);
+            }
+            if (from >= 0.0) != (to >= 0.0) {
+                polygon.push(start + (end - start) * (from / (from - to)));
+            }
+        }
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Polygon {
+    corners: [DVec4; 9],
+    count: usize,
+}
+
+impl Polygon {
+    fn push(&mut self, corner: DVec4) {
+        self.corners[self.count] = corner;
+        self.count += 1;
+    }
+}
+
+const PLANES: [DVec4; 6] = [
+    DVec4::new(1.0, 0.0, 0.0, 1.0),
+    DVec4::new(-1.0, 0.0, 0.0, 1.0),
+    DVec4::new(0.0, 1.0, 0.0, 1.0),
+    DVec4::new(0.0, -1.0, 0.0, 1.0),
+    DVec4::new(0.0, 0.0, 1.0, 1.0),
+    DVec4::new(0.0, 0.0, -1.0, 1.0),
+];
+
+pub fn mostly_visible() -> Vec<Way> {
+    ways(floor)
+}
+
+pub fn all_cut() -> Vec<Way> {
+    ways(border)
+}
+
+fn ways(mesh: fn() -> Mesh) -> Vec<Way> {
+    let plain = mesh();
+    let mut polygon = Polygon { corners: [DVec4::ZERO; 9], count: 0 };
+    let by_textbook = Way::new("plain loop of the textbook's six planes", move || {
+        for &triangle in black_box(&plain.triangles) {
+            textbook(plain.corners(triangle).map(HPoint::raw), &mut polygon);
+            black_box(&mut polygon);
+        }
+    });
+    let each = mesh();
+    let clip_each = Way::new("clip_triangle of each, with weights", move || {
+        for &triangle in black_box(&each.triangles) {
+            black_box(clip_triangle(each.corners(triangle), &Volume::CHAPTER).vertices());
+        }
+    });
+    let sorted = mesh();
+    let mut codes = vec![Outcode::INSIDE; sorted.points.len()];
+    let by_outcodes = Way::new("Volume::outcodes, then clip_triangle where needed", move || {
+        black_box(Volume::CHAPTER.outcodes(black_box(&sorted.points), &mut codes));
+        for &triangle in &sorted.triangles {
+            let of_corners = triangle.map(|i| codes[i]);
+            let corners = sorted.corners(triangle);
+            if Outcode::accepts(&of_corners) {
+                black_box(corners);
+            } else if Outcode::rejects(&of_corners).is_inside() {
+                black_box(clip_triangle(corners, &Volume::CHAPTER).vertices());
+            }
+        }
+    });
+    vec![by_textbook, clip_each, by_outcodes]
+}
