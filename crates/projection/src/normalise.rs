@@ -109,12 +109,12 @@ impl Frustum {
 
     /// Shear and scale to the canonical frustum of the slides: sides x, y = ±D, far at distance 1.
     ///
-    /// `None` if there is no far plane.
+    /// `None` if there is no far plane, or the window is too narrow for the scale to be a number.
     #[must_use]
     pub fn view_to_canonical_frustum(self, convention: Convention) -> Option<Affine<View, View>> {
         let shrink = 1.0 / self.far();
         let factors = self.factors(convention);
         let whole = factors.shear.then(factors.scale).then(Affine::scale(shrink, shrink, shrink));
-        self.far().is_finite().then_some(whole)
+        (self.far().is_finite() && whole.is_finite()).then_some(whole)
     }
 }

@@ -37,9 +37,9 @@ impl Window {
         Self { left, right, bottom, top }.check()
     }
 
-    /// Refuses edges too far apart, or beyond the numbers themselves.
+    /// Refuses edges too far apart, or so near to each other that rounding made them one.
     pub(crate) fn check(self) -> Result<Self, ProjectionError> {
-        let usable = self.width().is_finite() && self.height().is_finite();
+        let usable = [self.width(), self.height()].iter().all(|d| d.is_finite() && *d != 0.0);
         usable.then_some(self).ok_or(ProjectionError::Unrepresentable { what: "window" })
     }
 
