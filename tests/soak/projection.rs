@@ -8,9 +8,9 @@ use projection::{
     ApexMovedFrustum, Axonometric, Classical, ConstructedPerspective, Convention, Decomposed,
     DepthCurve, DepthFormat, Film, FourAngles, Fov, Frustum, Handedness, Jitter, Misprint, NPoint,
     NdcY, Oblique, Orthographic, Perspective, Planometric, PrincipalView, ProjectionError,
-    Projector, Tile, ViewVolume, Wanted, Window, api, chapter, decompose, misprint_of,
-    oblique_near_plane, opening_angle_of, principal_vanishing_points, readings, symptoms,
-    third_row, vanishing_point,
+    Projector, Tile, VanishingPoint, ViewVolume, Wanted, Window, api, chapter, decompose,
+    misprint_of, oblique_near_plane, opening_angle_of, principal_vanishing_points, readings,
+    symptoms, third_row, vanishing_point,
 };
 
 pub const SUBJECTS: &[Subject] = &[
@@ -158,7 +158,7 @@ pub const SUBJECTS: &[Subject] = &[
     }),
     ("projection::principal_vanishing_points", |r| {
         let found = principal_vanishing_points(r.projective::<View, Clip>()).ok()?;
-        Some(found.axes.map(|axis| axis.point()).finite())
+        Some(found.axes.map(VanishingPoint::point).finite())
     }),
     ("projection::ViewVolume", |r| {
         let (frustum, c) = (any_frustum(r)?, convention(r));

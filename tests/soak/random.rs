@@ -4,6 +4,7 @@
 
 use glam::{DMat3, DMat4, DVec3, DVec4};
 use homog::{Affine, HPoint, Normal, Plane, Point, Projective, Space, Vector};
+use std::f64::consts::PI;
 
 /// Which sorts of numbers a call draws. Were each number of every sort, calls with six of them would
 /// hardly ever be accepted.
@@ -143,7 +144,7 @@ impl Random {
     /// Mostly between 0 and π.
     pub fn opening(&mut self) -> f64 {
         let number = self.number();
-        if self.below(8) == 0 { number } else { self.instead(number.abs() % 3.141_592) }
+        if self.below(8) == 0 { number } else { self.instead(number.abs() % PI) }
     }
 
     /// Mostly between 0 and 1.
