@@ -8,6 +8,7 @@
 #![allow(missing_docs, unreachable_pub, reason = "the modules of a program have no other outside")]
 
 mod accessors;
+mod animations;
 mod bytes;
 mod case;
 mod document;
@@ -87,10 +88,11 @@ fn run(folder: &Path) -> Result<Tally, String> {
 
 type Cases = fn() -> Vec<Case>;
 
-fn groups() -> [(&'static str, Cases); 9] {
+fn groups() -> [(&'static str, Cases); 10] {
     [
         ("types", types::cases),
         ("accessors", accessors::cases),
+        ("animations", animations::cases),
         ("bytes", bytes::cases),
         ("members", members::cases),
         ("meshopt", meshopt::cases),

@@ -28,6 +28,19 @@ pub fn check(model: &Model) -> Result<(), String> {
         let texels = u64::from(image.width) * u64::from(image.height);
         must(texels > 0 && image.rgba.len() as u64 == texels, "an image is incomplete")?;
     }
+    check_places(model)?;
+    for animation in 0..model.animations.len().min(2) {
+        let mut posed = model.clone();
+        for seconds in [-1.0, 0.0, 0.7, f64::INFINITY, f64::NAN] {
+            posed.pose(animation, seconds);
+            check_places(&posed).map_err(|e| format!("animation {animation}, {seconds} s: {e}"))?;
+        }
+    }
+    Ok(())
+}
+
+/// Every place of the scene, and the vertices there.
+fn check_places(model: &Model) -> Result<(), String> {
     for instance in model.instances() {
         must(instance.node_to_model.is_finite(), "a place is not finite")?;
     }

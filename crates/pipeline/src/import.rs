@@ -108,13 +108,13 @@ fn build(
     let (cameras, usable) = camera::cameras(root, warnings);
     let mut model = Model {
         roots: scene::roots(document, &nodes, warnings)?,
+        animations: animation::animations(source, &nodes, warnings)?,
         nodes,
         materials: material::materials(root, warnings),
         textures: texture::textures(root, warnings),
         cameras,
         skins: skin::skins(source, warnings)?,
         meshes: primitive::meshes(source, warnings)?,
-        animations: animation::summaries(source, warnings)?,
         extensions_used: sorted(&root.extensions_used),
         ..Model::default()
     };

@@ -3,17 +3,21 @@
 //! The importer makes it and promises what the fields say; nobody after the importer looks at a glTF file again.
 //! Positions stay in the mesh's own coordinates; the node tree places them.
 
+mod animation;
 mod image;
 mod instance;
 mod material;
 mod mesh;
+mod parts;
 mod posed;
 mod shown;
 
+pub use animation::{Animation, Channel, Curve, Interpolation, Property};
 pub use image::{Filter, Image, Mipmap, Sampler, Texture, Wrap};
 pub use instance::Instance;
 pub use material::{AlphaMode, Material, TextureUse};
 pub use mesh::{Mesh, MorphTarget, Primitive, Topology};
+pub use parts::Parts;
 pub use posed::Posed;
 
 use homog::{Affine, Model as ModelSpace};
@@ -41,8 +45,8 @@ pub struct Model {
     /// The cameras, as numbered in the file; one whose numbers make no view has a usual lens instead, and no node
     /// names it.
     pub cameras: Vec<Lens>,
-    /// What the file says of its animations.
-    pub animations: Vec<AnimationSummary>,
+    /// The animations, as numbered in the file; channels that cannot be used are left out.
+    pub animations: Vec<Animation>,
     /// The extensions the file uses, sorted by name.
     pub extensions_used: Vec<String>,
     /// Soft faults: what was wrong or left out, and where.
@@ -56,6 +60,8 @@ pub struct Node {
     pub name: Option<String>,
     /// The node's transform: from its own coordinates to its parent's (the model's, for a root).
     pub to_parent: Affine<ModelSpace, ModelSpace>,
+    /// The parts of that transform, which animations change; `None` if the file gives it as a matrix.
+    pub parts: Option<Parts>,
     /// From the node's own coordinates to the model's: the product of the transforms from here up, all of them finite.
     pub to_model: Affine<ModelSpace, ModelSpace>,
     /// The node above it; `None` for a root.
@@ -117,17 +123,6 @@ pub enum LensKind {
         /// The distance of the far plane, > near.
         far: f64,
     },
-}
-
-/// What there is to say of an animation without playing it.
-#[derive(Clone, PartialEq, Debug)]
-pub struct AnimationSummary {
-    /// The name in the file, if it has one.
-    pub name: Option<String>,
-    /// The number of channels.
-    pub channels: usize,
-    /// The time of the last key frame in seconds.
-    pub duration_seconds: f64,
 }
 
 /// A soft fault of a file: the model is shown all the same.

@@ -93,9 +93,9 @@ fn cameras(model: &Model) -> String {
 }
 
 fn animations(model: &Model) -> String {
-    let describe = |animation: &pipeline::model::AnimationSummary| {
+    let describe = |animation: &pipeline::model::Animation| {
         let name = animation.name.as_deref().unwrap_or("unnamed");
-        let (channels, seconds) = (animation.channels, animation.duration_seconds);
+        let (channels, seconds) = (animation.channels.len(), animation.duration_seconds);
         format!("{name}: {channels} channels, {seconds:.3} s")
     };
     or_none(&model.animations.iter().map(describe).collect::<Vec<_>>())

@@ -5,7 +5,7 @@ use super::progress::Progress;
 use super::{Failure, complain};
 use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::{
-    BackgroundFile, CameraChoice, ProjectionFile, SceneFile, StyleFile, ViewFile,
+    AnimationChoice, BackgroundFile, CameraChoice, ProjectionFile, SceneFile, StyleFile, ViewFile,
 };
 use pipeline::{Origin, Scene, render};
 use std::path::{Path, PathBuf};
@@ -71,6 +71,14 @@ fn override_with(file: &mut SceneFile, args: &RenderArgs) {
             StyleArg::Flat => StyleFile::Flat,
             StyleArg::Wireframe => StyleFile::Wireframe,
         };
+    }
+    let animation = args.animation.as_ref().map(|animation| {
+        let by_name = |_| AnimationChoice::Name(animation.clone());
+        animation.parse().map_or_else(by_name, AnimationChoice::Index)
+    });
+    for model in &mut file.models {
+        model.animation = animation.clone().or(model.animation.take());
+        model.time = args.time.or(model.time);
     }
     if let Some(camera) = &args.camera {
         let by_name = || CameraChoice::Name(camera.clone());

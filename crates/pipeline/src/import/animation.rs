@@ -1,42 +1,148 @@
-//! Animations: what can be said of them without playing them.
+//! Animations: key times and values become curves. A channel that cannot be used is left out with a warning.
 
 use super::accessor::Source;
+use super::attribute::{Format, KEYS, PLACE, TURN};
 use super::error::Fault;
 use super::warnings::Warnings;
-use crate::model::AnimationSummary;
+use crate::model::{Animation, Channel, Curve, Interpolation, Node, Property};
+use gltf::json;
 use gltf::json::accessor::{ComponentType, Type};
+use gltf::json::animation::{Interpolation as JsonInterpolation, Property as JsonProperty};
+use gltf::json::validation::Checked;
 
-/// Summaries of all animations of a file.
-pub(super) fn summaries(
+/// Reads all animations of a file.
+pub(super) fn animations(
     source: &Source<'_>,
+    nodes: &[Node],
     warnings: &mut Warnings,
-) -> Result<Vec<AnimationSummary>, Fault> {
-    let mut summaries = Vec::with_capacity(source.root.animations.len());
+) -> Result<Vec<Animation>, Fault> {
+    let mut animations = Vec::with_capacity(source.root.animations.len());
     for (at, json) in source.root.animations.iter().enumerate() {
-        let mut duration_seconds = 0.0f64;
-        for (sampler, json) in json.samplers.iter().enumerate() {
-            let pointer = format!("/animations/{at}/samplers/{sampler}/input");
-            match last_time(source, json.input.value(), &pointer) {
-                Ok(time) => duration_seconds = duration_seconds.max(time),
+        let mut channels = Vec::with_capacity(json.channels.len());
+        for (number, channel) in json.channels.iter().enumerate() {
+            let pointer = format!("/animations/{at}/channels/{number}");
+            let reader = Reader { source, nodes, samplers: &json.samplers, animation: at };
+            match reader.channel(channel, &pointer) {
+                Ok(channel) => channels.push(channel),
                 Err(fault) if fault.is_soft() => {
-                    warnings.soft(&fault, "the animation's duration does not count it");
+                    warnings.soft(&fault, "the channel is left out");
                 }
                 Err(fault) => return Err(fault),
             }
         }
-        let channels = json.channels.len();
-        summaries.push(AnimationSummary { name: json.name.clone(), channels, duration_seconds });
+        let ends = channels.iter().filter_map(|channel| channel.curve.times.last());
+        let duration_seconds = ends.map(|&time| f64::from(time)).fold(0.0, f64::max);
+        animations.push(Animation { name: json.name.clone(), channels, duration_seconds });
     }
-    Ok(summaries)
+    Ok(animations)
 }
 
-/// The last key frame of a sampler. The times themselves are read: `max` is only what the file claims.
-fn last_time(source: &Source<'_>, accessor: usize, pointer: &str) -> Result<f64, Fault> {
-    let elements = source.elements(accessor, pointer)?;
-    if (elements.shape, elements.component) != (Type::Scalar, ComponentType::F32) {
-        return Err(Fault::invalid(pointer, "the times must be SCALAR of floats"));
+struct Reader<'a> {
+    source: &'a Source<'a>,
+    nodes: &'a [Node],
+    samplers: &'a [json::animation::Sampler],
+    animation: usize,
+}
+
+impl Reader<'_> {
+    fn channel(&self, json: &json::animation::Channel, pointer: &str) -> Result<Channel, Fault> {
+        let node = json.target.node.value();
+        let Some(target) = self.nodes.get(node) else {
+            let pointer = format!("{pointer}/target/node");
+            return Err(Fault::unresolved(&pointer, "node", node, self.nodes.len()));
+        };
+        let property = match json.target.path {
+            Checked::Valid(JsonProperty::Translation) => Property::Translation,
+            Checked::Valid(JsonProperty::Rotation) => Property::Rotation,
+            Checked::Valid(JsonProperty::Scale) => Property::Scale,
+            Checked::Valid(JsonProperty::MorphTargetWeights) => Property::Weights,
+            Checked::Invalid => {
+                let pointer = format!("{pointer}/target/path");
+                return Err(Fault::invalid(&pointer, "the path is not known"));
+            }
+        };
+        if property != Property::Weights && target.parts.is_none() {
+            let problem = format!("node {node} has a matrix, which cannot be animated");
+            return Err(Fault::invalid(&format!("{pointer}/target/node"), problem));
+        }
+        let sampler = json.sampler.value();
+        let Some(json) = self.samplers.get(sampler) else {
+            let pointer = format!("{pointer}/sampler");
+            return Err(Fault::unresolved(&pointer, "sampler", sampler, self.samplers.len()));
+        };
+        let pointer = format!("/animations/{}/samplers/{sampler}", self.animation);
+        Ok(Channel { node, property, curve: self.curve(json, property, &pointer)? })
     }
-    let times = source.floats::<1>(&elements)?;
-    let finite = times.iter().map(|&[time]| f64::from(time)).filter(|time| time.is_finite());
-    Ok(finite.fold(0.0, f64::max))
+
+    fn curve(
+        &self,
+        json: &json::animation::Sampler,
+        property: Property,
+        pointer: &str,
+    ) -> Result<Curve, Fault> {
+        let interpolation = match json.interpolation {
+            Checked::Valid(JsonInterpolation::Linear) => Interpolation::Linear,
+            Checked::Valid(JsonInterpolation::Step) => Interpolation::Step,
+            Checked::Valid(JsonInterpolation::CubicSpline) => Interpolation::CubicSpline,
+            Checked::Invalid => {
+                let pointer = format!("{pointer}/interpolation");
+                return Err(Fault::invalid(&pointer, "the interpolation is not known"));
+            }
+        };
+        let times = self.times(json.input.value(), &format!("{pointer}/input"))?;
+        let (accessor, pointer) = (json.output.value(), format!("{pointer}/output"));
+        let values = match property {
+            Property::Translation | Property::Scale => {
+                self.values::<3>(accessor, &PLACE, &pointer)?
+            }
+            Property::Rotation => self.values::<4>(accessor, &TURN, &pointer)?,
+            Property::Weights => self.values::<1>(accessor, &KEYS, &pointer)?,
+        };
+        let rows = if interpolation == Interpolation::CubicSpline { 3 } else { 1 } * times.len();
+        let width = match property {
+            Property::Translation | Property::Scale => 3,
+            Property::Rotation => 4,
+            Property::Weights => values.len() / rows,
+        };
+        if values.len() != rows * width || width == 0 {
+            let problem = format!(
+                "{} numbers are not enough, or too many, for {} keys",
+                values.len(),
+                times.len()
+            );
+            return Err(Fault::invalid(&pointer, problem));
+        }
+        Ok(Curve { interpolation, times, values, width })
+    }
+
+    /// The times of the keys: at least one, finite, rising.
+    fn times(&self, accessor: usize, pointer: &str) -> Result<Vec<f32>, Fault> {
+        let elements = self.source.elements(accessor, pointer)?;
+        if (elements.shape, elements.component) != (Type::Scalar, ComponentType::F32) {
+            return Err(Fault::invalid(pointer, "the times must be SCALAR of floats"));
+        }
+        let times = self.source.floats::<1>(&elements)?.into_flattened();
+        let rise = times.windows(2).all(|pair| pair[0] < pair[1]);
+        if times.is_empty() || !rise || times.iter().any(|time| !time.is_finite()) {
+            return Err(Fault::invalid(pointer, "the times are not finite numbers that rise"));
+        }
+        Ok(times)
+    }
+
+    fn values<const N: usize>(
+        &self,
+        accessor: usize,
+        format: &Format,
+        pointer: &str,
+    ) -> Result<Vec<f32>, Fault> {
+        let mut elements = self.source.elements(accessor, pointer)?;
+        format.check(&elements, pointer)?;
+        // Integers are normalised even if the file forgot to say so: there is no other way to read them.
+        elements.normalized = true;
+        let values = self.source.floats::<N>(&elements)?.into_flattened();
+        if values.iter().all(|value| value.is_finite()) {
+            return Ok(values);
+        }
+        Err(Fault::invalid(pointer, "a value is not a finite number"))
+    }
 }

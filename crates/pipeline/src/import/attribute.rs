@@ -9,7 +9,7 @@ use gltf::json::accessor::ComponentType::{self, F32, I8, I16, U8, U16, U32};
 use gltf::json::accessor::Type;
 use std::ops::Range;
 
-/// The formats an attribute of vertices or instances may have, those of KHR_mesh_quantization among them.
+/// The formats an attribute of vertices or instances, or the values of an animation, may have, those of KHR_mesh_quantization among them.
 pub(super) struct Format {
     shapes: &'static [Type],
     components: &'static [ComponentType],
@@ -26,7 +26,10 @@ pub(super) const COLOR: Format =
 pub(super) const JOINTS: Format = Format { shapes: &[Type::Vec4], components: &[U8, U16] };
 pub(super) const WEIGHTS: Format = Format { shapes: &[Type::Vec4], components: &[F32, U8, U16] };
 pub(super) const PLACE: Format = Format { shapes: &[Type::Vec3], components: &[F32] };
-pub(super) const TURN: Format = Format { shapes: &[Type::Vec4], components: &[F32, I8, I16] };
+pub(super) const TURN: Format =
+    Format { shapes: &[Type::Vec4], components: &[F32, I8, U8, I16, U16] };
+pub(super) const KEYS: Format =
+    Format { shapes: &[Type::Scalar], components: &[F32, I8, U8, I16, U16] };
 
 impl Format {
     pub(super) fn check(&self, elements: &Elements<'_>, pointer: &str) -> Result<(), Fault> {

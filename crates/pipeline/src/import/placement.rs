@@ -1,8 +1,9 @@
 //! The transforms of nodes, in the double precision that JSON has.
 
 use super::error::Fault;
-use glam::{DMat4, DVec3, DVec4};
-use homog::{Affine, Model, Vector};
+use crate::model::Parts;
+use glam::{DMat4, DVec4};
+use homog::{Affine, Model};
 use serde_json::{Map, Value};
 
 /// A node's own transform, as the file gives it; every number is finite.
@@ -11,7 +12,7 @@ pub(super) enum Placement {
     /// A matrix, column by column.
     Matrix([f64; 16]),
     /// Scale, then rotate, then move.
-    Parts { translation: [f64; 3], rotation: [f64; 4], scale: [f64; 3] },
+    Parts(Parts),
 }
 
 impl Placement {
@@ -32,12 +33,20 @@ impl Placement {
         let scale = numbers(node, at, "scale")?;
         Ok(match matrix {
             Some(matrix) => Self::Matrix(matrix),
-            None => Self::Parts {
-                translation: translation.unwrap_or([0.0; 3]),
-                rotation: rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]),
-                scale: scale.unwrap_or([1.0; 3]),
-            },
+            None => Self::Parts(Parts {
+                translation: translation.unwrap_or(Parts::default().translation),
+                rotation: rotation.unwrap_or(Parts::default().rotation),
+                scale: scale.unwrap_or(Parts::default().scale),
+            }),
         })
+    }
+
+    /// The parts, if it is given in parts.
+    pub(super) fn parts(&self) -> Option<Parts> {
+        match self {
+            Self::Matrix(_) => None,
+            Self::Parts(parts) => Some(*parts),
+        }
     }
 
     /// The transform as a map, or why there is none.
@@ -48,14 +57,10 @@ impl Placement {
                 let problem = format!("the last row of the matrix is {row:?} and not [0, 0, 0, 1]");
                 Fault::invalid(&format!("{pointer}/matrix"), problem)
             }),
-            Self::Parts { translation: t, rotation, scale: s } => {
-                let turn = Affine::<Model, Model>::from_quaternion(*rotation).ok_or_else(|| {
-                    let problem = format!("{rotation:?} is not a rotation");
-                    Fault::invalid(&format!("{pointer}/rotation"), problem)
-                })?;
-                let shift = Affine::translation(Vector::from_raw(DVec3::from_array(*t)));
-                Ok(Affine::<Model, Model>::scale(s[0], s[1], s[2]).then(turn).then(shift))
-            }
+            Self::Parts(parts) => parts.to_parent().ok_or_else(|| {
+                let problem = format!("{:?} is not a rotation", parts.rotation);
+                Fault::invalid(&format!("{pointer}/rotation"), problem)
+            }),
         }
     }
 }

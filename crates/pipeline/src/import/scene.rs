@@ -3,8 +3,9 @@
 use super::error::Fault;
 use super::json::Document;
 use super::limits::Limits;
+use super::placement::Placement;
 use super::warnings::Warnings;
-use crate::model::{Instance, Mesh, Model, Node, Primitive};
+use crate::model::{Instance, Mesh, Model, Node, Parts, Primitive};
 use gltf::json::Index;
 use homog::Affine;
 
@@ -43,6 +44,7 @@ fn node(document: &Document, at: usize, warnings: &mut Warnings) -> Result<Node,
     Ok(Node {
         name: json.name.clone(),
         to_parent,
+        parts: placement.map_or(Some(Parts::default()), Placement::parts),
         to_model: to_parent,
         parent: None,
         children,

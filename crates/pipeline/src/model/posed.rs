@@ -149,6 +149,7 @@ mod tests {
         Node {
             name: None,
             to_parent: to_model,
+            parts: None,
             to_model,
             parent: None,
             children: Vec::new(),

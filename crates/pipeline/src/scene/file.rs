@@ -3,7 +3,8 @@
 //! These types say what a scene file may contain and nothing of what it means; [`Scene::resolve`](super::Scene::resolve) does that. Every
 //! field but the models' paths may be left out. Unknown fields are errors, so that a slip of the pen is found.
 
-use super::number::{FieldOfView, Finite, NonNegative, Positive, Scale, Triple};
+pub use super::number::Finite;
+use super::number::{FieldOfView, NonNegative, Positive, Scale, Triple};
 use camera::NamedView;
 use serde::Deserialize;
 
@@ -41,6 +42,19 @@ pub struct ModelFile {
     /// One factor for all axes, or one for each.
     #[serde(default)]
     pub scale: Scale,
+    /// The animation that poses the model. Default: the first, if there is a `time`; else none.
+    pub animation: Option<AnimationChoice>,
+    /// The time of the animation in seconds. Default: 0, if there is an `animation`.
+    pub time: Option<Finite>,
+}
+
+/// Which animation of a model.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug, Deserialize)]
+pub enum AnimationChoice {
+    /// By its place in the file, from 0.
+    Index(usize),
+    /// By its name.
+    Name(String),
 }
 
 /// The camera: where it is, and how it projects.
@@ -291,6 +305,8 @@ impl SceneFile {
             translate: Triple::default(),
             rotate_degrees: Triple::default(),
             scale: Scale::default(),
+            animation: None,
+            time: None,
         };
         Self {
             models: vec![model],

@@ -1,7 +1,8 @@
 //! From what a person wrote to what drawing needs, or to an error that points.
 
-use super::file::{BackgroundFile, LightFile, ModelFile, StyleFile};
+use super::file::{AnimationChoice, BackgroundFile, Finite, LightFile, ModelFile, StyleFile};
 use super::locate::Step::{Field, Index};
+use super::parse::suggestion;
 use super::viewpoint::resolve_shot;
 use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile, Style};
 use crate::color::parse_hex;
@@ -83,31 +84,78 @@ fn load_models(
         let help = Some("add one: models: [(path: \"…\")]".to_owned());
         return Err(origin.fault(&[Field("models")], "a scene needs a model", help).into());
     }
-    let mut loaded: BTreeMap<PathBuf, Arc<Model>> = BTreeMap::new();
+    // Models in one pose are shared; a model in two poses is two models.
+    type Pose = (PathBuf, Option<AnimationChoice>, Option<u64>);
+    let mut loaded: BTreeMap<Pose, Arc<Model>> = BTreeMap::new();
     let mut models = Vec::new();
     for (number, entry) in file.models.iter().enumerate() {
-        let at = [Field("models"), Index(number), Field("path")];
-        if !options.allow_outside && leaves_folder(Path::new(&entry.path)) {
-            let help = "keep models below the scene's folder, or allow others with --allow-outside";
-            let message = format!("the path \"{}\" leads out of the scene's folder", entry.path);
-            return Err(origin.fault(&at, message, Some(help.to_owned())).into());
-        }
         let path = origin.folder.join(&entry.path);
-        let model = if let Some(model) = loaded.get(&path) {
+        let time = entry.time.map(|time| time.value().to_bits());
+        let pose = (path, entry.animation.clone(), time);
+        let model = if let Some(model) = loaded.get(&pose) {
             Arc::clone(model)
         } else {
-            let model =
-                load(&path, &options.import).map_err(|error| match origin.text.as_str() {
-                    "" => ResolveError::from(error),
-                    _ => origin.fault(&at, error.to_string(), None).into(),
-                })?;
-            let model = Arc::new(model);
-            loaded.insert(path, Arc::clone(&model));
+            let model = Arc::new(load_model(origin, number, entry, options)?);
+            loaded.insert(pose, Arc::clone(&model));
             model
         };
         models.push(Placed { model, model_to_world: placement(entry) });
     }
     Ok(models)
+}
+
+/// Loads a model and poses it.
+fn load_model(
+    origin: &Origin,
+    number: usize,
+    entry: &ModelFile,
+    options: &ResolveOptions,
+) -> Result<Model, ResolveError> {
+    let at = |field| [Field("models"), Index(number), Field(field)];
+    if !options.allow_outside && leaves_folder(Path::new(&entry.path)) {
+        let help = "keep models below the scene's folder, or allow others with --allow-outside";
+        let message = format!("the path \"{}\" leads out of the scene's folder", entry.path);
+        return Err(origin.fault(&at("path"), message, Some(help.to_owned())).into());
+    }
+    let loaded = load(&origin.folder.join(&entry.path), &options.import);
+    let mut model = loaded.map_err(|error| match origin.text.as_str() {
+        "" => ResolveError::from(error),
+        _ => origin.fault(&at("path"), error.to_string(), None).into(),
+    })?;
+    if entry.animation.is_some() || entry.time.is_some() {
+        let field = if entry.animation.is_some() { "animation" } else { "time" };
+        let fault = |(message, help)| origin.fault(&at(field), message, help);
+        let animation = chosen_animation(&model, entry.animation.as_ref()).map_err(fault)?;
+        model.pose(animation, entry.time.map_or(0.0, Finite::value));
+    }
+    Ok(model)
+}
+
+/// The number of the animation that is wanted, or the first; else what is wrong and what to do.
+fn chosen_animation(
+    model: &Model,
+    choice: Option<&AnimationChoice>,
+) -> Result<usize, (String, Option<String>)> {
+    let count = model.animations.len();
+    if count == 0 {
+        return Err((format!("the model {} has no animation", model.name), None));
+    }
+    let named = |wanted: &str| {
+        model.animations.iter().position(|animation| animation.name.as_deref() == Some(wanted))
+    };
+    let (found, wanted) = match choice {
+        None => return Ok(0),
+        Some(AnimationChoice::Index(index)) => {
+            ((*index < count).then_some(*index), index.to_string())
+        }
+        Some(AnimationChoice::Name(name)) => (named(name), name.clone()),
+    };
+    found.ok_or_else(|| {
+        let names = model.animations.iter().filter_map(|animation| animation.name.clone());
+        let names: Vec<String> = names.chain((0..count).map(|at| at.to_string())).collect();
+        let message = format!("the model {} has no animation `{wanted}`", model.name);
+        (message, suggestion(&wanted, &names))
+    })
 }
 
 fn leaves_folder(path: &Path) -> bool {

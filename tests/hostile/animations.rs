@@ -1,0 +1,99 @@
+//! Animations whose keys and values are wrong.
+
+use crate::case::{Case, Expected};
+use crate::document::{Document, floats};
+use serde_json::{Value, json};
+
+/// A node that moves, turns, grows and morphs, each in its own way.
+fn moving() -> Document {
+    let mut document = Document::rich();
+    let scalars = |count: usize| json!({"componentType": 5126, "type": "SCALAR", "count": count});
+    let times = document.accessor(&floats(&[0.5, 1.0]), scalars(2));
+    let weights = document.accessor(&floats(&[0.0, 0.0, 1.0, 0.0, 1.0, 0.0]), scalars(6));
+    let vec3 = json!({"componentType": 5126, "type": "VEC3", "count": 2});
+    let scales = document.accessor(&floats(&[1.0, 1.0, 1.0, 2.0, 2.0, 2.0]), vec3);
+    let vec4 = json!({"componentType": 5122, "type": "VEC4", "count": 2, "normalized": true});
+    let turns = [[0, 0, 0, 32_767i16], [0, 23_170, 0, 23_170]];
+    let turns: Vec<u8> = turns.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
+    let rotations = document.accessor(&turns, vec4);
+    document.json["animations"] = json!([{
+    "samplers": [
+        {"input": times, "output": scales},
+        {"input": times, "output": rotations, "interpolation": "LINEAR"},
+        {"input": times, "output": weights, "interpolation": "CUBICSPLINE"},
+        {"input": times, "output": scales, "interpolation": "STEP"},
+    ],
+    "channels": [
+        {"sampler": 0, "target": {"node": 1, "path": "translation"}},
+        {"sampler": 1, "target": {"node": 1, "path": "rotation"}},
+        {"sampler": 2, "target": {"node": 0, "path": "weights"}},
+        {"sampler": 3, "target": {"node": 1, "path": "scale"}},
+    ]}]);
+    document
+}
+
+pub fn cases() -> Vec<Case> {
+    let whole = moving();
+    let mut cases = vec![Case::of("animation: whole", &whole, Expected::LoadsClean)];
+    let accessors = whole.json["accessors"].as_array().map_or(0, Vec::len);
+    // Every word of times and values replaced by numbers that are none, or too large.
+    for accessor in accessors - 4..accessors {
+        let view = whole.json["accessors"][accessor]["bufferView"].as_u64().unwrap_or(0);
+        let view = &whole.json["bufferViews"][view as usize];
+        let number = |key: &str| view[key].as_u64().unwrap_or(0) as usize;
+        let (start, length) = (number("byteOffset"), number("byteLength"));
+        for at in (start..start + length).step_by(4) {
+            for wrong in [f32::NAN, f32::INFINITY, f32::MAX, f32::MIN, -1.0, 0.0, 1e-45] {
+                let mut document = whole.clone();
+                document.bytes[at..at + 4].copy_from_slice(&wrong.to_le_bytes());
+                let name = format!("animation: accessor {accessor}, byte {at} is {wrong}");
+                cases.push(Case::of(name, &document, Expected::Loads));
+            }
+        }
+    }
+    cases.extend(members(&whole));
+    let warns = |text: &str| Expected::Warns(text.to_owned());
+    let matrix = "/animations/0/channels/0/target/node node 2 has a matrix, which cannot be animated; \
+                  the channel is left out";
+    let node = whole.clone().with("/animations/0/channels/0/target/node", json!(2));
+    cases.push(Case::of("animation: of a matrix", &node, warns(matrix)));
+    let few = "/animations/0/samplers/0/output 6 numbers are not enough, or too many, for 2 keys; \
+               the channel is left out";
+    let cubic = whole.with("/animations/0/samplers/0/interpolation", json!("CUBICSPLINE"));
+    cases.push(Case::of("animation: too few values", &cubic, warns(few)));
+    cases
+}
+
+/// Every member replaced by one that is wrong.
+fn members(whole: &Document) -> Vec<Case> {
+    let wrong: [Value; 10] = [
+        json!(0),
+        json!(1),
+        json!(2),
+        json!(99),
+        json!("STEP"),
+        json!("CUBICSPLINE"),
+        json!("weights"),
+        json!("scale"),
+        json!("rotation"),
+        json!([]),
+    ];
+    let mut cases = Vec::new();
+    for sampler in 0..4 {
+        for member in ["input", "output", "interpolation"] {
+            for wrong in &wrong {
+                let place = format!("/animations/0/samplers/{sampler}/{member}");
+                let document = whole.clone().with(&place, wrong.clone());
+                cases.push(Case::of(format!("{place} is {wrong}"), &document, Expected::Anything));
+            }
+        }
+        for member in ["sampler", "target/node", "target/path"] {
+            for wrong in &wrong {
+                let place = format!("/animations/0/channels/{sampler}/{member}");
+                let document = whole.clone().with(&place, wrong.clone());
+                cases.push(Case::of(format!("{place} is {wrong}"), &document, Expected::Anything));
+            }
+        }
+    }
+    cases
+}
