@@ -75,8 +75,8 @@ const COMMANDS: &[Command] = &[
     },
     Command {
         name: "bench",
-        arguments: "[NAME…]",
-        about: "Bulk forms against plain loops, as ratios",
+        arguments: "[maths|raster] [NAME…] | --instructions",
+        about: "How fast it is, as ratios to others; or how many instructions it takes",
         run: bench::run,
     },
     Command {

@@ -47,6 +47,11 @@ impl Program {
         Ok(Self { path: folder.join(profile).join(name) })
     }
 
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Draws a scene, or says what the program said.
     pub fn render(&self, scene: &Path, picture: &Path, flags: &[&str]) -> Result<(), String> {
         succeed(

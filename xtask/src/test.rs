@@ -2,8 +2,8 @@
 //!
 //! A step is a name and what it runs. The integration tests of `tests/` are steps of their own, one
 //! for each `[[test]]` of its manifest, so that `cargo xtask test vectors` runs just that one, with
-//! its environment (`VECTORS=DIR`, `ASSETS=DIR`) passed through. All steps but the last build with
-//! one profile and one set of features, so that nothing is compiled twice. A line that begins with
+//! its environment (`VECTORS=DIR`, `ASSETS=DIR`) passed through. All steps but the last two build
+//! with one profile and one set of features, so that nothing is compiled twice. A line that begins with
 //! `SKIPPED` in what a step prints is repeated at the end.
 
 mod no_std;
@@ -86,6 +86,12 @@ fn steps() -> Result<Vec<Step>, String> {
     steps.push(Step::own("determinism", "debug and release draw the same bytes, twice", || {
         crate::determinism::run(&[])
     }));
+    // As a command of its own, so that what it has to skip is repeated at the end.
+    steps.push(Step::cargo(
+        "instructions",
+        "fixed pieces of work take no more instructions than is stored",
+        &["xtask bench --instructions"],
+    ));
     Ok(steps)
 }
 

@@ -105,7 +105,7 @@ fn peers<'a>(
 ) -> Result<Vec<Box<dyn Peer + 'a>>, String> {
     let mut peers: Vec<Box<dyn Peer + 'a>> = vec![
         Box::new(Raster::new(scene, Samples::One, 1)?),
-        Box::new(Render::new(scene, Samples::One, 1)),
+        Box::new(Render::new(scene, Samples::One, 1)?),
     ];
     if let Some(gl) = gl {
         peers.push(Box::new(Llvmpipe::new(gl, scene, 1)?));
@@ -117,7 +117,7 @@ fn peers<'a>(
     peers.push(Box::new(Raster::new(scene, Samples::One, 1)?.baseline()));
     if WITH_SAMPLES.contains(&scene.name) {
         peers.push(Box::new(Raster::new(scene, Samples::Four, 1)?));
-        peers.push(Box::new(Render::new(scene, Samples::Four, 1)));
+        peers.push(Box::new(Render::new(scene, Samples::Four, 1)?));
         if let Some(gl) = gl {
             peers.push(Box::new(Llvmpipe::new(gl, scene, 4)?));
         }
@@ -132,7 +132,7 @@ pub fn repeat(name: &str, frames: usize, whole: bool, samples: u32) -> Result<()
     let scene = make(name)?;
     let samples = Samples::from_count(samples).ok_or("1, 4, 8 or 16 samples")?;
     let mut peer: Box<dyn Peer + '_> = if whole {
-        Box::new(Render::new(&scene, samples, 1))
+        Box::new(Render::new(&scene, samples, 1)?)
     } else {
         Box::new(Raster::new(&scene, samples, 1)?)
     };
@@ -212,7 +212,7 @@ pub fn threads(options: &Options) -> Result<Vec<Threads>, String> {
         let render = |threads| Render::new(&scene, Samples::One, threads);
         let rounds = options.rounds;
         found.push(two_threads("raster", &scene, [&mut raster(1)?, &mut raster(2)?], rounds));
-        found.push(two_threads("render", &scene, [&mut render(1), &mut render(2)], rounds));
+        found.push(two_threads("render", &scene, [&mut render(1)?, &mut render(2)?], rounds));
     }
     Ok(found)
 }

@@ -6,8 +6,9 @@
 use super::Peer;
 use crate::scene::{AMBIENT, Part, SIZE, Scene, TOWARDS_LIGHT, Texture};
 use homog::Affine;
+use pipeline::import::{ImportOptions, load};
 use pipeline::model::{
-    Image, Material, Mesh, Mipmap, Model, Node, Primitive, Sampler, Texture as Used, TextureUse,
+    Image, Material, Mesh, Mipmap, Model, Primitive, Sampler, Texture as Used, TextureUse,
 };
 use pipeline::render::Shot;
 use pipeline::scene::{ImageSpec, Placed, Style};
@@ -15,6 +16,7 @@ use pipeline::shade::Light;
 use projection::Convention;
 use raster::Samples;
 use std::f32::consts::PI;
+use std::path::Path;
 use std::sync::Arc;
 
 /// The pipeline with a scene.
@@ -26,12 +28,12 @@ pub struct Render {
 
 impl Render {
     /// With `samples` for each pixel and so many threads.
-    pub fn new(scene: &Scene, samples: Samples, threads: usize) -> Self {
+    pub fn new(scene: &Scene, samples: Samples, threads: usize) -> Result<Self, String> {
         let lux = |share: f32| [share * PI; 3];
         let (width, height) = SIZE;
         let scene = pipeline::Scene {
             models: vec![Placed {
-                model: Arc::new(model(scene)),
+                model: Arc::new(model(scene)?),
                 model_to_world: Affine::IDENTITY,
             }],
             shot: Shot {
@@ -45,7 +47,7 @@ impl Render {
             style: Style::Shaded,
             image: ImageSpec { width, height, background: [0.0; 4], samples },
         };
-        Self { scene, threads, pixels: Vec::new() }
+        Ok(Self { scene, threads, pixels: Vec::new() })
     }
 }
 
@@ -69,35 +71,29 @@ impl Peer for Render {
 }
 
 /// The scene as the importer would have read it: one node, one mesh, a primitive for each part.
-fn model(scene: &Scene) -> Model {
+fn model(scene: &Scene) -> Result<Model, String> {
+    let one_node = one_node()?;
     let numbered = || scene.parts.iter().enumerate();
     let mesh = Mesh {
         primitives: numbered().map(|(number, part)| primitive(scene, part, number)).collect(),
         ..Mesh::default()
     };
-    let node = Node {
-        name: None,
-        to_parent: Affine::IDENTITY,
-        to_model: Affine::IDENTITY,
-        parent: None,
-        children: Vec::new(),
-        mesh: Some(0),
-        weights: None,
-        skin: None,
-        camera: None,
-    };
     // As the peers read textures: no mip maps.
     let sampler = Sampler { mipmap: Mipmap::None, ..Sampler::default() };
     let count = scene.textures.len();
-    Model {
+    Ok(Model {
         meshes: vec![mesh],
         materials: scene.parts.iter().map(material).collect(),
         textures: (0..count).map(|image| Used { image: Some(image), sampler }).collect(),
         images: scene.textures.iter().map(|texture| Some(image(texture))).collect(),
-        nodes: vec![node],
-        roots: vec![0],
-        ..Model::default()
-    }
+        ..one_node
+    })
+}
+
+/// A model with one node that shows mesh 0 where it is: what the importer makes of the plainest file there is.
+fn one_node() -> Result<Model, String> {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("node.gltf");
+    load(&file, &ImportOptions::default()).map_err(|error| error.to_string())
 }
 
 /// The part with the vertices it uses, renumbered.

@@ -1,0 +1,248 @@
+//! `cargo xtask bench --instructions`: how many instructions small fixed pieces of work take.
+//!
+//! Times wander; instructions counted by callgrind do not: the same program counts the same to the
+//! last one. Valgrind shows every program the same plain processor with AVX2, whatever wider
+//! instructions the real one has. `tests/bench/instructions.txt` holds the counts with the reason
+//! of their last change; one that has risen by more than 3 % fails until it is stored with a reason:
+//!
+//! ```text
+//! cargo xtask bench --instructions --update teapot --reason "teapots have lids now"
+//! ```
+
+mod figures;
+
+use crate::Outcome;
+use crate::program::{Build, Program, cargo, output, succeed};
+use crate::workspace::{make_folder, root, target};
+use figures::{Figure, Figures};
+use std::path::PathBuf;
+use std::process::Command;
+
+/// A rise beyond this share fails, and a fall beyond it is worth storing.
+const TOLERANCE: f64 = 0.03;
+
+/// Scenes that the program draws, small, with one thread: smooth shading, clipping and textures,
+/// translucency.
+const SCENES: [&str; 3] = ["teapot", "floor", "panes"];
+
+/// What the crate `raster` does alone, with one and with four samples for each pixel: the arguments of
+/// `tests/bench/workload.rs`.
+const SAMPLES: [(&str, &str); 2] = [("raster-1", "1"), ("raster-4", "4")];
+
+pub fn run(arguments: &[String]) -> Outcome {
+    let request = Request::read(arguments)?;
+    if let Some(reason) = missing() {
+        println!("SKIPPED instructions: {reason}");
+        return Ok(());
+    }
+    let (mut figures, compiler) = (Figures::read()?, compiler()?);
+    let other = !figures.compiler.is_empty() && figures.compiler != compiler;
+    let counted_by =
+        format!("the stored counts are those of {}, and this is {compiler}", figures.compiler);
+    match request {
+        Request::Compare if other => println!("SKIPPED instructions: {counted_by}"),
+        Request::Compare => judge(&count_all()?, &figures)?,
+        Request::Update { names: Names::These(_), .. } if other => {
+            return Err(format!("{counted_by}: update all of them"));
+        }
+        Request::Update { names, reason } => {
+            let counts = count_all()?;
+            figures.compiler = compiler;
+            for Count { name, instructions } in counts.iter().filter(|c| names.takes(&c.name)) {
+                figures.set(name, *instructions, &reason);
+            }
+            figures.write()?;
+            judge(&counts, &figures)?;
+        }
+    }
+    Ok(())
+}
+
+/// Name and number of the compiler, without its date: another one makes other instructions.
+fn compiler() -> Result<String, String> {
+    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let version = output(Command::new(rustc).arg("--version").current_dir(root()))?;
+    Ok(version.split_whitespace().take(2).collect::<Vec<_>>().join(" "))
+}
+
+/// Why nothing can be counted here.
+fn missing() -> Option<&'static str> {
+    let valgrind = Command::new("valgrind").arg("--version").output();
+    if !valgrind.is_ok_and(|output| output.status.success()) {
+        return Some("valgrind is not installed");
+    }
+    (!has_avx2()).then_some("the counts are those of a processor with AVX2, and this one has none")
+}
+
+#[cfg(target_arch = "x86_64")]
+fn has_avx2() -> bool {
+    std::is_x86_feature_detected!("avx2")
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+fn has_avx2() -> bool {
+    false
+}
+
+/// What the person asks for.
+enum Request {
+    Compare,
+    Update { names: Names, reason: String },
+}
+
+/// Which figures are to be stored.
+enum Names {
+    All,
+    These(Vec<String>),
+}
+
+impl Names {
+    fn takes(&self, name: &str) -> bool {
+        match self {
+            Self::All => true,
+            Self::These(names) => names.iter().any(|known| known == name),
+        }
+    }
+}
+
+impl Request {
+    fn read(arguments: &[String]) -> Result<Self, String> {
+        const USAGE: &str = "--instructions [--update NAME…|all --reason \"…\"]";
+        let Some((first, rest)) = arguments.split_first() else { return Ok(Self::Compare) };
+        let at = rest.iter().position(|word| word == "--reason");
+        let (Some(at), "--update") = (at, first.as_str()) else { return Err(USAGE.into()) };
+        let (names, reason) = (&rest[..at], rest[at + 1..].join(" "));
+        if names.is_empty() || reason.trim().is_empty() || reason.contains('\n') {
+            return Err(USAGE.into());
+        }
+        if let Some(strange) = names.iter().find(|name| *name != "all" && !is_known(name)) {
+            return Err(format!(
+                "there is no figure `{strange}`; these are: {}",
+                known().join(", ")
+            ));
+        }
+        let all = names.iter().any(|name| name == "all");
+        let names = if all { Names::All } else { Names::These(names.to_vec()) };
+        Ok(Self::Update { names, reason: reason.trim().to_owned() })
+    }
+}
+
+/// The names of all figures.
+fn known() -> Vec<&'static str> {
+    SCENES.into_iter().chain(SAMPLES.map(|(name, _)| name)).collect()
+}
+
+fn is_known(name: &str) -> bool {
+    known().contains(&name)
+}
+
+/// A piece of work and what it took.
+struct Count {
+    name: String,
+    instructions: u64,
+}
+
+fn count_all() -> Result<Vec<Count>, String> {
+    let program = Program::built(Build::Release)?;
+    let example = ["--package", "alberti-tests", "--example", "workload"];
+    succeed(cargo(&["build", "--quiet", "--release"]).args(example))?;
+    let workload = target().join("release/examples/workload");
+    make_folder(&target().join("bench"))?;
+    let picture = target().join("bench/instructions.png");
+    let scene = |name: &str| {
+        let mut command = Command::new(program.path());
+        command.arg("render").arg(format!("scenes/{name}.ron")).arg("-o").arg(&picture);
+        command.args(["--size", "320x240", "--threads", "1"]);
+        count(name, &command)
+    };
+    let alone = |(name, samples): (&str, &str)| count(name, Command::new(&workload).arg(samples));
+    SCENES.into_iter().map(scene).chain(SAMPLES.into_iter().map(alone)).collect()
+}
+
+/// Runs a command under callgrind, without an environment that could change the count.
+fn count(name: &str, command: &Command) -> Result<Count, String> {
+    let profile = profile(name);
+    let mut valgrind = Command::new("valgrind");
+    valgrind.arg("--tool=callgrind").arg(format!("--callgrind-out-file={}", profile.display()));
+    valgrind.arg(command.get_program()).args(command.get_args());
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    output(valgrind.current_dir(root()).env_clear().env("PATH", path))?;
+    let text = crate::workspace::read(&profile)?;
+    let total = text.lines().find_map(|line| line.strip_prefix("summary: "));
+    let total = total.and_then(|total| total.split_whitespace().next()?.parse().ok());
+    let instructions = total.ok_or_else(|| format!("{}: no summary", profile.display()))?;
+    Ok(Count { name: name.to_owned(), instructions })
+}
+
+/// Where callgrind leaves what it found, for `callgrind_annotate` and the like.
+fn profile(name: &str) -> PathBuf {
+    target().join("bench").join(format!("{name}.callgrind"))
+}
+
+/// Compares counts with the stored figures and prints both.
+fn judge(counts: &[Count], figures: &Figures) -> Outcome {
+    let mut faults = Vec::new();
+    for Count { name, instructions } in counts {
+        let stored = figures.find(name);
+        let change = stored.map(|Figure { count, .. }| *instructions as f64 / *count as f64 - 1.0);
+        let verdict = verdict(change);
+        let percent = change.map_or(String::new(), |change| format!("{:+.2} %", change * 100.0));
+        println!("{name:12} {instructions:>14} {percent:>10}  {verdict}");
+        if change.is_none_or(|change| change > TOLERANCE) {
+            faults.push(format!("{name}: {verdict}"));
+        }
+    }
+    if faults.is_empty() {
+        return Ok(());
+    }
+    Err(format!(
+        "{}\nIf that is meant, store it: cargo xtask bench --instructions --update NAME --reason \"…\"",
+        faults.join("\n")
+    ))
+}
+
+fn verdict(change: Option<f64>) -> &'static str {
+    match change {
+        None => "is not stored",
+        Some(change) if change > TOLERANCE => "has risen by more than 3 %",
+        Some(change) if change < -TOLERANCE => "has fallen by more than 3 %: store it",
+        Some(_) => "as stored",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn request(line: &str) -> Result<Request, String> {
+        let words: Vec<String> = line.split_whitespace().map(str::to_owned).collect();
+        Request::read(&words)
+    }
+
+    #[test]
+    fn a_figure_is_stored_with_a_reason_or_not_at_all() {
+        let Ok(Request::Update { names, reason }) = request("--update panes --reason more glass")
+        else {
+            panic!("a good request")
+        };
+        assert!(names.takes("panes") && !names.takes("floor"));
+        assert_eq!(reason, "more glass");
+        assert!(matches!(request(""), Ok(Request::Compare)));
+        for wrong in [
+            "--update panes",
+            "--update --reason x",
+            "--update panes --reason",
+            "panes",
+            "--update pains --reason x",
+        ] {
+            assert!(request(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn three_per_cent_are_the_border_both_ways() {
+        assert_eq!(verdict(Some(0.029)), verdict(Some(-0.029)));
+        assert_ne!(verdict(Some(0.031)), verdict(Some(0.029)));
+        assert_ne!(verdict(Some(-0.031)), verdict(Some(0.029)));
+    }
+}
