@@ -94,12 +94,13 @@ impl ViewVolume {
     /// The place from which the volume is seen: a point, or with w = 0 the direction towards an eye
     /// at infinity.
     ///
-    /// `None` if the projection is singular.
+    /// `None` if the projection is singular, or a coordinate is not finite.
     #[must_use]
     pub fn eye(self) -> Option<HPoint<View>> {
         let clip_to_view = self.view_to_clip.inverse()?;
         let towards = self.convention.near_depth() - self.convention.far_depth();
-        Some(clip_to_view.hpoint(HPoint::from_raw(DVec4::new(0.0, 0.0, towards, 0.0))))
+        let eye = clip_to_view.hpoint(HPoint::from_raw(DVec4::new(0.0, 0.0, towards, 0.0)));
+        eye.is_finite().then_some(eye)
     }
 }
 

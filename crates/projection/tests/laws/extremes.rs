@@ -277,4 +277,6 @@ fn what_only_overflows_in_the_end_is_refused_too() {
     let deep = DMat4::from_diagonal(glam::DVec4::new(1e-308, 1e-308, 1e-308, 1.0));
     let shallow = DMat4::from_translation(glam::DVec3::new(1e308, 0.0, 0.0)) * deep;
     assert_eq!(ViewVolume::new(Projective::from_raw(shallow), c).corners(), None);
+    let shallow = DMat4::from_diagonal(glam::DVec4::new(1.0, 1.0, 1e-308, 1.0));
+    assert_eq!(ViewVolume::new(Projective::from_raw(shallow), c).eye(), None);
 }
