@@ -1,7 +1,7 @@
 //! Every file of the shared corpus, drawn by the real program: rendered, or refused with a reason.
 //!
 //! The folder is `$ASSETS`, or `shared/assets` beside the project; its `MANIFEST.tsv` lists the files. Each is drawn in a
-//! process of its own, two at a time, with ten seconds to do it. Allowed are two outcomes: exit code 0 and a PNG of the right
+//! process of its own, two at a time, with thirty seconds to do it. Allowed are two outcomes: exit code 0 and a PNG of the right
 //! size, or exit code 1, a message that names the file and says why, and no PNG. The files under `models` are held to
 //! [`expected`]: what is refused there stands in a table, and the numbers of triangles are those of the manifest.
 //! Arguments that are not flags choose files by a part of their path, as in `cargo test`.

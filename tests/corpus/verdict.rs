@@ -22,7 +22,7 @@ pub enum Verdict {
 pub fn judge(row: &Row, run: &Run, picture: &Path, size: (u32, u32)) -> Verdict {
     let said = run.stderr.trim();
     if run.hung {
-        return Verdict::Broken("it takes longer than 10 s".to_owned());
+        return Verdict::Broken("it takes longer than 30 s".to_owned());
     }
     if said.contains("panicked at") {
         return Verdict::Broken(format!("panic: {said}"));
