@@ -5,6 +5,7 @@ use crate::gl::Context;
 use crate::limits::{Clearing, Kernel};
 use crate::measure::{Contestant, Series, Spread, rounds};
 use crate::peer::{Euc, Llvmpipe, Peer, Raster, Render};
+use crate::report;
 use crate::scene::{Order, Scene, assets, floor, helmet, layers, sphere};
 use raster::Samples;
 use std::rc::Rc;
@@ -68,7 +69,7 @@ const SCENES: [Recipe; 8] = [
 /// Scenes that are drawn with four samples too: those with edges.
 const WITH_SAMPLES: [&str; 4] = ["sphere-1m", "helmet", "layers-back-to-front-flat", "floor"];
 
-/// Draws the scenes, one after the other. What cannot be drawn is said on the standard output.
+/// Draws the scenes, one after the other, and prints each table; what cannot be drawn is said there too.
 pub fn scenes(gl: Option<&Rc<Context>>, options: &Options) -> Result<Vec<Heat>, String> {
     let mut heats = Vec::new();
     for (name, make) in SCENES {
@@ -76,7 +77,11 @@ pub fn scenes(gl: Option<&Rc<Context>>, options: &Options) -> Result<Vec<Heat>, 
             continue;
         }
         match make(name) {
-            Ok(scene) => heats.push(heat(&scene, gl, options.rounds)?),
+            Ok(scene) => {
+                let heat = heat(&scene, gl, options.rounds)?;
+                println!("{}", report::scene(&heat));
+                heats.push(heat);
+            }
             Err(reason) => println!("{name}: left out: {reason}"),
         }
     }

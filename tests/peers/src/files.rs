@@ -6,6 +6,7 @@
 
 use crate::clock::children;
 use crate::measure::{Series, Spread};
+use crate::report;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -67,7 +68,7 @@ impl Drop for Display {
     }
 }
 
-/// Draws each model with each program, `count` times by turns, after one run for warming up.
+/// Draws each model with each program, `count` times by turns, after one run for warming up, and prints the tables.
 pub fn files(
     alberti: &Path,
     models: &Path,
@@ -80,7 +81,13 @@ pub fn files(
         Ok(viewer) => viewers.push(viewer),
         Err(reason) => println!("f3d: left out: {reason}"),
     }
-    MODELS.iter().map(|model| contest(&viewers, model, models, out, count)).collect()
+    let mut heats = Vec::new();
+    for model in MODELS {
+        let heat = contest(&viewers, model, models, out, count)?;
+        println!("{}", report::file(&heat));
+        heats.push(heat);
+    }
+    Ok(heats)
 }
 
 fn f3d() -> Result<Viewer, String> {

@@ -85,7 +85,11 @@ fn run(arguments: &[String]) -> Result<(), String> {
     }
     let scenes = contest::scenes(gl.as_ref(), &options)?;
     let bounds = options.wants("limits").then(|| contest::bounds(options.rounds)).transpose()?;
+    if let Some(series) = &bounds {
+        println!("{}", report::limits(series));
+    }
     let threads = if options.wants("threads") { contest::threads(&options)? } else { Vec::new() };
+    println!("{}", report::threads(&threads));
     let files = match (alberti, scene::assets()) {
         _ if !options.wants("files") => Vec::new(),
         (Some(alberti), Some(folder)) => {
@@ -97,7 +101,7 @@ fn run(arguments: &[String]) -> Result<(), String> {
         }
     };
     let figures = Figures { llvmpipe, scenes, bounds, threads, files };
-    println!("{}", report::text(&figures));
+    println!("{}", report::held_to(&figures));
     let write = |name: &str, text: String| {
         let path = out.join(name);
         std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))

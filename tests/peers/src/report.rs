@@ -2,7 +2,7 @@
 
 use crate::contest::{Heat, Threads};
 use crate::files::FileHeat;
-use crate::goals::{Goal, goals};
+use crate::goals::goals;
 use crate::limits::KERNEL_PIXELS;
 use crate::measure::{Series, Spread};
 use serde_json::{Value, json};
@@ -22,37 +22,36 @@ pub struct Figures {
     pub files: Vec<FileHeat>,
 }
 
-/// The tables. Writing to a `String` cannot fail.
-pub fn text(figures: &Figures) -> String {
-    let mut text = String::new();
-    for heat in &figures.scenes {
-        let _ = writeln!(text, "\n{}: {}", heat.scene, heat.about);
-        table(&mut text, &heat.series, ["raster", "render"]);
-        for found in &heat.agreements {
-            let _ = writeln!(
-                text,
-                "  against {}: {} of {} pixels covered otherwise, {} coloured otherwise",
-                found.peer, found.coverage, found.drawn, found.color
-            );
-        }
+/// The table of a scene. Writing to a `String` cannot fail, here and below.
+pub fn scene(heat: &Heat) -> String {
+    let mut text = format!("\n{}: {}\n", heat.scene, heat.about);
+    table(&mut text, &heat.series, ["raster", "render"]);
+    for found in &heat.agreements {
+        let _ = writeln!(
+            text,
+            "  against {}: {} of {} pixels covered otherwise, {} coloured otherwise",
+            found.peer, found.coverage, found.drawn, found.color
+        );
     }
-    if let Some(series) = &figures.bounds {
-        let _ =
-            writeln!(text, "\nlimits: fifty layers, and the kernel, are {KERNEL_PIXELS} pixels");
-        table(&mut text, series, ["clear", "kernel"]);
+    text
+}
+
+/// The table of the limits.
+pub fn limits(series: &[Series]) -> String {
+    let mut text = format!("\nlimits: fifty layers, and the kernel, are {KERNEL_PIXELS} pixels\n");
+    table(&mut text, series, ["clear", "kernel"]);
+    text
+}
+
+/// The table of a model that was drawn from its file.
+pub fn file(heat: &FileHeat) -> String {
+    let mut text = format!("\n{}: file to PNG, CPU time of the process\n", heat.model);
+    table(&mut text, &heat.cpu, ["alberti", "f3d"]);
+    for (series, (wall, peak)) in heat.cpu.iter().zip(heat.wall.iter().zip(&heat.peak)) {
+        let (Some(wall), Some(peak)) = (wall, peak) else { continue };
+        let (wall, peak) = (wall.median * 1e3, peak.median / 1048576.0);
+        let _ = writeln!(text, "  {:22} {wall:9.1} ms wall, {peak:.0} MiB at most", series.name);
     }
-    for heat in &figures.files {
-        let _ = writeln!(text, "\n{}: file to PNG, CPU time of the process", heat.model);
-        table(&mut text, &heat.cpu, ["alberti", "f3d"]);
-        for (series, (wall, peak)) in heat.cpu.iter().zip(heat.wall.iter().zip(&heat.peak)) {
-            let (Some(wall), Some(peak)) = (wall, peak) else { continue };
-            let (wall, peak) = (wall.median * 1e3, peak.median / 1048576.0);
-            let _ =
-                writeln!(text, "  {:22} {wall:9.1} ms wall, {peak:.0} MiB at most", series.name);
-        }
-    }
-    text += &threads_text(&figures.threads);
-    text += &goals_text(&goals(figures));
     text
 }
 
@@ -73,7 +72,8 @@ fn table(text: &mut String, series: &[Series], bases: [&str; 2]) {
     }
 }
 
-fn threads_text(threads: &[Threads]) -> String {
+/// The table of the threads.
+pub fn threads(threads: &[Threads]) -> String {
     let mut text = String::new();
     if !threads.is_empty() {
         text += "\ntwo threads: wall time over that of one; CPU time over wall time\n";
@@ -89,9 +89,10 @@ fn threads_text(threads: &[Threads]) -> String {
     text
 }
 
-fn goals_text(goals: &[Goal]) -> String {
+/// The goals with what was reached.
+pub fn held_to(figures: &Figures) -> String {
     let mut text = String::from("\ngoals\n");
-    for goal in goals {
+    for goal in goals(figures) {
         let (verdict, sign) =
             (if goal.met() { "met   " } else { "missed" }, if goal.at_least { "≥" } else { "≤" });
         let (reached, wanted) = (shown(goal.reached), goal.wanted);
