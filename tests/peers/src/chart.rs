@@ -12,7 +12,7 @@ const RIGHT: f64 = 820.0;
 const ROW: f64 = 18.0;
 const HEADING: f64 = 34.0;
 /// The ratios at both ends of the scale.
-const LEAST: f64 = 0.5;
+const LEAST: f64 = 0.25;
 const MOST: f64 = 256.0;
 
 /// The SVG.

@@ -53,9 +53,9 @@ pub struct Agreement {
 type Recipe = (&'static str, fn(&'static str) -> Result<Scene, String>);
 
 /// Name and maker of each scene; the helmet needs the shared models.
-const SCENES: [Recipe; 8] = [
-    ("sphere-1m", |name| sphere(name, 500)),
-    ("sphere-4m", |name| sphere(name, 1000)),
+const SCENES: [Recipe; 9] = [
+    ("sphere-1m", |name| sphere(name, 500, false)),
+    ("sphere-4m", |name| sphere(name, 1000, false)),
     ("helmet", |name| {
         helmet(name, &assets().ok_or("the folder of shared models was not found (set ASSETS)")?)
     }),
@@ -64,6 +64,8 @@ const SCENES: [Recipe; 8] = [
     ("layers-back-to-front-textured", |name| layers(name, 50, Order::BackToFront, true)),
     ("layers-front-to-back-textured", |name| layers(name, 50, Order::FrontToBack, true)),
     ("floor", floor),
+    // As `sphere-1m` for a rasteriser that leaves no backs out.
+    ("sphere-1m-both-sides", |name| sphere(name, 500, true)),
 ];
 
 /// Scenes that are drawn with four samples too: those with edges.

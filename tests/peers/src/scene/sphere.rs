@@ -6,8 +6,9 @@ use homog::{Point, Vector};
 use projection::{Fov, Perspective};
 use std::f64::consts::{PI, TAU};
 
-/// A sphere of `rows` × 2 `rows` quads: 4 `rows`² triangles, half of which face away.
-pub fn sphere(name: &'static str, rows: u32) -> Result<Scene, String> {
+/// A sphere of `rows` × 2 `rows` quads: 4 `rows`² triangles. Half of them face away, and are left out unless it is drawn
+/// with both sides.
+pub fn sphere(name: &'static str, rows: u32, two_sided: bool) -> Result<Scene, String> {
     let vertices: Vec<Vertex> = (0..=rows)
         .flat_map(|i| (0..=2 * rows).map(move |j| (i, j)))
         .map(|(i, j)| vertex(f64::from(i) / f64::from(rows), f64::from(j) / f64::from(2 * rows)))
@@ -16,17 +17,18 @@ pub fn sphere(name: &'static str, rows: u32) -> Result<Scene, String> {
     let quads = (0..rows).flat_map(|i| (0..2 * rows).map(move |j| i * stride + j));
     let indices: Vec<u32> =
         quads.flat_map(|a| [a, a + stride, a + 1, a + 1, a + stride, a + stride + 1]).collect();
+    let sides = if two_sided { " with both sides" } else { "" };
     let camera = Camera::look_at(Point::new(1.2, 0.9, 3.4), Point::ORIGIN, Vector::Y);
     let lens = Perspective::new(Fov::vertical_degrees(36.0), aspect(), 1.0, 10.0);
     Ok(Scene {
         name,
-        about: format!("a sphere with bumps, {} triangles, lambert", indices.len() / 3),
+        about: format!("a sphere with bumps, {} triangles{sides}, lambert", indices.len() / 3),
         parts: vec![Part {
             indices: 0..indices.len(),
             tint: [0.9, 0.7, 0.5],
             lit: true,
             texture: None,
-            two_sided: false,
+            two_sided,
         }],
         vertices,
         indices,
