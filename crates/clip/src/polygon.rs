@@ -1,6 +1,6 @@
 //! Convex polygons of any size (CL-3).
 
-use crate::walk::{Step, safe_scale, walk};
+use crate::walk::{Step, safe_scale, unscaled, walk};
 use crate::{Fates, Outcode, Volume};
 use alloc::vec::Vec;
 use glam::DVec4;
@@ -125,7 +125,7 @@ fn cut_by(ring: &[Vertex], distances: &[f64], land: impl Fn(DVec4) -> DVec4) -> 
 
 fn finish(ring: Vec<Vertex>, volume: &Volume, scale: f64, fates: Fates) -> ClippedConvex {
     let sources = ring.first().map_or(0, |vertex| vertex.weights.len());
-    let settled = |vertex: &Vertex| HPoint::from_raw(volume.settle(vertex.point / scale));
+    let settled = |vertex: &Vertex| HPoint::from_raw(volume.settle(unscaled(vertex.point, scale)));
     let points: Vec<HPoint<Clip>> = ring.iter().map(settled).collect();
     if points.iter().any(|point| point.w() <= 0.0) {
         return ClippedConvex::nothing(fates);

@@ -7,7 +7,7 @@
 //!            └─────────┘
 //! ```
 
-use crate::walk::{Blend, blend, safe_scale};
+use crate::walk::{Blend, blend, safe_scale, unscaled};
 use crate::{Fates, Outcode, PlaneIndex, Volume};
 use core::cmp::Ordering;
 use glam::DVec4;
@@ -113,7 +113,7 @@ impl Crossing {
             Blend::FromInner(t) => inner + (outer - inner) * t,
             Blend::FromOuter(t) => outer + (inner - outer) * t,
         };
-        HPoint::from_raw(volume.settle(volume.land(self.plane, point) / scale))
+        HPoint::from_raw(volume.settle(unscaled(volume.land(self.plane, point), scale)))
     }
 }
 

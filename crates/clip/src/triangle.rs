@@ -8,7 +8,7 @@
 //!       └╱────────╲┘  ► 4 vertices
 //! ```
 
-use crate::walk::{Step, safe_scale, walk};
+use crate::walk::{Step, safe_scale, unscaled, walk};
 use crate::{Fates, MAX_PLANES, Outcode, PlaneIndex, Volume};
 use core::fmt;
 use homog::{Clip, HPoint};
@@ -161,7 +161,7 @@ fn cut(triangle: [HPoint<Clip>; 3], volume: &Volume) -> ClippedPolygon {
         core::mem::swap(&mut ring, &mut rest);
     }
     for vertex in ring.vertices_mut() {
-        vertex.point = HPoint::from_raw(volume.settle(vertex.point.raw() / scale));
+        vertex.point = HPoint::from_raw(volume.settle(unscaled(vertex.point.raw(), scale)));
     }
     // The zero vector is in every closed volume but is no point. Only triangles without an area in the image reach it.
     let is_point = |vertex: &ClipVertex| vertex.point.w() > 0.0;

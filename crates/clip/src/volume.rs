@@ -10,7 +10,7 @@
 //! | [`Volume::ZERO_ONE`] | z ≥ 0 | w − z ≥ 0 | 0 … 1 |
 //! | [`Volume::ZERO_ONE_REVERSED`] | w − z ≥ 0 | z ≥ 0 | 1 … 0 |
 
-use crate::walk::SCALE_DOWN;
+use crate::walk::safe_scale;
 use crate::{MAX_PLANES, Outcode, PlaneIndex};
 use core::fmt;
 use glam::DVec4;
@@ -146,20 +146,30 @@ impl Volume {
     #[inline]
     #[must_use]
     pub fn outcode(&self, point: HPoint<Clip>) -> Outcode {
-        /// Beyond this, and for NaN, sums may not have the right sign.
-        const SAFE: f64 = 1e300;
         let raw = point.raw();
-        let size = raw.abs().element_sum();
-        if size < SAFE { self.outcode_of(raw) } else { self.outcode_of_huge(raw) }
+        // Most points of most pictures are inside, which is the quickest to tell.
+        if self.present.bits() & !BOX == 0 && self.is_in_box(raw) {
+            return Outcode::INSIDE;
+        }
+        if raw.is_finite() { self.outcode_of(raw) } else { self.present }
     }
 
-    #[cold]
-    fn outcode_of_huge(&self, point: DVec4) -> Outcode {
-        if point.is_finite() { self.outcode_of(point * SCALE_DOWN) } else { self.present }
+    /// Whether a point is for certain inside of the six planes of the box, present or not, and finite.
+    #[inline]
+    fn is_in_box(&self, point: DVec4) -> bool {
+        /// Beyond this the limit of x and y may not be a number.
+        const SAFE: f64 = 1e300;
+        let along_z = |plane: DVec4| plane.z * point.z + plane.w * point.w >= 0.0;
+        (point.x.abs() <= self.planes[0].w * point.w)
+            & (point.y.abs() <= self.planes[2].w * point.w)
+            & along_z(self.planes[4])
+            & along_z(self.planes[5])
+            & (point.z.abs() < SAFE)
+            & (point.w < SAFE)
     }
 
-    /// Branch-free for the box, which is what arrays of points need. The sums are those of [`Self::distance`] without
-    /// the coefficients that are 0.
+    /// The outcode of a finite point. The sums of the box are those of [`Self::distance`] without the coefficients that
+    /// are 0; they have the right sign even where they overflow.
     #[inline]
     fn outcode_of(&self, point: DVec4) -> Outcode {
         let [kx, ky] = [self.planes[0].w * point.w, self.planes[2].w * point.w];
@@ -182,7 +192,8 @@ impl Volume {
 
     fn outcode_of_added(&self, point: DVec4) -> Outcode {
         let added = Outcode::from_bits(self.present.bits() & !BOX);
-        let outside = |&plane: &PlaneIndex| self.distance(plane, point) < 0.0;
+        let scaled = point * safe_scale(&[point]);
+        let outside = |&plane: &PlaneIndex| self.distance(plane, scaled) < 0.0;
         added.planes().filter(outside).fold(Outcode::INSIDE, Outcode::with)
     }
 
@@ -270,6 +281,13 @@ mod tests {
         }
         assert!(!Volume::CHAPTER.contains(HPoint::new(0.0, 0.0, 0.0, 0.0)));
         assert!(Volume::CHAPTER.contains(HPoint::new(f64::MAX, -f64::MAX, 0.0, f64::MAX)));
+    }
+
+    #[test]
+    fn a_depth_below_0_counts_however_huge_the_rest_is() {
+        let behind = HPoint::new(0.0, f64::MAX, -3e-310, f64::MAX);
+        assert_eq!(Volume::ZERO_ONE.outcode(behind).bits(), 1 << 4);
+        assert_eq!(Volume::ZERO_ONE.outcode(HPoint::new(0.0, f64::MAX, 0.0, 1e159)).bits(), 1 << 3);
     }
 
     #[test]

@@ -69,5 +69,10 @@ pub(crate) fn safe_scale<'a>(points: impl IntoIterator<Item = &'a DVec4>) -> f64
     if is_huge { SCALE_DOWN } else { 1.0 }
 }
 
+/// Undoes the scale. What rounding has carried beyond the largest number comes back to it.
+pub(crate) fn unscaled(point: DVec4, scale: f64) -> DVec4 {
+    (point / scale).clamp(DVec4::MIN, DVec4::MAX)
+}
+
 /// 2⁻⁶⁴: enough for a guard band of 2²⁰ and four terms, and exact.
-pub(crate) const SCALE_DOWN: f64 = f64::from_bits((1023 - 64) << 52);
+const SCALE_DOWN: f64 = f64::from_bits((1023 - 64) << 52);

@@ -117,3 +117,14 @@ fn lines_to_infinity_end_at_the_far_plane_or_their_vanishing_point() {
     let endless = clip_segment(start, ahead, &Volume::CHAPTER.without_far()).expect("in view");
     assert_eq!((endless.end, endless.exit), (ahead, None));
 }
+
+/// Rounding may carry a crossing beyond the largest number, where the border at k w is near it.
+#[test]
+fn cuts_among_the_largest_numbers_are_finite() {
+    let volume = Volume::CHAPTER.with_guard_band(9.167_783_980_303_91, 1.0).expect("allowed");
+    let max = f64::MAX;
+    let corners =
+        [[0.7, -3e241, -5e-236, -5e-236], [max, 1e-116, -8.8, 1e-154], [max, 0.0, 0.0, max]];
+    let left = clip_triangle(corners.map(HPoint::from), &volume);
+    assert!(!left.is_empty() && left.vertices().iter().all(|vertex| vertex.point.is_finite()));
+}
