@@ -4,8 +4,8 @@ use crate::finite::Finite;
 use crate::random::Random;
 use crate::subject::Subject;
 use clip::{
-    ClipVertex, Outcode, Outline, Volume, clip_convex, clip_point, clip_polyline, clip_segment,
-    clip_triangle, cut_triangle, segment_fates,
+    ClipVertex, Outcode, Outline, PlaneIndex, Volume, clip_convex, clip_point, clip_polyline,
+    clip_segment, clip_triangle, cut_triangle, segment_fates,
 };
 use homog::{Clip, HPoint, Point, World};
 
@@ -13,7 +13,16 @@ pub const SUBJECTS: &[Subject] = &[
     ("clip::Volume::outcode", |r| {
         let (volume, point) = (volume(r), r.hpoint());
         let code = volume.outcode(point);
-        Some(Outcode::from_bits(code.bits() & volume.present().bits()) == code)
+        let finite = point.is_finite();
+        // Plane by plane, where the sum of four products has a sign for certain.
+        let agrees = |i: PlaneIndex| {
+            let distance = volume.plane(i).map_or(0.0, |plane| plane.evaluate(point));
+            let certain = distance.is_finite() && i <= PlaneIndex::FAR;
+            !certain || code.contains(i) == (distance < 0.0)
+        };
+        let right =
+            if finite { volume.present().planes().all(agrees) } else { code == volume.present() };
+        Some(right && volume.present().bits() | code.bits() == volume.present().bits())
     }),
     ("clip::Volume::contains", |r| volume(r).contains(r.hpoint()).then_some(true)),
     ("clip::Volume::with_plane", |r| {
