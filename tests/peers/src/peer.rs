@@ -30,8 +30,9 @@ pub trait Peer {
 /// Pixels of the picture.
 pub const AREA: usize = (SIZE.0 * SIZE.1) as usize;
 
-/// A colour as the peers' shaders write it: 8 bits for each channel, no sRGB curve.
-#[inline]
+/// A colour, each channel from 0 to 1, as the peers' shaders write it: 8 bits for each channel, no sRGB curve.
+#[inline(always)]
 fn quantized(color: [f32; 4]) -> [u8; 4] {
-    color.map(|channel| (channel * 255.0 + 0.5) as u8)
+    // At 2²³ floats are whole numbers: the sum rounds, and its last bits are the result.
+    color.map(|channel| (channel * 255.0 + 8_388_608.0).to_bits() as u8)
 }
