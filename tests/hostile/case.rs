@@ -2,7 +2,8 @@
 
 use crate::document::Document;
 use crate::promises;
-use pipeline::import::{ImportOptions, load};
+use pipeline::import::{ImportError, ImportOptions, load};
+use pipeline::model::Model;
 use std::path::Path;
 
 /// A file that wishes the importer ill.
@@ -50,12 +51,19 @@ impl Case {
 
 /// Loads a file and compares what comes of it with what is expected.
 pub fn judge(path: &Path, options: &ImportOptions, expected: &Expected) -> Result<(), String> {
-    let loaded = load(path, options);
-    if let Ok(model) = &loaded {
+    judge_loaded(&load(path, options), expected)
+}
+
+/// Compares what came of a file with what is expected.
+pub fn judge_loaded(
+    loaded: &Result<Model, ImportError>,
+    expected: &Expected,
+) -> Result<(), String> {
+    if let Ok(model) = loaded {
         promises::check(model)?;
     }
     let said = loaded.as_ref().err().map(|error| error.fault.to_string());
-    match (expected, &loaded, said) {
+    match (expected, loaded, said) {
         (Expected::Anything, ..) | (Expected::Loads, Ok(_), _) | (Expected::Refused, Err(_), _) => {
             Ok(())
         }

@@ -1,8 +1,8 @@
 //! URIs that try to leave the folder, and such that only look as if they did.
 
-use crate::case::{Expected, judge};
+use crate::case::{Expected, judge, judge_loaded};
 use crate::document::Document;
-use pipeline::import::{ImportOptions, Limits};
+use pipeline::import::{ImportOptions, Limits, load_bytes};
 use serde_json::json;
 use std::fs;
 use std::path::Path;
@@ -24,6 +24,11 @@ pub fn run(folder: &Path) -> Result<Vec<Judged>, String> {
         let limits = Limits { file_bytes: 4096, ..Limits::default() };
         let options = ImportOptions { limits, ..ImportOptions::default() };
         results.push((format!("uri {uri:?}"), judge(&file, &options, &expected)));
+        results.push((format!("uri {uri:?} in memory"), in_memory(&uri, &document, &expected)));
+        let options = ImportOptions { root: Some(models.to_owned()), ..options };
+        let loaded = load_bytes("model.gltf", document.json.to_string().as_bytes(), &options);
+        let name = format!("uri {uri:?} in memory with a root");
+        results.push((name, judge_loaded(&loaded, &expected)));
     }
     for (root, uri, expected) in [
         (folder, "../secret.bin", Expected::LoadsClean),
@@ -40,6 +45,18 @@ pub fn run(folder: &Path) -> Result<Vec<Judged>, String> {
         results.push((name, judge(&file, &options, &expected)));
     }
     Ok(results)
+}
+
+/// A file in memory may have data URIs, and nothing else may be read.
+fn in_memory(uri: &str, document: &Document, expected: &Expected) -> Result<(), String> {
+    let text = document.json.to_string();
+    let loaded = load_bytes("model.gltf", text.as_bytes(), &ImportOptions::default());
+    let is_data = uri.get(..5).is_some_and(|start| start.eq_ignore_ascii_case("data:"));
+    if is_data || uri.is_empty() {
+        return judge_loaded(&loaded, expected);
+    }
+    let problem = format!("the model is in memory and may not read the file {uri:?}");
+    judge_loaded(&loaded, &at(&problem, OUTSIDE))
 }
 
 fn prepare(folder: &Path, models: &Path) -> std::io::Result<()> {

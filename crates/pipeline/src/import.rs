@@ -78,19 +78,36 @@ pub struct ImportOptions {
 /// The file, or one it refers to, cannot be read or may not be; is not glTF 2.0 or breaks its rules; requires an
 /// unknown extension; exceeds a limit.
 pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> {
-    load_model(path, options).map_err(|fault| ImportError { file: path.to_owned(), fault })
+    let loaded = resolver::read_file(path, &options.limits, "").and_then(|bytes| {
+        let root = options.root.as_deref();
+        let resolver = Resolver::new(path, bytes.len(), root, &options.limits)?;
+        read_model(path, &bytes, &resolver)
+    });
+    loaded.map_err(|fault| ImportError { file: path.to_owned(), fault })
 }
 
-fn load_model(path: &Path, options: &ImportOptions) -> Result<Model, Fault> {
-    let limits = &options.limits;
+/// Loads a model whose file is in memory, as [`load`] does; `name` stands for its path in messages.
+///
+/// Without a [root](ImportOptions::root) the file must be complete in itself: no other file is read, whatever it says. With
+/// one, the files it names begin at that folder.
+///
+/// # Errors
+/// As for [`load`].
+pub fn load_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<Model, ImportError> {
+    let (path, root) = (Path::new(name), options.root.as_deref());
+    let loaded = Resolver::in_memory(bytes.len(), root, &options.limits)
+        .and_then(|resolver| read_model(path, bytes, &resolver));
+    loaded.map_err(|fault| ImportError { file: path.to_owned(), fault })
+}
+
+fn read_model(path: &Path, bytes: &[u8], resolver: &Resolver<'_>) -> Result<Model, Fault> {
+    let limits = resolver.limits;
     let mut warnings = Warnings::default();
-    let bytes = resolver::read_file(path, limits, "")?;
-    let resolver = Resolver::new(path, bytes.len(), options.root.as_deref(), limits)?;
-    let container = Container::find(&bytes, &mut warnings)?;
+    let container = Container::find(bytes, &mut warnings)?;
     let document = Document::parse(&bytes[container.json], limits)?;
     let chunk = container.binary.map(|range| &bytes[range]);
     extensions::check(&document.root, &mut warnings)?;
-    let buffers = Buffers::new(&document.root, &resolver, chunk, limits);
+    let buffers = Buffers::new(&document.root, resolver, chunk, limits);
     let source = Source::new(&document.root, &buffers, limits);
     let mut model = build(&document, &source, &mut warnings)?;
     model.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();

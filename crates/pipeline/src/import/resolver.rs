@@ -18,13 +18,20 @@ use std::path::{Component, Path, PathBuf};
 /// Reads the files that a glTF file refers to.
 #[derive(Debug)]
 pub(super) struct Resolver<'a> {
-    /// The folder of the glTF file.
+    /// The folder of the glTF file and the one that everything must stay below; `None` if no file may be read.
+    place: Option<Place>,
+    pub(super) limits: &'a Limits,
+    /// The bytes that have been read so far.
+    total: Cell<u64>,
+}
+
+/// Where files are looked for.
+#[derive(Debug)]
+struct Place {
+    /// The folder that relative paths begin at.
     folder: PathBuf,
     /// The folder that everything must stay below.
     root: PathBuf,
-    limits: &'a Limits,
-    /// The bytes that have been read so far.
-    total: Cell<u64>,
 }
 
 impl<'a> Resolver<'a> {
@@ -42,7 +49,19 @@ impl<'a> Resolver<'a> {
         };
         let folder = canonical(parent)?;
         let root = root.map_or_else(|| Ok(folder.clone()), canonical)?;
-        Ok(Self { folder, root, limits, total: Cell::new(length as u64) })
+        let place = Some(Place { folder, root });
+        Ok(Self { place, limits, total: Cell::new(length as u64) })
+    }
+
+    /// A resolver for the assets of a glTF file in memory: they begin at `root`, or, without one, may not be files.
+    pub(super) fn in_memory(
+        length: usize,
+        root: Option<&Path>,
+        limits: &'a Limits,
+    ) -> Result<Self, Fault> {
+        let root = root.map(canonical).transpose()?;
+        let place = root.map(|root| Place { folder: root.clone(), root });
+        Ok(Self { place, limits, total: Cell::new(length as u64) })
     }
 
     /// The bytes that a URI stands for; `pointer` is where the URI is.
@@ -69,13 +88,17 @@ impl<'a> Resolver<'a> {
         if uri.is_empty() {
             return Err(Fault::invalid(pointer, "the URI is empty"));
         }
+        let Some(place) = &self.place else {
+            let problem = format!("the model is in memory and may not read the file {uri:?}");
+            return Err(forbidden(pointer, &problem));
+        };
         let decoded = percent_decoded(uri).and_then(|bytes| String::from_utf8(bytes).ok());
         let candidates =
             [Some(uri.to_owned()), decoded.clone(), decoded.map(|d| d.replace('\\', "/"))];
         for candidate in candidates.into_iter().flatten() {
-            let path = self.below_root(&candidate, pointer)?;
+            let path = place.below_root(&candidate, pointer)?;
             if let Ok(path) = path.canonicalize() {
-                return self.checked(path, uri, pointer);
+                return place.checked(path, uri, pointer);
             }
         }
         Err(match scheme(uri) {
@@ -90,7 +113,9 @@ impl<'a> Resolver<'a> {
             ),
         })
     }
+}
 
+impl Place {
     /// The path of a relative name, if it stays below the root by its letters alone.
     fn below_root(&self, name: &str, pointer: &str) -> Result<PathBuf, Fault> {
         let outside =

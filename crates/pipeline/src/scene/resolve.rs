@@ -35,8 +35,22 @@ impl Scene {
         file: &SceneFile,
         options: &ResolveOptions,
     ) -> Result<Self, ResolveError> {
-        let image = resolve_image(origin, file)?;
+        resolve_image(origin, file)?;
         let models = load_models(origin, file, options)?;
+        Self::of_models(origin, file, models)
+    }
+
+    /// Decides everything that the file leaves open around models that are loaded, posed and placed; those of the file are not
+    /// looked at.
+    ///
+    /// # Errors
+    /// If something makes no sense; the error points at its place in the file.
+    pub fn of_models(
+        origin: &Origin,
+        file: &SceneFile,
+        models: Vec<Placed>,
+    ) -> Result<Self, ResolveError> {
+        let image = resolve_image(origin, file)?;
         let shot = resolve_shot(origin, &file.camera, &models, image)?;
         let lights = resolve_lights(origin, file, &shot)?;
         let style = match file.style {
