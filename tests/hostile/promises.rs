@@ -70,12 +70,20 @@ fn check_primitive(model: &Model, primitive: &Primitive) -> Result<(), String> {
     let lengths = [
         primitive.normals.as_ref().map(Vec::len),
         primitive.colors.as_ref().map(Vec::len),
-        primitive.joints.as_ref().map(Vec::len),
-        primitive.weights.as_ref().map(Vec::len),
+        primitive.tangents.as_ref().map(Vec::len),
     ];
-    let uvs = primitive.uvs.iter().map(Vec::len);
-    let targets = primitive.targets.iter().flat_map(|t| [&t.positions, &t.normals]).flatten();
+    let skins = primitive.joints.iter().map(Vec::len).chain(primitive.weights.iter().map(Vec::len));
+    let uvs = primitive.uvs.iter().map(Vec::len).chain(skins);
+    must(primitive.joints.len() == primitive.weights.len(), "joints lack weights")?;
+    let targets =
+        primitive.targets.iter().flat_map(|t| [&t.positions, &t.normals, &t.tangents]).flatten();
     must(targets.map(Vec::len).all(|n| n == vertices), "a target has another length")?;
+    let looks = primitive
+        .targets
+        .iter()
+        .flat_map(|t| t.colors.iter().map(Vec::len).chain(t.uvs.iter().flatten().map(Vec::len)));
+    must(looks.into_iter().all(|n| n == vertices), "a target's look has another length")?;
+    check_edges(model, primitive)?;
     must(
         lengths.into_iter().flatten().chain(uvs).all(|n| n == vertices),
         "an array has another length",
@@ -86,6 +94,17 @@ fn check_primitive(model: &Model, primitive: &Primitive) -> Result<(), String> {
     let colors = primitive.colors.iter().flatten().flatten();
     must(colors.into_iter().all(|x| (0.0..=1.0).contains(x)), "a colour is not in [0, 1]")?;
     must(primitive.material.is_none_or(|at| at < model.materials.len()), "a material is lacking")
+}
+
+fn check_edges(model: &Model, primitive: &Primitive) -> Result<(), String> {
+    let Some(edges) = &primitive.edges else { return Ok(()) };
+    let visibility = edges.visibility.as_ref().map(Vec::len);
+    must(visibility.is_none_or(|n| n == primitive.count()), "edges of a triangle are lacking")?;
+    let ends = edges.lines.iter().flat_map(|lines| lines.ends.as_flattened());
+    let vertices = primitive.positions.len();
+    must(ends.into_iter().all(|&end| (end as usize) < vertices), "an edge has no vertex")?;
+    let materials = edges.lines.iter().filter_map(|lines| lines.material).chain(edges.material);
+    must(materials.into_iter().all(|at| at < model.materials.len()), "an edge lacks its material")
 }
 
 fn is_unit(normal: &[f32; 3]) -> bool {

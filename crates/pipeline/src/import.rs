@@ -16,33 +16,41 @@ mod animation;
 mod attribute;
 mod budget;
 mod buffers;
+mod build;
 mod camera;
+mod choice;
 mod container;
 mod decode;
 mod draco;
+mod edges;
 mod elements;
 mod error;
 mod extensions;
 mod image;
 mod instancing;
 mod json;
+mod lights;
 mod limits;
 mod material;
 mod meshopt;
+mod morph;
 mod normals;
 mod placement;
+mod pointer;
 mod primitive;
 mod resolver;
 mod scene;
 mod skin;
 mod texture;
 mod topology;
+mod untyped;
 mod warnings;
 
+pub use choice::Choice;
 pub use error::{Fault, FaultKind, ImportError};
 pub use limits::Limits;
 
-use crate::model::{Model, Node};
+use crate::model::Model;
 use accessor::Source;
 use buffers::Buffers;
 use container::Container;
@@ -58,6 +66,22 @@ pub struct ImportOptions {
     pub limits: Limits,
     /// The folder that all files the glTF file refers to must be below. Default: the folder of the glTF file.
     pub root: Option<PathBuf>,
+    /// The scene of the file that is shown. Default: its default scene, else its first.
+    pub scene: Option<Choice>,
+    /// The variant of the file that is shown (KHR_materials_variants). Default: none.
+    pub variant: Option<Choice>,
+    /// What is done with images.
+    pub images: Images,
+}
+
+/// What is done with the images of a file.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Images {
+    /// Those that visible surfaces show are decoded; no other is read.
+    #[default]
+    Decode,
+    /// None is decoded, but the headers of all are read.
+    Headers,
 }
 
 /// Loads a `.gltf` or `.glb` file; which of the two it is, its content says.
@@ -76,12 +100,12 @@ pub struct ImportOptions {
 ///
 /// # Errors
 /// The file, or one it refers to, cannot be read or may not be; is not glTF 2.0 or breaks its rules; requires an
-/// unknown extension; exceeds a limit.
+/// unknown extension; exceeds a limit; has no such scene or variant as the options ask for.
 pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> {
     let loaded = resolver::read_file(path, &options.limits, "").and_then(|bytes| {
         let root = options.root.as_deref();
         let resolver = Resolver::new(path, bytes.len(), root, &options.limits)?;
-        read_model(path, &bytes, &resolver)
+        read_model(path, &bytes, &resolver, options)
     });
     loaded.map_err(|fault| ImportError { file: path.to_owned(), fault })
 }
@@ -96,11 +120,16 @@ pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> 
 pub fn load_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<Model, ImportError> {
     let (path, root) = (Path::new(name), options.root.as_deref());
     let loaded = Resolver::in_memory(bytes.len(), root, &options.limits)
-        .and_then(|resolver| read_model(path, bytes, &resolver));
+        .and_then(|resolver| read_model(path, bytes, &resolver, options));
     loaded.map_err(|fault| ImportError { file: path.to_owned(), fault })
 }
 
-fn read_model(path: &Path, bytes: &[u8], resolver: &Resolver<'_>) -> Result<Model, Fault> {
+fn read_model(
+    path: &Path,
+    bytes: &[u8],
+    resolver: &Resolver<'_>,
+    options: &ImportOptions,
+) -> Result<Model, Fault> {
     let limits = resolver.limits;
     let mut warnings = Warnings::default();
     let container = Container::find(bytes, &mut warnings)?;
@@ -109,67 +138,8 @@ fn read_model(path: &Path, bytes: &[u8], resolver: &Resolver<'_>) -> Result<Mode
     extensions::check(&document.root, &mut warnings)?;
     let buffers = Buffers::new(&document.root, resolver, chunk, limits);
     let source = Source::new(&document.root, &buffers, limits);
-    let mut model = build(&document, &source, &mut warnings)?;
+    let mut model = build::build(&document, &source, options, &mut warnings)?;
     model.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     model.warnings = warnings.into_list();
     Ok(model)
-}
-
-fn build(
-    document: &Document,
-    source: &Source<'_>,
-    warnings: &mut Warnings,
-) -> Result<Model, Fault> {
-    let root = &document.root;
-    let nodes = scene::nodes(document, source.limits, warnings)?;
-    let (cameras, usable) = camera::cameras(root, warnings);
-    let mut model = Model {
-        roots: scene::roots(document, &nodes, warnings)?,
-        animations: animation::animations(source, &nodes, warnings)?,
-        nodes,
-        materials: material::materials(root, warnings),
-        textures: texture::textures(root, warnings),
-        cameras,
-        skins: skin::skins(source, warnings)?,
-        meshes: primitive::meshes(source, warnings)?,
-        extensions_used: sorted(&root.extensions_used),
-        ..Model::default()
-    };
-    drop_lost_references(&mut model, &usable);
-    material::warn_of_missing_texcoords(&model, warnings);
-    instancing::read(source, &mut model.nodes, warnings)?;
-    scene::check_items(&model, source.limits)?;
-    let shown = shown_meshes(&model);
-    let Model { meshes, materials, textures, .. } = &model;
-    let needed = image::needed(meshes, &shown, materials, textures, root.images.len());
-    let encoded = image::read(&needed, source, warnings);
-    model.images = image::decode_all(&encoded, root.images.len(), warnings);
-    Ok(model)
-}
-
-/// Nodes do not name skins and cameras that have been left out.
-fn drop_lost_references(model: &mut Model, usable_cameras: &[bool]) {
-    let Model { nodes, skins, .. } = model;
-    for Node { skin, camera, .. } in nodes {
-        *skin = skin.filter(|&at| !skins[at].joints.is_empty());
-        *camera = camera.filter(|&at| usable_cameras[at]);
-    }
-}
-
-/// For each mesh, whether the shown scene shows it.
-fn shown_meshes(model: &Model) -> Vec<bool> {
-    let mut shown = vec![false; model.meshes.len()];
-    for instance in model.instances() {
-        if let Some(mesh) = model.nodes[instance.node].mesh {
-            shown[mesh] = true;
-        }
-    }
-    shown
-}
-
-fn sorted(names: &[String]) -> Vec<String> {
-    let mut names = names.to_vec();
-    names.sort();
-    names.dedup();
-    names
 }

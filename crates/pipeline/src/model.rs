@@ -4,21 +4,43 @@
 //! Positions stay in the mesh's own coordinates; the node tree places them.
 
 mod animation;
+mod curve;
+mod edges;
+mod field;
 mod image;
 mod instance;
+mod lens;
+mod light;
 mod material;
+mod material_extensions;
 mod mesh;
 mod parts;
+mod pose;
 mod posed;
 mod shown;
+mod tangents;
+mod texture_slot;
+mod uv_transform;
 
-pub use animation::{Animation, Channel, Curve, Interpolation, Property};
-pub use image::{Filter, Image, Mipmap, Sampler, Texture, Wrap};
+pub use animation::{Animation, Channel, Property, Target};
+pub use curve::{Curve, Interpolation};
+pub use edges::{EdgeLines, EdgeVisibility, Edges};
+pub use field::Field;
+pub(crate) use field::{LIGHT, MATERIAL, Row};
+pub use image::{Filter, Image, ImageFile, ImageHeader, Mipmap, Sampler, Texture, Wrap};
 pub use instance::Instance;
-pub use material::{AlphaMode, Material, TextureUse};
-pub use mesh::{Mesh, MorphTarget, Primitive, Topology};
+pub use lens::{Lens, LensKind};
+pub use light::{LightKind, PunctualLight};
+pub use material::{AlphaMode, Emission, Material, NormalTexture, OcclusionTexture, TextureUse};
+pub use material_extensions::{
+    Anisotropy, Clearcoat, Iridescence, MaterialExtensions, Sheen, Specular, SpecularGlossiness,
+    Transmission, Volume,
+};
+pub use mesh::{Mesh, MorphTarget, Primitive, Topology, VariantMaterial};
 pub use parts::Parts;
 pub use posed::Posed;
+pub use texture_slot::TextureSlot;
+pub use uv_transform::{UvPart, UvTransform};
 
 use homog::{Affine, Model as ModelSpace};
 
@@ -38,17 +60,34 @@ pub struct Model {
     pub images: Vec<Option<Image>>,
     /// The nodes, as numbered in the file. They form a forest: the importer has refused cycles.
     pub nodes: Vec<Node>,
-    /// The root nodes of the scene that is shown: the file's default scene, else its first, else all roots.
+    /// The root nodes of the scene that is shown.
     pub roots: Vec<usize>,
+    /// The scenes, as numbered in the file.
+    pub scenes: Vec<SceneRoots>,
+    /// The scene that is shown: the one that was asked for, else the file's default scene, else its first. `None` if the file
+    /// has no scenes; all roots are shown then.
+    pub scene: Option<usize>,
     /// The skins, as numbered in the file; one that cannot be used has no joints, and no node names it.
     pub skins: Vec<Skin>,
     /// The cameras, as numbered in the file; one whose numbers make no view has a usual lens instead, and no node
     /// names it.
     pub cameras: Vec<Lens>,
+    /// The lights, as numbered in the file (KHR_lights_punctual).
+    pub lights: Vec<PunctualLight>,
     /// The animations, as numbered in the file; channels that cannot be used are left out.
     pub animations: Vec<Animation>,
+    /// The transforms of textures that animations change.
+    pub uv_transforms: Vec<UvTransform>,
+    /// The names of the variants (KHR_materials_variants).
+    pub variants: Vec<String>,
+    /// The variant that is shown; `None` for the materials that primitives have without.
+    pub variant: Option<usize>,
     /// The extensions the file uses, sorted by name.
     pub extensions_used: Vec<String>,
+    /// Those it requires, sorted by name.
+    pub extensions_required: Vec<String>,
+    /// What the file says of its images, as numbered in it.
+    pub image_files: Vec<ImageFile>,
     /// Soft faults: what was wrong or left out, and where.
     pub warnings: Vec<Warning>,
 }
@@ -78,6 +117,37 @@ pub struct Node {
     pub skin: Option<usize>,
     /// The camera that looks from here along −z with y up.
     pub camera: Option<usize>,
+    /// The light that shines from here, or along −z.
+    pub light: Option<usize>,
+}
+
+impl Default for Node {
+    /// A root without content that stands where the model does.
+    fn default() -> Self {
+        Self {
+            name: None,
+            to_parent: Affine::IDENTITY,
+            parts: Some(Parts::default()),
+            to_model: Affine::IDENTITY,
+            parent: None,
+            children: Vec::new(),
+            mesh: None,
+            places: None,
+            weights: None,
+            skin: None,
+            camera: None,
+            light: None,
+        }
+    }
+}
+
+/// A scene of the file.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct SceneRoots {
+    /// The name in the file, if it has one.
+    pub name: Option<String>,
+    /// Its root nodes as the file lists them; an entry may name no node of the model unless the scene is shown.
+    pub nodes: Vec<usize>,
 }
 
 /// The joints that bend a mesh.
@@ -87,42 +157,6 @@ pub struct Skin {
     pub joints: Vec<usize>,
     /// For each joint, the map from the mesh's coordinates to the joint's in the pose the mesh was made in.
     pub inverse_bind: Vec<Affine<ModelSpace, ModelSpace>>,
-}
-
-/// A camera of the file: its projection only, the node that carries it gives the view.
-#[derive(Clone, Debug)]
-pub struct Lens {
-    /// The name in the file, if it has one.
-    pub name: Option<String>,
-    /// What kind of projection, with its parameters, already checked for sense.
-    pub kind: LensKind,
-}
-
-/// The two kinds of camera that glTF has.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub enum LensKind {
-    /// Perspective projection.
-    Perspective {
-        /// The vertical opening angle in radians, in (0, π).
-        fov_y: f64,
-        /// Width over height, if the file fixes it.
-        aspect: Option<f64>,
-        /// The distance of the near plane, > 0.
-        near: f64,
-        /// The distance of the far plane, > near; infinite if the file gives none.
-        far: f64,
-    },
-    /// Orthographic projection.
-    Orthographic {
-        /// Half the width of the view volume, > 0.
-        half_width: f64,
-        /// Half the height of the view volume, > 0.
-        half_height: f64,
-        /// The distance of the near plane, ≥ 0.
-        near: f64,
-        /// The distance of the far plane, > near.
-        far: f64,
-    },
 }
 
 /// A soft fault of a file: the model is shown all the same.

@@ -19,6 +19,7 @@ pub(super) const INDICES: Format = Format { shapes: &[Type::Scalar], components:
 pub(super) const POSITION: Format =
     Format { shapes: &[Type::Vec3], components: &[F32, I8, U8, I16, U16] };
 pub(super) const NORMAL: Format = Format { shapes: &[Type::Vec3], components: &[F32, I8, I16] };
+pub(super) const TANGENT: Format = Format { shapes: &[Type::Vec4], components: &[F32, I8, I16] };
 pub(super) const TEXCOORD: Format =
     Format { shapes: &[Type::Vec2], components: &[F32, I8, U8, I16, U16] };
 pub(super) const COLOR: Format =
@@ -30,6 +31,8 @@ pub(super) const TURN: Format =
     Format { shapes: &[Type::Vec4], components: &[F32, I8, U8, I16, U16] };
 pub(super) const KEYS: Format =
     Format { shapes: &[Type::Scalar], components: &[F32, I8, U8, I16, U16] };
+pub(super) const PAIRS: Format = Format { shapes: &[Type::Vec2], ..KEYS };
+pub(super) const TRIPLES: Format = Format { shapes: &[Type::Vec3], ..KEYS };
 
 impl Format {
     pub(super) fn check(&self, elements: &Elements<'_>, pointer: &str) -> Result<(), Fault> {

@@ -35,6 +35,16 @@ pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), String> {
     })
 }
 
+/// The name of the format, or nothing if it is not known.
+pub(super) fn format(bytes: &[u8]) -> &'static str {
+    match Kind::of(bytes) {
+        Ok(Kind::Png) => "png",
+        Ok(Kind::Jpeg) => "jpeg",
+        Ok(Kind::WebP) => "webp",
+        Err(_) => "",
+    }
+}
+
 /// The whole image. Its size should have been asked first: this allocates as much as the image has texels.
 pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
     guarded(|| match Kind::of(bytes)? {

@@ -56,10 +56,11 @@ struct Stream<'a> {
     pointer: String,
 }
 
-/// Decodes the stream of a primitive; `pointer` is where the primitive is.
+/// Decodes the stream of a primitive, its tangents only if they are wanted; `pointer` is where the primitive is.
 pub(super) fn decode(
     source: &Source<'_>,
     json: &Primitive,
+    tangents: bool,
     pointer: &str,
 ) -> Result<Option<Decoded>, Fault> {
     let Some(extension) = extension(json) else { return Ok(None) };
@@ -71,7 +72,7 @@ pub(super) fn decode(
     };
     let view = usize::try_from(view).unwrap_or(usize::MAX);
     let bytes = source.buffers.view(view, &format!("{pointer}/bufferView"))?.bytes;
-    let attributes = attributes(json, ids, &pointer)?;
+    let attributes = attributes(json, ids, tangents, &pointer)?;
     let mut vertices = None;
     for &(accessor, _) in &attributes {
         let count = source.elements(accessor, &pointer)?.count;
@@ -97,6 +98,7 @@ pub(super) fn decode(
 fn attributes(
     json: &Primitive,
     ids: &Map<String, Value>,
+    tangents: bool,
     pointer: &str,
 ) -> Result<Vec<(usize, u32)>, Fault> {
     use gltf::json::mesh::Semantic::{Extras, Tangents};
@@ -105,7 +107,7 @@ fn attributes(
     for (semantic, accessor) in &json.attributes {
         // What is not drawn is not read.
         let Valid(semantic) = semantic else { continue };
-        if matches!(semantic, Extras(_) | Tangents) {
+        if matches!(semantic, Extras(_)) || matches!(semantic, Tangents) && !tangents {
             continue;
         }
         let name = semantic.to_string();

@@ -50,6 +50,8 @@ pub enum FaultKind {
     NoData,
     /// The file declares more of something than the [limits](super::Limits) allow.
     Limit,
+    /// A scene or a variant was asked for that the file does not have.
+    Choice,
 }
 
 impl Fault {

@@ -4,12 +4,13 @@
 //! decodes which image makes no difference: results are kept by number, and the budget of texels is spent in the order
 //! of the file, from the sizes in the headers, before any decoder runs.
 
+use super::Images;
 use super::accessor::Source;
 use super::decode;
 use super::error::Fault;
 use super::limits::Limits;
 use super::warnings::Warnings;
-use crate::model::{Image, Material, Mesh, Texture};
+use crate::model::{Image, ImageFile, ImageHeader, Material, Mesh, Model, Texture};
 use gltf::json::image::Image as JsonImage;
 use std::borrow::Cow;
 use std::sync::Mutex;
@@ -17,13 +18,52 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 /// An encoded image.
-pub(super) struct Encoded<'a> {
+struct Encoded<'a> {
     number: usize,
     bytes: Cow<'a, [u8]>,
+    /// Width and height in texels.
+    size: (u32, u32),
+}
+
+/// Reads the images of a file into its model, whose meshes marked in `shown` are visible.
+pub(super) fn images(
+    source: &Source<'_>,
+    model: &mut Model,
+    shown: &[bool],
+    what: Images,
+    warnings: &mut Warnings,
+) {
+    let count = source.root.images.len();
+    let mut needed = needed(&model.meshes, shown, &model.materials, &model.textures, count);
+    model.image_files = source.root.images.iter().map(file).collect();
+    let encoded = read(&needed, source, warnings);
+    note_headers(&encoded, &mut model.image_files);
+    match what {
+        Images::Decode => model.images = decode_all(&encoded, count, warnings),
+        Images::Headers => {
+            model.images = vec![None; count];
+            // Nobody sees the others, so that nobody needs to be warned of them.
+            needed.iter_mut().for_each(|needed| *needed = !*needed);
+            note_headers(&read(&needed, source, &mut Warnings::default()), &mut model.image_files);
+        }
+    }
+}
+
+fn file(json: &JsonImage) -> ImageFile {
+    let is_data = |uri: &str| uri.get(..5).is_some_and(|s| s.eq_ignore_ascii_case("data:"));
+    let uri = json.uri.as_deref().map(|uri| if is_data(uri) { "data:" } else { uri }.to_owned());
+    ImageFile { name: json.name.clone(), uri, header: None }
+}
+
+fn note_headers(encoded: &[Encoded<'_>], files: &mut [ImageFile]) {
+    for Encoded { number, bytes, size: (width, height) } in encoded {
+        let (format, bytes) = (decode::format(bytes), bytes.len());
+        files[*number].header = Some(ImageHeader { format, width: *width, height: *height, bytes });
+    }
 }
 
 /// Which images the primitives of the given meshes need, by number.
-pub(super) fn needed(
+fn needed(
     meshes: &[Mesh],
     shown: &[bool],
     materials: &[Material],
@@ -45,11 +85,7 @@ pub(super) fn needed(
 }
 
 /// The bytes of the needed images; those that cannot be had are a warning.
-pub(super) fn read<'a>(
-    needed: &[bool],
-    source: &'a Source<'_>,
-    warnings: &mut Warnings,
-) -> Vec<Encoded<'a>> {
+fn read<'a>(needed: &[bool], source: &'a Source<'_>, warnings: &mut Warnings) -> Vec<Encoded<'a>> {
     let mut texels_left = source.limits.image_texels;
     let mut found = Vec::new();
     for number in (0..needed.len()).filter(|&at| needed[at]) {
@@ -58,10 +94,10 @@ pub(super) fn read<'a>(
         let checked = bytes.and_then(|bytes| {
             let (width, height) = decode::size(&bytes).map_err(|p| Fault::invalid(&pointer, p))?;
             check_size(width, height, &mut texels_left, source.limits, &pointer)?;
-            Ok(bytes)
+            Ok((bytes, (width, height)))
         });
         match checked {
-            Ok(bytes) => found.push(Encoded { number, bytes }),
+            Ok((bytes, size)) => found.push(Encoded { number, bytes, size }),
             Err(fault) => warnings.soft(&fault, LEFT_OUT),
         }
     }
@@ -107,7 +143,7 @@ fn check_size(
 }
 
 /// Decodes the images on all processors; the result has an entry for each of the file's `count` images.
-pub(super) fn decode_all(
+fn decode_all(
     encoded: &[Encoded<'_>],
     count: usize,
     warnings: &mut Warnings,

@@ -7,6 +7,7 @@
 use super::error::{Fault, FaultKind};
 use super::limits::Limits;
 use super::placement::Placement;
+use super::untyped::Untyped;
 use gltf::json::Root;
 use serde_json::{Map, Number, Value};
 
@@ -17,6 +18,8 @@ pub(super) struct Document {
     pub(super) root: Root,
     /// The nodes' own transforms, finite. The `gltf` crate would round them to single precision.
     pub(super) placements: Vec<Placement>,
+    /// What the types have no room for.
+    pub(super) untyped: Untyped,
 }
 
 impl Document {
@@ -26,15 +29,16 @@ impl Document {
         check_version(&value)?;
         mend(&mut value);
         mend_scenes(&mut value);
+        let untyped = Untyped::of(&value);
         mend_animations(&mut value);
         let placements = Placement::take_all(&mut value)?;
         let root = serde_path_to_error::deserialize(value).map_err(|error| mistyped(&error))?;
-        Ok(Self { root, placements })
+        Ok(Self { root, placements, untyped })
     }
 }
 
 /// Counts brackets and values without building anything.
-fn count(text: &[u8], limits: &Limits) -> Result<(), Fault> {
+pub(super) fn count(text: &[u8], limits: &Limits) -> Result<(), Fault> {
     let (mut depth, mut values) = (0usize, 1usize);
     let mut at = 0;
     while let Some(&byte) = text.get(at) {

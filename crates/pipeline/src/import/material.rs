@@ -1,11 +1,18 @@
-//! Materials: the factors and the base-colour texture, with the extensions that change them.
+//! Materials: factors and textures, those of the KHR_materials extensions among them.
+//!
+//! The numbers of extensions are found by the table of [`Field`](crate::model::Field)s, which says where they stand and
+//! within which bounds they must be; textures by the table of [`TextureSlot`]s.
 
 use super::error::Fault;
 use super::warnings::Warnings;
-use crate::model::{AlphaMode, Material, Model, TextureUse};
+use crate::model::{
+    AlphaMode, Material, Model, NormalTexture, OcclusionTexture, TextureSlot, TextureUse,
+    UvTransform,
+};
+use crate::model::{MATERIAL, Row};
+use gltf::json::Root;
 use gltf::json::material::AlphaMode as JsonAlphaMode;
 use gltf::json::validation::Checked;
-use gltf::json::{Root, texture};
 use serde_json::{Map, Value};
 
 /// Reads all materials of a file. What is wrong with one is a warning.
@@ -15,43 +22,57 @@ pub(super) fn materials(root: &Root, warnings: &mut Warnings) -> Vec<Material> {
         .collect()
 }
 
+/// The transform of a texture as the file gives it (KHR_texture_transform); `None` if it gives none.
+pub(super) fn uv_transform(root: &Root, material: usize, slot: TextureSlot) -> Option<UvTransform> {
+    let json = Info::of(root, material, slot)?.transform?;
+    let rotation = json.get("rotation").and_then(Value::as_f64).unwrap_or(0.0);
+    Some(UvTransform {
+        material,
+        slot,
+        offset: json.get("offset").and_then(floats).unwrap_or([0.0; 2]),
+        rotation: rotation as f32,
+        scale: json.get("scale").and_then(floats).unwrap_or([1.0; 2]),
+    })
+}
+
 struct Reader<'a, 'w> {
     root: &'a Root,
     at: usize,
     warnings: &'w mut Warnings,
 }
 
-impl Reader<'_, '_> {
+impl<'a> Reader<'a, '_> {
     fn material(mut self) -> Material {
         let json = &self.root.materials[self.at];
         let pbr = &json.pbr_metallic_roughness;
-        let strength = self.emissive_strength();
         let mut material = Material {
             name: json.name.clone(),
             base_color: self.unit("pbrMetallicRoughness/baseColorFactor", pbr.base_color_factor.0),
-            base_color_texture: pbr
-                .base_color_texture
-                .as_ref()
-                .and_then(|info| self.texture_use("pbrMetallicRoughness/baseColorTexture", info)),
+            base_color_texture: self.texture(TextureSlot::BaseColor),
             metallic: self.unit("pbrMetallicRoughness/metallicFactor", [pbr.metallic_factor.0])[0],
             roughness: self.unit("pbrMetallicRoughness/roughnessFactor", [pbr.roughness_factor.0])
                 [0],
-            emissive: self.unit("emissiveFactor", json.emissive_factor.0).map(|x| x * strength),
-            emissive_texture: json
-                .emissive_texture
-                .as_ref()
-                .and_then(|info| self.texture_use("emissiveTexture", info)),
+            metallic_roughness_texture: self.texture(TextureSlot::MetallicRoughness),
+            normal_texture: self.normal_texture(TextureSlot::Normal),
+            emissive_texture: self.texture(TextureSlot::Emissive),
             alpha_mode: self.alpha_mode(),
             double_sided: json.double_sided,
             unlit: self.extension("KHR_materials_unlit").is_some(),
+            ..Material::default()
         };
-        if let Some(glossy) = self.extension("KHR_materials_pbrSpecularGlossiness").cloned() {
-            self.specular_glossiness(&glossy, &mut material);
+        material.emission.color = self.unit("emissiveFactor", json.emissive_factor.0);
+        if let (Some(texture), Some(json)) =
+            (self.texture(TextureSlot::Occlusion), &json.occlusion_texture)
+        {
+            let strength = self.unit("occlusionTexture/strength", [json.strength.0])[0];
+            material.occlusion_texture = Some(OcclusionTexture { texture, strength });
         }
+        self.extensions(&mut material);
+        material.settle();
         material
     }
 
-    fn extension(&self, name: &str) -> Option<&Map<String, Value>> {
+    fn extension(&self, name: &str) -> Option<&'a Map<String, Value>> {
         let extensions = self.root.materials[self.at].extensions.as_ref()?;
         extensions.others.get(name)?.as_object()
     }
@@ -62,12 +83,25 @@ impl Reader<'_, '_> {
 
     /// Factors brought into [0, 1], where the specification wants them.
     fn unit<const N: usize>(&mut self, member: &str, factors: [f32; N]) -> [f32; N] {
-        let inside = factors.map(|x| if x > 0.0 { x.min(1.0) } else { 0.0 });
-        if inside != factors {
-            let message = format!("{factors:?} is not in [0, 1]; it is {inside:?}");
+        let mut inside = factors;
+        self.bound(member, &mut inside, [0.0, 1.0]);
+        inside
+    }
+
+    /// Brings numbers within bounds, with a warning; what is no number becomes the least.
+    fn bound(&mut self, member: &str, numbers: &mut [f32], [least, greatest]: [f32; 2]) {
+        let said = numbers.to_vec();
+        for number in &mut *numbers {
+            *number = if *number > least { number.min(greatest) } else { least };
+        }
+        if said != numbers {
+            let range = match greatest {
+                f32::MAX => format!("not at least {least}"),
+                _ => format!("not in [{least}, {greatest}]"),
+            };
+            let message = format!("{said:?} is {range}; it is {numbers:?}");
             self.warnings.add(&self.pointer(member), message);
         }
-        inside
     }
 
     fn alpha_mode(&mut self) -> AlphaMode {
@@ -86,44 +120,167 @@ impl Reader<'_, '_> {
         }
     }
 
-    fn emissive_strength(&self) -> f32 {
-        let extension = self.extension("KHR_materials_emissive_strength");
-        let strength = extension.and_then(|e| e.get("emissiveStrength")).and_then(Value::as_f64);
-        strength.map_or(1.0, |s| s.clamp(0.0, 1e6) as f32)
+    /// What the extensions add: first the records with their textures, then the numbers.
+    fn extensions(&mut self, material: &mut Material) {
+        self.records(material);
+        for Row { path, bounds, numbers, .. } in &MATERIAL {
+            let Some((name, member)) =
+                path.strip_prefix("extensions/").and_then(|path| path.split_once('/'))
+            else {
+                continue;
+            };
+            // The scale of the coat's normals is read with their texture.
+            let json = self.extension(name).and_then(|extension| extension.get(member));
+            let (Some(json), Some(numbers)) = (json, numbers(material)) else { continue };
+            let said: Option<Vec<f32>> = match json {
+                Value::Number(number) => number.as_f64().map(|x| vec![x as f32]),
+                Value::Array(all) => all.iter().map(|x| x.as_f64().map(|x| x as f32)).collect(),
+                _ => None,
+            };
+            match said.filter(|said| said.len() == numbers.len()) {
+                Some(said) => {
+                    numbers.copy_from_slice(&said);
+                    self.bound(path, numbers, *bounds);
+                }
+                None => {
+                    let due = match numbers.len() {
+                        1 => "a number is due".to_owned(),
+                        several => format!("{several} numbers are due"),
+                    };
+                    self.warnings.add(&self.pointer(path), format!("{due}; the usual is used"));
+                }
+            }
+        }
     }
 
-    /// The older model of materials, as far as one colour and one texture can show it.
-    fn specular_glossiness(&mut self, extension: &Map<String, Value>, material: &mut Material) {
-        const NAME: &str = "extensions/KHR_materials_pbrSpecularGlossiness";
-        let diffuse = extension.get("diffuseFactor").and_then(floats).unwrap_or([1.0; 4]);
-        material.base_color = self.unit(&format!("{NAME}/diffuseFactor"), diffuse);
-        material.metallic = 0.0;
-        let gloss = extension.get("glossinessFactor").and_then(Value::as_f64).unwrap_or(1.0) as f32;
-        material.roughness = 1.0 - self.unit(&format!("{NAME}/glossinessFactor"), [gloss])[0];
-        let info = extension.get("diffuseTexture").cloned();
-        let info = info.and_then(|info| serde_json::from_value::<texture::Info>(info).ok());
-        material.base_color_texture =
-            info.and_then(|info| self.texture_use(&format!("{NAME}/diffuseTexture"), &info));
+    fn records(&mut self, material: &mut Material) {
+        use TextureSlot as Slot;
+        let more = &mut material.extensions;
+        more.specular = self.extension("KHR_materials_specular").map(|_| Box::default());
+        more.transmission = self.extension("KHR_materials_transmission").map(|_| Box::default());
+        more.specular_glossiness =
+            self.extension("KHR_materials_pbrSpecularGlossiness").map(|_| Box::default());
+        more.clearcoat = self.extension("KHR_materials_clearcoat").map(|_| Box::default());
+        more.sheen = self.extension("KHR_materials_sheen").map(|_| Box::default());
+        more.volume = self.extension("KHR_materials_volume").map(|_| Box::default());
+        more.iridescence = self.extension("KHR_materials_iridescence").map(|_| Box::default());
+        more.anisotropy = self.extension("KHR_materials_anisotropy").map(|_| Box::default());
+        if let Some(specular) = &mut more.specular {
+            specular.texture = self.texture(Slot::Specular);
+            specular.color_texture = self.texture(Slot::SpecularColor);
+        }
+        if let Some(older) = &mut more.specular_glossiness {
+            older.texture = self.texture(Slot::SpecularGlossiness);
+            (material.base_color, material.base_color_texture) =
+                ([1.0; 4], self.texture(Slot::Diffuse));
+        }
+        if let Some(coat) = &mut more.clearcoat {
+            coat.texture = self.texture(Slot::Clearcoat);
+            coat.roughness_texture = self.texture(Slot::ClearcoatRoughness);
+            coat.normal_texture = self.normal_texture(Slot::ClearcoatNormal);
+        }
+        if let Some(sheen) = &mut more.sheen {
+            sheen.color_texture = self.texture(Slot::SheenColor);
+            sheen.roughness_texture = self.texture(Slot::SheenRoughness);
+        }
+        if let Some(transmission) = &mut more.transmission {
+            transmission.texture = self.texture(Slot::Transmission);
+        }
+        if let Some(volume) = &mut more.volume {
+            volume.thickness_texture = self.texture(Slot::Thickness);
+        }
+        if let Some(film) = &mut more.iridescence {
+            film.texture = self.texture(Slot::Iridescence);
+            film.thickness_texture = self.texture(Slot::IridescenceThickness);
+        }
+        if let Some(anisotropy) = &mut more.anisotropy {
+            anisotropy.texture = self.texture(Slot::Anisotropy);
+        }
     }
 
-    fn texture_use(&mut self, member: &str, info: &texture::Info) -> Option<TextureUse> {
-        let texture = info.index.value();
+    fn normal_texture(&mut self, slot: TextureSlot) -> Option<NormalTexture> {
+        let texture = self.texture(slot)?;
+        let scale = Info::of(self.root, self.at, slot)?.scale;
+        let scale = if scale.is_finite() { scale } else { 1.0 };
+        Some(NormalTexture { texture, scale })
+    }
+
+    fn texture(&mut self, slot: TextureSlot) -> Option<TextureUse> {
+        let Info { texture, uv_set, transform, .. } = Info::of(self.root, self.at, slot)?;
         if texture >= self.root.textures.len() {
-            let pointer = self.pointer(&format!("{member}/index"));
+            let pointer = self.pointer(&format!("{}/index", slot.path()));
             let fault = Fault::unresolved(&pointer, "texture", texture, self.root.textures.len());
             self.warnings.soft(&fault, "the surface is shown without it");
             return None;
         }
-        let transform =
-            info.extensions.as_ref().and_then(|e| e.others.get("KHR_texture_transform"));
-        let uv_set = transform.and_then(|t| t.get("texCoord")).and_then(Value::as_u64);
+        let other_set = transform.and_then(|t| t.get("texCoord")).and_then(Value::as_u64);
+        let transform = uv_transform(self.root, self.at, slot);
         Some(TextureUse {
             texture,
-            uv_set: uv_set.map_or(info.tex_coord as usize, |set| set as usize),
-            uv_map: transform.map_or(TextureUse::KEEP_UV, uv_map),
+            uv_set: other_set.map_or(uv_set, |set| set as usize),
+            uv_map: transform.map_or(TextureUse::KEEP_UV, |transform| transform.map()),
         })
     }
 }
+
+/// A texture as the file names it.
+struct Info<'a> {
+    texture: usize,
+    uv_set: usize,
+    /// The scale of normals.
+    scale: f32,
+    transform: Option<&'a Value>,
+}
+
+impl<'a> Info<'a> {
+    /// The texture in a slot of a material; its number may be that of no texture.
+    fn of(root: &'a Root, material: usize, slot: TextureSlot) -> Option<Self> {
+        let json = root.materials.get(material)?;
+        let pbr = &json.pbr_metallic_roughness;
+        let info = match slot {
+            TextureSlot::BaseColor => pbr.base_color_texture.as_ref(),
+            TextureSlot::MetallicRoughness => pbr.metallic_roughness_texture.as_ref(),
+            TextureSlot::Emissive => json.emissive_texture.as_ref(),
+            TextureSlot::Normal => {
+                let json = json.normal_texture.as_ref()?;
+                let (texture, uv_set) = (json.index.value(), json.tex_coord as usize);
+                let others = json.extensions.as_ref().map(|extensions| &extensions.others);
+                let transform = others.and_then(|others| others.get(TRANSFORM));
+                return Some(Self { texture, uv_set, scale: json.scale, transform });
+            }
+            TextureSlot::Occlusion => {
+                let json = json.occlusion_texture.as_ref()?;
+                let (texture, uv_set) = (json.index.value(), json.tex_coord as usize);
+                let others = json.extensions.as_ref().map(|extensions| &extensions.others);
+                let transform = others.and_then(|others| others.get(TRANSFORM));
+                return Some(Self { texture, uv_set, scale: 1.0, transform });
+            }
+            _ => return Self::of_extension(root, material, slot),
+        };
+        let info = info?;
+        let others = info.extensions.as_ref().map(|extensions| &extensions.others);
+        Some(Self {
+            texture: info.index.value(),
+            uv_set: info.tex_coord as usize,
+            scale: 1.0,
+            transform: others.and_then(|others| others.get(TRANSFORM)),
+        })
+    }
+
+    fn of_extension(root: &'a Root, material: usize, slot: TextureSlot) -> Option<Self> {
+        let (name, member) = slot.path().strip_prefix("extensions/")?.split_once('/')?;
+        let json = root.materials[material].extensions.as_ref()?.others.get(name)?.get(member)?;
+        let index = |name: &str| json.get(name).and_then(Value::as_u64).map(|at| at as usize);
+        Some(Self {
+            texture: index("index").unwrap_or(usize::MAX),
+            uv_set: index("texCoord").unwrap_or(0),
+            scale: json.get("scale").and_then(Value::as_f64).map_or(1.0, |scale| scale as f32),
+            transform: json.get("extensions").and_then(|all| all.get(TRANSFORM)),
+        })
+    }
+}
+
+const TRANSFORM: &str = "KHR_texture_transform";
 
 /// Warns of primitives that lack the texture coordinates their material asks for.
 pub(super) fn warn_of_missing_texcoords(model: &Model, warnings: &mut Warnings) {
@@ -140,37 +297,8 @@ pub(super) fn warn_of_missing_texcoords(model: &Model, warnings: &mut Warnings) 
     }
 }
 
-/// The map of KHR_texture_transform: scale, then rotate (counter-clockwise in an image whose v points down), then move.
-fn uv_map(transform: &Value) -> [[f32; 3]; 2] {
-    let [u, v] = transform.get("offset").and_then(floats).unwrap_or([0.0; 2]);
-    let [width, height] = transform.get("scale").and_then(floats).unwrap_or([1.0; 2]);
-    let angle = transform.get("rotation").and_then(Value::as_f64).unwrap_or(0.0);
-    let (sin, cos) = (libm::sin(angle) as f32, libm::cos(angle) as f32);
-    let map = [[cos * width, sin * height, u], [-sin * width, cos * height, v]];
-    if map.as_flattened().iter().all(|x| x.is_finite()) { map } else { TextureUse::KEEP_UV }
-}
-
 fn floats<const N: usize>(value: &Value) -> Option<[f32; N]> {
     let numbers: Option<Vec<f32>> =
         value.as_array()?.iter().map(|item| item.as_f64().map(|x| x as f32)).collect();
     numbers?.try_into().ok()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use serde_json::json;
-
-    #[test]
-    fn texture_transform_turns_about_the_origin_and_then_moves() {
-        let quarter = std::f64::consts::FRAC_PI_2;
-        let transform = json!({"offset": [0.5, 0.25], "rotation": quarter, "scale": [2.0, 3.0]});
-        let map = uv_map(&transform);
-        let image = |u: f32, v: f32| map.map(|row| row[0] * u + row[1] * v + row[2]);
-        let near =
-            |a: [f32; 2], b: [f32; 2]| (a[0] - b[0]).abs() < 1e-6 && (a[1] - b[1]).abs() < 1e-6;
-        assert!(near(image(0.0, 0.0), [0.5, 0.25]));
-        assert!(near(image(1.0, 0.0), [0.5, 0.25 - 2.0]));
-        assert!(near(image(0.0, 1.0), [0.5 + 3.0, 0.25]));
-    }
 }

@@ -4,29 +4,46 @@
 //! its look: one that cannot be read is left out with a warning.
 
 use super::accessor::Source;
-use super::attribute::{Attributes, INDICES, JOINTS, NORMAL, POSITION, Span, WEIGHTS};
+use super::attribute::{Attributes, INDICES, JOINTS, NORMAL, POSITION, Span, TANGENT, WEIGHTS};
 use super::draco::Decoded;
 use super::elements::Elements;
 use super::error::{Fault, FaultKind};
+use super::morph::Target;
+use super::untyped::Untyped;
 use super::warnings::Warnings;
-use super::{draco, normals, topology};
-use crate::model::{Mesh, MorphTarget, Primitive, Topology};
+use super::{choice, draco, edges, normals, topology};
+use crate::model::{Edges, Material, Mesh, Primitive, Topology, VariantMaterial};
 use gltf::json;
 use gltf::json::mesh::Semantic;
 use gltf::json::validation::Checked;
 use std::ops::Range;
 
 /// So many sets of texture coordinates are read.
-const UV_SETS: u32 = 8;
+pub(super) const UV_SETS: u32 = 8;
+/// So many sets of joints are read.
+const JOINT_SETS: u32 = 16;
+
+/// What the file says of primitives elsewhere.
+#[derive(Clone, Copy)]
+pub(super) struct Context<'a> {
+    pub(super) materials: &'a [Material],
+    pub(super) variants: usize,
+    pub(super) untyped: &'a Untyped,
+}
 
 /// Reads all meshes of a file.
-pub(super) fn meshes(source: &Source<'_>, warnings: &mut Warnings) -> Result<Vec<Mesh>, Fault> {
+pub(super) fn meshes(
+    source: &Source<'_>,
+    context: Context<'_>,
+    warnings: &mut Warnings,
+) -> Result<Vec<Mesh>, Fault> {
     let mut meshes = Vec::with_capacity(source.root.meshes.len());
     for (at, json) in source.root.meshes.iter().enumerate() {
         let mut primitives = Vec::with_capacity(json.primitives.len());
         for (part, json) in json.primitives.iter().enumerate() {
             let pointer = format!("/meshes/{at}/primitives/{part}");
-            let reader = Reader { source, json, pointer, warnings: &mut *warnings };
+            let place = (at, part);
+            let reader = Reader { source, json, context, place, pointer, warnings: &mut *warnings };
             primitives.push(match reader.primitive() {
                 Err(fault) if fault.kind == FaultKind::NoData => {
                     warnings.soft(&fault, "the primitive is left out");
@@ -45,6 +62,9 @@ pub(super) fn meshes(source: &Source<'_>, warnings: &mut Warnings) -> Result<Vec
 struct Reader<'a, 'w> {
     source: &'a Source<'a>,
     json: &'a json::mesh::Primitive,
+    context: Context<'a>,
+    /// The mesh's number, and the primitive's in it.
+    place: (usize, usize),
     pointer: String,
     warnings: &'w mut Warnings,
 }
@@ -55,7 +75,9 @@ impl<'a> Reader<'a, '_> {
             let pointer = format!("{}/mode", self.pointer);
             return Err(Fault::invalid(&pointer, "the mode is not one of 0 to 6"));
         };
-        let mut decoded = self.decompressed()?;
+        let (material, variants) = (self.material(), self.variants());
+        let needs_tangents = self.needs_tangents(material, &variants);
+        let mut decoded = self.decompressed(needs_tangents)?;
         let triangles = decoded.as_mut().map(|decoded| std::mem::take(&mut decoded.indices));
         let decoded = decoded.as_ref();
         let Some(positions) = self.positions(decoded)? else { return Ok(Primitive::default()) };
@@ -64,22 +86,55 @@ impl<'a> Reader<'a, '_> {
             Some(triangles) => (Topology::Triangles, triangles),
             None => topology::list(mode, self.indices(vertices)?),
         };
-        let mut primitive = Primitive { topology, indices, ..Primitive::default() };
+        let mut primitive =
+            Primitive { topology, indices, material, variants, ..Primitive::default() };
+        primitive.edges = self.edges(&primitive, vertices)?;
         self.drop_lost_vertices(&mut primitive, vertices);
         let used = shift_to_zero(&mut primitive.indices);
+        if let Some(edges) = &mut primitive.edges {
+            edges::shift(edges, &used);
+        }
         primitive.positions = self.source.floats(&positions.only(used.clone()))?;
         self.drop_lost_places(&mut primitive);
-        self.attributes(&mut primitive, Span { vertices, used }, decoded)?;
+        self.attributes(&mut primitive, Span { vertices, used }, decoded, needs_tangents)?;
         self.mend_normals(&mut primitive);
-        primitive.material = self.material();
         Ok(primitive)
     }
 
+    /// Whether a material that the primitive can have bends its normals: tangents count only then.
+    fn needs_tangents(&self, material: Option<usize>, variants: &[VariantMaterial]) -> bool {
+        let others = variants.iter().map(|variant| variant.material);
+        let mut all = material.into_iter().chain(others);
+        all.any(|at| self.context.materials.get(at).is_some_and(Material::needs_tangents))
+    }
+
+    fn variants(&mut self) -> Vec<VariantMaterial> {
+        let Context { variants, .. } = self.context;
+        let root = self.source.root;
+        choice::variant_materials(root, self.json, &self.pointer, variants, self.warnings)
+    }
+
+    fn edges(
+        &mut self,
+        primitive: &Primitive,
+        vertices: usize,
+    ) -> Result<Option<Box<Edges>>, Fault> {
+        let reader = edges::Reader {
+            source: self.source,
+            json: self.json,
+            pointer: &self.pointer,
+            vertices,
+            triangles: primitive.count(),
+            warnings: self.warnings,
+        };
+        reader.edges(primitive.topology)
+    }
+
     /// What a compressed primitive has in its stream; `None` if there is none, or if it is broken and there is other data.
-    fn decompressed(&mut self) -> Result<Option<Decoded>, Fault> {
+    fn decompressed(&mut self, tangents: bool) -> Result<Option<Decoded>, Fault> {
         let positions = self.attribute(Semantic::Positions);
         let has_other_data = positions.is_some_and(|accessor| !self.source.is_empty(accessor));
-        match draco::decode(self.source, self.json, &self.pointer) {
+        match draco::decode(self.source, self.json, tangents, &self.pointer) {
             Err(fault) if fault.is_soft() && has_other_data => {
                 self.warnings.soft(&fault, "the uncompressed data is used");
                 Ok(None)
@@ -153,6 +208,7 @@ impl<'a> Reader<'a, '_> {
         primitive: &mut Primitive,
         span: Span,
         decoded: Option<&Decoded>,
+        tangents: bool,
     ) -> Result<(), Fault> {
         let json = self.json;
         let named = |semantic: Semantic| {
@@ -163,20 +219,39 @@ impl<'a> Reader<'a, '_> {
             Attributes { source: self.source, span, decoded, warnings: &mut *self.warnings };
         let (normal, pointer) = named(Semantic::Normals);
         primitive.normals = attributes.read(normal, &pointer, &NORMAL, |s, e| s.floats(&e))?;
+        if tangents {
+            let (tangent, pointer) = named(Semantic::Tangents);
+            primitive.tangents =
+                attributes.read(tangent, &pointer, &TANGENT, |s, e| s.floats(&e))?;
+        }
         for set in 0..UV_SETS {
             let (texcoord, pointer) = named(Semantic::TexCoords(set));
-            let Some(uvs) = attributes.texcoords(texcoord, &pointer)? else { break };
-            primitive.uvs.push(uvs);
+            if let Some(uvs) = attributes.texcoords(texcoord, &pointer)? {
+                // A set that is lacking between others is zeros.
+                primitive.uvs.resize(set as usize, vec![[0.0; 2]; primitive.positions.len()]);
+                primitive.uvs.push(uvs);
+            }
         }
         let (color, pointer) = named(Semantic::Colors(0));
         primitive.colors = attributes.colors(color, &pointer)?;
-        let (joints, pointer) = named(Semantic::Joints(0));
-        primitive.joints = attributes.read(joints, &pointer, &JOINTS, |s, e| s.shorts(&e))?;
-        let (weights, pointer) = named(Semantic::Weights(0));
-        primitive.weights = attributes.read(weights, &pointer, &WEIGHTS, |s, e| s.floats(&e))?;
+        for set in 0..JOINT_SETS {
+            let (joints, pointer) = named(Semantic::Joints(set));
+            let joints = attributes.read(joints, &pointer, &JOINTS, |s, e| s.shorts(&e))?;
+            let (weights, pointer) = named(Semantic::Weights(set));
+            let weights = attributes.read(weights, &pointer, &WEIGHTS, |s, e| s.floats(&e))?;
+            let (Some(joints), Some(weights)) = (joints, weights) else { break };
+            primitive.joints.push(joints);
+            primitive.weights.push(weights);
+        }
+        let (mesh, part) = self.place;
         for (at, json) in json.targets.iter().flatten().enumerate() {
-            let pointer = format!("{}/targets/{at}", self.pointer);
-            primitive.targets.push(target(&mut attributes, json, &pointer)?);
+            let further = self.context.untyped.morphs.get(&(mesh, part, at));
+            let mut reader = Target {
+                attributes: &mut attributes,
+                pointer: format!("{}/targets/{at}", self.pointer),
+                tangents,
+            };
+            primitive.targets.push(reader.read(json, further.map_or(&[], Vec::as_slice))?);
         }
         Ok(())
     }
@@ -211,20 +286,6 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-/// The differences of one morph target.
-fn target(
-    attributes: &mut Attributes<'_, '_>,
-    json: &json::mesh::MorphTarget,
-    pointer: &str,
-) -> Result<MorphTarget, Fault> {
-    let mut read = |accessor: Option<json::Index<_>>, name: &str| {
-        let accessor = accessor.map(|accessor| accessor.value());
-        attributes.read(accessor, &format!("{pointer}/{name}"), &POSITION, |s, e| s.floats(&e))
-    };
-    let positions = read(json.positions, "POSITION")?;
-    Ok(MorphTarget { positions, normals: read(json.normals, "NORMAL")? })
-}
-
 /// Counts the indices from the lowest one on; gives the range they came from. Parts of a model often share one long
 /// array of vertices, of which each uses a stretch.
 fn shift_to_zero(indices: &mut [u32]) -> Range<usize> {
@@ -239,8 +300,12 @@ fn shift_to_zero(indices: &mut [u32]) -> Range<usize> {
 
 /// Keeps the items that `keep` accepts; gives the number of the others.
 fn retain_items(primitive: &mut Primitive, keep: impl Fn(&[u32]) -> bool) -> usize {
-    let Primitive { topology, indices, .. } = primitive;
+    let Primitive { topology, indices, edges, .. } = primitive;
     let before = indices.len();
+    if let Some(visibility) = edges.as_mut().and_then(|edges| edges.visibility.as_mut()) {
+        let mut items = indices.chunks_exact(topology.corners());
+        visibility.retain(|_| items.next().is_some_and(&keep));
+    }
     let items = indices.chunks_exact(topology.corners());
     *indices = items.filter(|item| keep(item)).flatten().copied().collect();
     (before - indices.len()) / topology.corners()

@@ -5,8 +5,8 @@ use super::json::Document;
 use super::limits::Limits;
 use super::placement::Placement;
 use super::warnings::Warnings;
-use crate::model::{Instance, Mesh, Model, Node, Parts, Primitive};
-use gltf::json::Index;
+use crate::model::{Instance, Mesh, Model, Node, Parts, Primitive, SceneRoots};
+use gltf::json::{Index, Root};
 use homog::Affine;
 
 /// Reads all nodes of a file. They form a forest of bounded depth, and every index in them is right.
@@ -53,6 +53,7 @@ fn node(document: &Document, at: usize, warnings: &mut Warnings) -> Result<Node,
         weights: json.weights.clone(),
         skin,
         camera,
+        light: None,
     })
 }
 
@@ -119,20 +120,22 @@ fn place(nodes: &mut [Node], limits: &Limits) -> Result<(), Fault> {
     }
 }
 
-/// The roots of the scene that is shown: the default scene, else the first, else all roots.
+/// The scenes of a file.
+pub(super) fn scenes(root: &Root) -> Vec<SceneRoots> {
+    let scene = |json: &gltf::json::Scene| SceneRoots {
+        name: json.name.clone(),
+        nodes: json.nodes.iter().map(Index::value).collect(),
+    };
+    root.scenes.iter().map(scene).collect()
+}
+
+/// The roots of the scene that is shown; of all nodes, if there is no such scene.
 pub(super) fn roots(
-    document: &Document,
+    root: &Root,
+    scene: usize,
     nodes: &[Node],
     warnings: &mut Warnings,
 ) -> Result<Vec<usize>, Fault> {
-    let root = &document.root;
-    let scene = match root.scene {
-        Some(scene) if scene.value() >= root.scenes.len() => {
-            return Err(Fault::unresolved("/scene", "scene", scene.value(), root.scenes.len()));
-        }
-        Some(scene) => scene.value(),
-        None => 0,
-    };
     let Some(json) = root.scenes.get(scene) else {
         return Ok((0..nodes.len()).filter(|&at| nodes[at].parent.is_none()).collect());
     };

@@ -17,6 +17,30 @@ impl std::fmt::Debug for Image {
     }
 }
 
+/// What a file says of an image.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct ImageFile {
+    /// The name in the file, if it has one.
+    pub name: Option<String>,
+    /// The URI, if it is in a file of its own; `data:` stands for one that is in the URI itself.
+    pub uri: Option<String>,
+    /// What its first bytes say; `None` if it was not read, or could not be.
+    pub header: Option<ImageHeader>,
+}
+
+/// What the first bytes of an image say.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct ImageHeader {
+    /// The name of the format: `png`, `jpeg`, `webp` or `ktx2`.
+    pub format: &'static str,
+    /// Width in texels.
+    pub width: u32,
+    /// Height in texels.
+    pub height: u32,
+    /// How many bytes the encoded image has.
+    pub bytes: usize,
+}
+
 /// An image with a way to read it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Texture {

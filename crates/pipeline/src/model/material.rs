@@ -1,6 +1,11 @@
 //! Materials: what a surface looks like, as the file has it.
 
-/// What a surface looks like. All factors are linear, not sRGB.
+use super::MaterialExtensions;
+
+/// What a surface looks like: glTF's metallic-roughness model, and what extensions add to it.
+///
+/// All factors are linear, not sRGB, and in the ranges that the comments name. A texture multiplies the factor it stands
+/// beside; the comments say which of its channels count, and whether its colours are sRGB.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Material {
     /// The name in the file, if it has one.
@@ -11,24 +16,43 @@ pub struct Material {
     pub base_color_texture: Option<TextureUse>,
     /// 0 for dielectrics, 1 for metals.
     pub metallic: f32,
-    /// 0 for mirrors, 1 for chalk.
+    /// 0 for mirrors, 1 for chalk; its square is the α of the microfacet formulas.
     pub roughness: f32,
-    /// Light the surface gives off by itself.
+    /// The texture of metalness (blue) and roughness (green), linear.
+    pub metallic_roughness_texture: Option<TextureUse>,
+    /// Small slopes of the surface.
+    pub normal_texture: Option<NormalTexture>,
+    /// How much of the ambient light arrives.
+    pub occlusion_texture: Option<OcclusionTexture>,
+    /// Light the surface gives off by itself: `emission`'s colour times its strength.
     pub emissive: [f32; 3],
     /// The texture of that light (sRGB); multiplies it.
     pub emissive_texture: Option<TextureUse>,
+    /// What `emissive` is made of; animations change one or the other.
+    pub emission: Emission,
     /// What alpha means.
     pub alpha_mode: AlphaMode,
     /// Whether the back of the surface is shown too.
     pub double_sided: bool,
     /// Whether the base colour is shown as it is, without light (KHR_materials_unlit).
     pub unlit: bool,
+    /// What the extensions of glTF add.
+    pub extensions: MaterialExtensions,
 }
 
 impl Material {
-    /// The textures that the surface shows.
+    /// The textures that the surface shows: their images are decoded. A texture that shading learns to use goes here.
     pub fn textures(&self) -> impl Iterator<Item = TextureUse> {
         [self.base_color_texture, self.emissive_texture].into_iter().flatten()
+    }
+
+    /// Whether a texture bends the surface's normals, so that its tangents count.
+    #[must_use]
+    pub fn needs_tangents(&self) -> bool {
+        let coat = self.extensions.clearcoat.as_ref();
+        self.normal_texture.is_some()
+            || self.extensions.anisotropy.is_some()
+            || coat.is_some_and(|coat| coat.normal_texture.is_some())
     }
 }
 
@@ -41,13 +65,61 @@ impl Default for Material {
             base_color_texture: None,
             metallic: 1.0,
             roughness: 1.0,
+            metallic_roughness_texture: None,
+            normal_texture: None,
+            occlusion_texture: None,
             emissive: [0.0; 3],
             emissive_texture: None,
+            emission: Emission::default(),
             alpha_mode: AlphaMode::Opaque,
             double_sided: false,
             unlit: false,
+            extensions: MaterialExtensions::default(),
         }
     }
+}
+
+/// Light a surface gives off by itself.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Emission {
+    /// Red, green and blue, each in [0, 1].
+    pub color: [f32; 3],
+    /// What the colour is multiplied by, at least 0; the product is in candela per square metre
+    /// (KHR_materials_emissive_strength).
+    pub strength: f32,
+}
+
+impl Emission {
+    /// Colour times strength.
+    #[must_use]
+    pub fn product(self) -> [f32; 3] {
+        self.color.map(|channel| channel * self.strength)
+    }
+}
+
+impl Default for Emission {
+    fn default() -> Self {
+        Self { color: [0.0; 3], strength: 1.0 }
+    }
+}
+
+/// A texture of slopes: red, green and blue (linear) are 2x − 1 of a vector in the tangent space of the surface, red along the
+/// tangent, green along the bitangent, blue along the normal.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct NormalTexture {
+    /// The texture.
+    pub texture: TextureUse,
+    /// Multiplies the first two components of the vector before it is brought to length 1; any number.
+    pub scale: f32,
+}
+
+/// A texture of the ambient light that arrives: red (linear), 1 for all of it.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct OcclusionTexture {
+    /// The texture.
+    pub texture: TextureUse,
+    /// In [0, 1]: light arrives as 1 + strength · (red − 1).
+    pub strength: f32,
 }
 
 /// A texture in use: which one, and by which coordinates.

@@ -1,5 +1,7 @@
 //! Meshes: arrays of vertices, and lists of points, lines or triangles over them.
 
+use super::Edges;
+
 /// A named group of primitives.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
@@ -25,18 +27,34 @@ pub struct Primitive {
     pub positions: Vec<[f32; 3]>,
     /// Unit normals; `None` where the file has none: faces are then flat.
     pub normals: Option<Vec<[f32; 3]>>,
+    /// Unit tangents, and in w the side of the bitangent, 1 or −1. `None` where the file has none (see
+    /// [`derived_tangents`](Self::derived_tangents)) and where no material of the primitive needs them.
+    pub tangents: Option<Vec<[f32; 4]>>,
     /// Sets of texture coordinates, (0, 0) at the upper left of the image; `uvs[n]` is `TEXCOORD_n`.
     pub uvs: Vec<Vec<[f32; 2]>>,
     /// Vertex colours, linear, with alpha.
     pub colors: Option<Vec<[f32; 4]>>,
-    /// Up to four joints of the skin for each vertex (the first set only).
-    pub joints: Option<Vec<[u16; 4]>>,
-    /// The weights of those joints.
-    pub weights: Option<Vec<[f32; 4]>>,
-    /// Differences that can be added to positions and normals.
+    /// Sets of four joints of the skin for each vertex.
+    pub joints: Vec<Vec<[u16; 4]>>,
+    /// The weights of those joints, as many sets.
+    pub weights: Vec<Vec<[f32; 4]>>,
+    /// Differences that can be added to the vertices.
     pub targets: Vec<MorphTarget>,
     /// The material's number in the model; `None` for the default material.
     pub material: Option<usize>,
+    /// The materials it has in variants of the model instead.
+    pub variants: Vec<VariantMaterial>,
+    /// The edges its maker wants to see, if the file says so.
+    pub edges: Option<Box<Edges>>,
+}
+
+/// The material of a primitive in a variant of the model.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct VariantMaterial {
+    /// The variant's number in the model.
+    pub variant: usize,
+    /// The material's number in the model.
+    pub material: usize,
 }
 
 /// Differences that are added, each times a weight, to the vertices of a primitive. Arrays that are present have one
@@ -47,6 +65,12 @@ pub struct MorphTarget {
     pub positions: Option<Vec<[f32; 3]>>,
     /// Differences of normals.
     pub normals: Option<Vec<[f32; 3]>>,
+    /// Differences of tangents, without w.
+    pub tangents: Option<Vec<[f32; 3]>>,
+    /// Differences of texture coordinates, by set; sets that stay have none.
+    pub uvs: Vec<Option<Vec<[f32; 2]>>>,
+    /// Differences of vertex colours.
+    pub colors: Option<Vec<[f32; 4]>>,
 }
 
 impl Primitive {

@@ -40,19 +40,86 @@ impl Model {
             ..morphed(primitive, self.morph_weights(instance.node))
         };
         let skin = self.nodes.get(instance.node).and_then(|node| self.skins.get(node.skin?));
-        match (skin, &primitive.joints, &primitive.weights) {
-            (Some(skin), Some(joints), Some(weights)) => {
+        match skin {
+            Some(skin) if !primitive.joints.is_empty() => {
                 let (bones, rigid) = (self.bones(skin), instance.node_to_model.raw());
-                let vertices = joints.iter().zip(weights);
-                let map = |(j, w): (&_, &_)| blend(&bones, *j, *w).unwrap_or(rigid);
-                bent(&morphed, &vertices.map(map).collect::<Vec<_>>())
+                bent(&morphed, |vertex| blend(&bones, primitive, vertex).unwrap_or(rigid))
             }
             _ => morphed,
         }
     }
 
+    /// The tangents of a primitive of an instance's mesh as its nodes stand, for [`Posed::to_model`], if it has tangents.
+    /// They are of unit length; w is as it was.
+    #[must_use]
+    pub fn posed_tangents<'a>(
+        &self,
+        instance: Instance,
+        primitive: &'a Primitive,
+    ) -> Option<Cow<'a, [[f32; 4]]>> {
+        let mut tangents = Cow::Borrowed(primitive.tangents.as_deref()?);
+        for (target, weight) in shown_targets(primitive, self.morph_weights(instance.node)) {
+            let Some(differences) = &target.tangents else { continue };
+            for ([x, y, z, _], difference) in tangents.to_mut().iter_mut().zip(differences) {
+                let mut tangent = [[*x, *y, *z]];
+                add(&mut tangent, &[*difference], weight);
+                [[*x, *y, *z]] = tangent;
+            }
+        }
+        let skin = self.nodes.get(instance.node).and_then(|node| self.skins.get(node.skin?));
+        let bones = skin.filter(|_| !primitive.joints.is_empty()).map(|skin| self.bones(skin));
+        if bones.is_some() || matches!(tangents, Cow::Owned(_)) {
+            let rigid = instance.node_to_model.raw();
+            for (vertex, [x, y, z, _]) in tangents.to_mut().iter_mut().enumerate() {
+                let map = bones.as_ref().map(|b| blend(b, primitive, vertex).unwrap_or(rigid));
+                let tangent = wide([*x, *y, *z]);
+                [*x, *y, *z] = unit(map.map_or(tangent, |map| map.transform_vector3(tangent)));
+            }
+        }
+        Some(tangents)
+    }
+
+    /// The vertex colours of a primitive of an instance's mesh with its morph targets added, each in [0, 1].
+    #[must_use]
+    pub fn posed_colors<'a>(
+        &self,
+        instance: Instance,
+        primitive: &'a Primitive,
+    ) -> Option<Cow<'a, [[f32; 4]]>> {
+        let mut colors = Cow::Borrowed(primitive.colors.as_deref()?);
+        for (target, weight) in shown_targets(primitive, self.morph_weights(instance.node)) {
+            if let Some(differences) = &target.colors {
+                add(colors.to_mut(), differences, weight);
+            }
+        }
+        if let Cow::Owned(colors) = &mut colors {
+            colors
+                .as_flattened_mut()
+                .iter_mut()
+                .for_each(|channel| *channel = channel.clamp(0.0, 1.0));
+        }
+        Some(colors)
+    }
+
+    /// A set of texture coordinates of a primitive of an instance's mesh with its morph targets added.
+    #[must_use]
+    pub fn posed_uvs<'a>(
+        &self,
+        instance: Instance,
+        primitive: &'a Primitive,
+        set: usize,
+    ) -> Option<Cow<'a, [[f32; 2]]>> {
+        let mut uvs = Cow::Borrowed(primitive.uvs.get(set)?.as_slice());
+        for (target, weight) in shown_targets(primitive, self.morph_weights(instance.node)) {
+            if let Some(Some(differences)) = target.uvs.get(set) {
+                add(uvs.to_mut(), differences, weight);
+            }
+        }
+        Some(uvs)
+    }
+
     /// How much of each morph target a node shows.
-    fn morph_weights(&self, node: usize) -> &[f32] {
+    pub(super) fn morph_weights(&self, node: usize) -> &[f32] {
         let Some(node) = self.nodes.get(node) else { return &[] };
         let mesh = node.mesh.and_then(|mesh| self.meshes.get(mesh));
         node.weights.as_deref().or(mesh.map(|mesh| &*mesh.weights)).unwrap_or(&[])
@@ -67,13 +134,20 @@ impl Model {
     }
 }
 
+/// The morph targets that are shown, each with how much of it is.
+fn shown_targets<'a>(
+    primitive: &'a Primitive,
+    weights: &[f32],
+) -> impl Iterator<Item = (&'a MorphTarget, f32)> {
+    let targets = primitive.targets.iter().zip(weights.iter().copied());
+    targets.filter(|(_, weight)| *weight != 0.0 && weight.is_finite())
+}
+
 /// The vertices with the differences of the morph targets added.
 fn morphed<'a>(primitive: &'a Primitive, weights: &[f32]) -> Posed<'a> {
-    let shown = |(_, weight): &(&MorphTarget, &f32)| **weight != 0.0 && weight.is_finite();
-    let targets: Vec<_> = primitive.targets.iter().zip(weights).filter(shown).collect();
     let (mut positions, mut normals) =
         (Cow::Borrowed(&*primitive.positions), primitive.normals.as_deref().map(Cow::Borrowed));
-    for (target, &weight) in targets {
+    for (target, weight) in shown_targets(primitive, weights) {
         if let Some(differences) = &target.positions {
             add(positions.to_mut(), differences, weight);
         }
@@ -87,21 +161,27 @@ fn morphed<'a>(primitive: &'a Primitive, weights: &[f32]) -> Posed<'a> {
     Posed { positions, normals, to_model: Affine::IDENTITY }
 }
 
-fn add(values: &mut [[f32; 3]], differences: &[[f32; 3]], weight: f32) {
+fn add<const N: usize>(values: &mut [[f32; N]], differences: &[[f32; N]], weight: f32) {
     for (value, difference) in values.iter_mut().zip(differences) {
-        let sum = wide(*value) + wide(*difference) * f64::from(weight);
+        let sum: [f64; N] = std::array::from_fn(|k| {
+            f64::from(value[k]) + f64::from(difference[k]) * f64::from(weight)
+        });
         // A difference that is no number changes nothing.
-        *value = if sum.is_finite() { narrow(sum) } else { *value };
+        if sum.iter().all(|x| x.is_finite()) {
+            *value = sum.map(within);
+        }
     }
 }
 
 /// The weighted mean of the maps of a vertex's joints; `None` if it has no weight.
-fn blend(bones: &[DMat4], joints: [u16; 4], weights: [f32; 4]) -> Option<DMat4> {
+fn blend(bones: &[DMat4], primitive: &Primitive, vertex: usize) -> Option<DMat4> {
     let (mut sum, mut total) = (DMat4::ZERO, 0.0);
-    for (joint, weight) in joints.into_iter().zip(weights) {
-        if let Some(bone) = bones.get(usize::from(joint)).filter(|_| weight > 0.0) {
-            sum += *bone * f64::from(weight);
-            total += f64::from(weight);
+    for (joints, weights) in primitive.joints.iter().zip(&primitive.weights) {
+        for (joint, weight) in joints[vertex].into_iter().zip(weights[vertex]) {
+            if let Some(bone) = bones.get(usize::from(joint)).filter(|_| weight > 0.0) {
+                sum += *bone * f64::from(weight);
+                total += f64::from(weight);
+            }
         }
     }
     let mean = sum * (1.0 / total);
@@ -109,13 +189,21 @@ fn blend(bones: &[DMat4], joints: [u16; 4], weights: [f32; 4]) -> Option<DMat4> 
 }
 
 /// The vertices with a map applied to each.
-fn bent<'a>(shape: &Posed<'_>, maps: &[DMat4]) -> Posed<'a> {
-    let place = |(map, &p): (&DMat4, &[f32; 3])| narrow(map.transform_point3(wide(p)));
-    let turn = |(map, &n): (&DMat4, &[f32; 3])| unit(cofactors(map).mul_vec3(wide(n)));
-    let positions = maps.iter().zip(&*shape.positions).map(place).collect();
-    let normals = shape.normals.as_ref();
-    let normals = normals.map(|normals| maps.iter().zip(&**normals).map(turn).collect());
-    Posed { positions, normals, to_model: Affine::IDENTITY }
+fn bent<'a>(shape: &Posed<'_>, map: impl Fn(usize) -> DMat4) -> Posed<'a> {
+    let mut positions = Vec::with_capacity(shape.positions.len());
+    let mut normals = shape.normals.as_ref().map(|normals| Vec::with_capacity(normals.len()));
+    for (vertex, &position) in shape.positions.iter().enumerate() {
+        let map = map(vertex);
+        positions.push(narrow(map.transform_point3(wide(position))));
+        if let (Some(bent), Some(normals)) = (&mut normals, &shape.normals) {
+            bent.push(unit(cofactors(&map).mul_vec3(wide(normals[vertex]))));
+        }
+    }
+    Posed {
+        positions: positions.into(),
+        normals: normals.map(Cow::Owned),
+        to_model: Affine::IDENTITY,
+    }
 }
 
 fn wide(v: [f32; 3]) -> DVec3 {
@@ -124,8 +212,12 @@ fn wide(v: [f32; 3]) -> DVec3 {
 
 /// In single precision, where what is too large becomes the largest number.
 fn narrow(v: DVec3) -> [f32; 3] {
+    v.to_array().map(within)
+}
+
+fn within(x: f64) -> f32 {
     const LARGEST: f64 = f32::MAX as f64;
-    v.to_array().map(|x| if x.is_nan() { 0.0 } else { x.clamp(-LARGEST, LARGEST) as f32 })
+    if x.is_nan() { 0.0 } else { x.clamp(-LARGEST, LARGEST) as f32 }
 }
 
 fn unit(v: DVec3) -> [f32; 3] {
@@ -146,19 +238,7 @@ mod tests {
     use homog::Vector;
 
     fn node(to_model: Affine<ModelSpace, ModelSpace>) -> Node {
-        Node {
-            name: None,
-            to_parent: to_model,
-            parts: None,
-            to_model,
-            parent: None,
-            children: Vec::new(),
-            mesh: None,
-            places: None,
-            weights: None,
-            skin: None,
-            camera: None,
-        }
+        Node { to_parent: to_model, parts: None, to_model, ..Node::default() }
     }
 
     fn shift(x: f64, y: f64, z: f64) -> Affine<ModelSpace, ModelSpace> {
@@ -202,8 +282,8 @@ mod tests {
     #[test]
     fn a_skinned_mesh_follows_its_joints_and_not_its_node() {
         let mut arm = triangle();
-        arm.joints = Some(vec![[1, 0, 0, 0], [0, 1, 0, 0], [0, 9, 0, 0]]);
-        arm.weights = Some(vec![[1.0, 0.0, 0.0, 0.0], [0.5, 0.5, 0.0, 0.0], [2.0, 1.0, 0.0, 0.0]]);
+        arm.joints = vec![vec![[1, 0, 0, 0], [0, 1, 0, 0], [0, 9, 0, 0]]];
+        arm.weights = vec![vec![[1.0, 0.0, 0.0, 0.0], [0.5, 0.5, 0.0, 0.0], [2.0, 1.0, 0.0, 0.0]]];
         // The elbow is at y = 1 and has turned by a quarter about z: up becomes left.
         let quarter = std::f64::consts::FRAC_1_SQRT_2;
         let turn = Affine::<ModelSpace, ModelSpace>::from_quaternion([0.0, 0.0, quarter, quarter]);
@@ -225,9 +305,9 @@ mod tests {
         let mut primitive = triangle();
         let difference = |x: f32| Some(vec![[x, 0.0, 0.0]; 3]);
         primitive.targets = vec![
-            MorphTarget { positions: difference(2.0), normals: None },
-            MorphTarget { positions: difference(f32::NAN), normals: None },
-            MorphTarget { positions: None, normals: Some(vec![[-1.0, 1.0, 0.0]; 3]) },
+            MorphTarget { positions: difference(2.0), ..MorphTarget::default() },
+            MorphTarget { positions: difference(f32::NAN), ..MorphTarget::default() },
+            MorphTarget { normals: Some(vec![[-1.0, 1.0, 0.0]; 3]), ..MorphTarget::default() },
         ];
         let (mut model, instance) = model(primitive, Affine::IDENTITY);
         model.meshes[0].weights = vec![0.5, 1.0];
@@ -239,5 +319,51 @@ mod tests {
         assert_eq!(posed.positions[1], [0.0, 1.0, 0.0]);
         assert_eq!(posed.normals.unwrap()[1], [0.0, 1.0, 0.0]);
         assert_eq!(posed.to_model, instance.node_to_model);
+    }
+
+    #[test]
+    fn eight_joints_of_two_sets_count_by_their_weights() {
+        let mut arm = triangle();
+        arm.joints = vec![vec![[0, 1, 0, 1]; 3], vec![[1, 1, 1, 0]; 3]];
+        // Joint 0 has moved by 3, joint 1 (the mesh's own node) stands: in all 0.75 and 0.25 of the weight.
+        arm.weights = vec![vec![[0.25, 0.125, 0.25, 0.0]; 3], vec![[0.0625, 0.0625, 0.0, 0.25]; 3]];
+        let (mut model, instance) = model(arm, shift(3.0, 1.0, 0.0));
+        model.nodes[0].skin = Some(0);
+        let posed = model.posed(instance, &model.meshes[0].primitives[0]);
+        assert_eq!(posed.positions[0], [2.25, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn tangents_colours_and_texture_coordinates_follow() {
+        let mut primitive = triangle();
+        primitive.tangents = Some(vec![[0.0, 1.0, 0.0, -1.0]; 3]);
+        primitive.colors = Some(vec![[0.5, 0.5, 0.5, 1.0]; 3]);
+        primitive.uvs = vec![vec![[0.0, 0.0]; 3], vec![[0.25, 0.5]; 3]];
+        primitive.targets = vec![MorphTarget {
+            tangents: Some(vec![[0.0, -1.0, 1.0]; 3]),
+            colors: Some(vec![[0.25, -1.0, 0.0, 1.0]; 3]),
+            uvs: vec![None, Some(vec![[1.0, 1.0]; 3])],
+            ..MorphTarget::default()
+        }];
+        let (mut model, instance) = model(primitive, Affine::IDENTITY);
+        let posed = |model: &Model| {
+            let primitive = &model.meshes[0].primitives[0];
+            let tangents = model.posed_tangents(instance, primitive).unwrap().into_owned();
+            let colors = model.posed_colors(instance, primitive).unwrap().into_owned();
+            let uvs = model.posed_uvs(instance, primitive, 1).unwrap().into_owned();
+            (tangents[2], colors[2], uvs[2])
+        };
+        assert_eq!(posed(&model), ([0.0, 1.0, 0.0, -1.0], [0.5, 0.5, 0.5, 1.0], [0.25, 0.5]));
+        model.meshes[0].weights = vec![1.0];
+        assert_eq!(posed(&model), ([0.0, 0.0, 1.0, -1.0], [0.75, 0.0, 0.5, 1.0], [1.25, 1.5]));
+        // A quarter turn about x takes z to −y.
+        let half = std::f64::consts::FRAC_1_SQRT_2;
+        model.nodes[1].to_model = Affine::from_quaternion([half, 0.0, 0.0, half]).unwrap();
+        model.nodes[0].skin = Some(0);
+        let primitive = &mut model.meshes[0].primitives[0];
+        (primitive.joints, primitive.weights) =
+            (vec![vec![[0; 4]; 3]], vec![vec![[1.0, 0.0, 0.0, 0.0]; 3]]);
+        let (tangent, ..) = posed(&model);
+        assert!((tangent[1] + 1.0).abs() < 1e-6 && tangent[3] == -1.0, "{tangent:?}");
     }
 }
