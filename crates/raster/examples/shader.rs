@@ -1,8 +1,8 @@
 //! A shader of one's own: a floor that runs to the horizon with a checker that is computed, not stored: `shader.png`.
 //!
 //! The corners carry places on the floor. Their blend by the fragment's weights is the place a pixel shows, right in
-//! perspective because the vertices bring their w along. One pixel to the right and one below, the places say how
-//! much of the floor a pixel covers: where that is a whole tile and more, the checker fades to its mean.
+//! perspective because the vertices bring their w along. The derivatives of the weights say how much of the floor a
+//! pixel covers: where that is a whole tile and more, the checker fades to its mean.
 
 use homog::{HPoint, Screen};
 use raster::{Cover, Cull, Fragment, Frame, Samples, ScreenVertex, Surface};
@@ -24,8 +24,8 @@ impl Surface for Checker {
             [0, 1].map(|k| (0..3).map(|n| weights[n] * corners[n][k]).sum::<f32>())
         };
         let here = place(fragment.weights);
-        let (right, below) = (place(fragment.weights_right()), place(fragment.weights_below()));
-        let reach = |there: [f32; 2]| (there[0] - here[0]).abs().max((there[1] - here[1]).abs());
+        let reach = |[x, ahead]: [f32; 2]| x.abs().max(ahead.abs());
+        let (right, below) = (place(fragment.weights_dx()), place(fragment.weights_dy()));
         let fade = (1.0 - reach(right).max(reach(below))).max(0.0);
         let odd = (here[0].floor() + here[1].floor()).rem_euclid(2.0) == 1.0;
         let light = 0.5 + if odd { 0.35 } else { -0.35 } * fade;
@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     frame.mesh(&vertices, &TRIANGLES, 0, Cover::Solid, Cull::Nothing);
     let mut pixels = vec![[0_u8; 3]; (width * height) as usize];
     let sky = [0.55, 0.72, 0.9, 1.0];
-    frame.draw(&Checker, sky, 2, &mut pixels, |[r, g, b, _]| {
+    frame.draw(&Checker, sky, 2, &mut pixels, |[r, g, b, _]: [f32; 4]| {
         [r, g, b].map(|channel| (channel.sqrt() * 255.0 + 0.5) as u8)
     });
     let mut encoder = png::Encoder::new(std::fs::File::create("shader.png")?, width, height);

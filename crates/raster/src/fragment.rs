@@ -7,8 +7,8 @@ use crate::vertex::SUBPIXELS;
 /// A primitive at one pixel.
 ///
 /// A value that the corners of the primitive carry is, at the pixel's centre, the sum of the corners' values times
-/// [`weights`](Self::weights); they are perspective-correct (IN-2). What it is one pixel to the right and one below, texture
-/// filters can ask for: [`weights_right`](Self::weights_right), [`weights_below`](Self::weights_below).
+/// [`weights`](Self::weights); they are perspective-correct (IN-2). How fast it changes across the picture, which texture
+/// filters want to know, the same sum says with [`weights_dx`](Self::weights_dx) and [`weights_dy`](Self::weights_dy).
 #[derive(Clone, Copy, Debug)]
 pub struct Fragment<'a> {
     /// The name the primitive was submitted with.
@@ -20,10 +20,12 @@ pub struct Fragment<'a> {
     /// The corners' shares at the pixel's centre (or, where that is outside, at the nearest place inside).
     /// None is negative, and they add up to 1.
     pub weights: [f32; 3],
-    /// Twice the areas between the pixel's centre and the side opposite of each corner, negative beyond the side.
-    areas: [f32; 3],
-    piece: &'a Piece,
-    source_weights: &'a [SourceWeights],
+    /// The same for the corners of the piece.
+    pub(crate) shares: [f32; 3],
+    /// One over the sum that the shares were divided by.
+    pub(crate) per_sum: f32,
+    pub(crate) piece: &'a Piece,
+    pub(crate) source_weights: &'a [SourceWeights],
 }
 
 impl<'a> Fragment<'a> {
@@ -35,39 +37,54 @@ impl<'a> Fragment<'a> {
         x: u32,
         y: u32,
     ) -> Self {
-        let areas = areas(piece.corners, center(x), center(y));
         // With the centre outside, the nearest place is near enough: its share of a corner just does not go below 0.
-        let shares = shares(piece, areas.map(|area| area.max(0.0)));
+        let areas = areas(piece.corners, center(x), center(y)).map(|area| area.max(0.0));
+        let parts = [0, 1, 2].map(|k| areas[k] * piece.corners[k].inv_w);
+        let per_sum = 1.0 / (parts[0] + parts[1] + parts[2]);
+        let shares = parts.map(|part| part * per_sum);
         let weights = in_source(piece, source_weights, shares);
-        Self { id: piece.id, x, y, weights, areas, piece, source_weights }
+        Self { id: piece.id, x, y, weights, shares, per_sum, piece, source_weights }
     }
 
-    /// The corners' shares one pixel to the right, beyond the primitive's borders too; the same as here where its plane has
-    /// its horizon.
+    /// The derivative of the weights by the pixel's column: what they grow by from pixel to pixel to the right, at this
+    /// place. They add up to 0.
     #[must_use]
-    pub fn weights_right(&self) -> [f32; 3] {
-        let [p, q, r] = self.piece.corners;
-        self.weights_beside([q.y - r.y, r.y - p.y, p.y - q.y])
+    pub fn weights_dx(&self) -> [f32; 3] {
+        self.weights_along(steps_right(self.piece))
     }
 
-    /// The corners' shares one pixel below, beyond the primitive's borders too; the same as here where its plane has its
-    /// horizon.
+    /// The derivative of the weights by the pixel's row, downwards.
     #[must_use]
-    pub fn weights_below(&self) -> [f32; 3] {
-        let [p, q, r] = self.piece.corners;
-        self.weights_beside([r.x - q.x, p.x - r.x, q.x - p.x])
+    pub fn weights_dy(&self) -> [f32; 3] {
+        self.weights_along(steps_down(self.piece))
     }
 
-    fn weights_beside(&self, steps: [i32; 3]) -> [f32; 3] {
-        let pixel = SUBPIXELS as f32;
-        let there = [0, 1, 2].map(|k| self.areas[k] + steps[k] as f32 * pixel);
-        let weights = in_source(self.piece, self.source_weights, shares(self.piece, there));
-        if weights.iter().all(|weight| weight.is_finite()) { weights } else { self.weights }
+    /// By the quotient rule: a share is a part over the sum of the parts, and these are linear on the screen.
+    fn weights_along(&self, steps: [f32; 3]) -> [f32; 3] {
+        let sum = steps[0] + steps[1] + steps[2];
+        let along = [0, 1, 2].map(|k| (steps[k] - self.shares[k] * sum) * self.per_sum);
+        in_source(self.piece, self.source_weights, along)
     }
 }
 
+/// What area times 1/w of each corner grows by from pixel to pixel to the right.
+#[inline(always)]
+pub(crate) fn steps_right(piece: &Piece) -> [f32; 3] {
+    let [p, q, r] = &piece.corners;
+    let step = |a: i32, b: i32, inv_w: f32| (a - b) as f32 * SUBPIXELS as f32 * inv_w;
+    [step(q.y, r.y, p.inv_w), step(r.y, p.y, q.inv_w), step(p.y, q.y, r.inv_w)]
+}
+
+/// The same from pixel to pixel downwards.
+#[inline(always)]
+pub(crate) fn steps_down(piece: &Piece) -> [f32; 3] {
+    let [p, q, r] = &piece.corners;
+    let step = |a: i32, b: i32, inv_w: f32| (a - b) as f32 * SUBPIXELS as f32 * inv_w;
+    [step(r.x, q.x, p.inv_w), step(p.x, r.x, q.inv_w), step(q.x, p.x, r.inv_w)]
+}
+
 /// The grid position of a pixel's centre, in a row or in a column.
-fn center(pixel: u32) -> i32 {
+pub(crate) fn center(pixel: u32) -> i32 {
     pixel as i32 * SUBPIXELS + SUBPIXELS / 2
 }
 
@@ -79,143 +96,13 @@ fn areas(corners: [ScreenVertex; 3], x: i32, y: i32) -> [f32; 3] {
     [area(q, r), area(r, p), area(p, q)]
 }
 
-/// Eight pieces at the centres of eight neighbouring pixels: the same as eight fragments, bit for bit, and several times as
-/// fast to find, for the loops over the lanes become vector instructions.
-pub(crate) struct FragmentRow<'a> {
-    pieces: [&'a Piece; 8],
-    source_weights: &'a [SourceWeights],
-    x: u32,
-    y: u32,
-    areas: [[f32; 8]; 3],
-    shares: [[f32; 8]; 3],
-}
-
-impl<'a> FragmentRow<'a> {
-    /// The pieces at the pixels from (x, y) to the right.
-    #[inline(always)]
-    pub(crate) fn new(
-        pieces: [&'a Piece; 8],
-        source_weights: &'a [SourceWeights],
-        x: u32,
-        y: u32,
-    ) -> Self {
-        let same = pieces.iter().all(|piece| std::ptr::eq(*piece, pieces[0]));
-        let (cx, cy) = (center(x), center(y));
-        let corners = if same {
-            Corners::of_one(pieces[0], cx, cy)
-        } else {
-            Corners::of_each(pieces, cx, cy)
-        };
-        let areas = corners.areas();
-        let shares = corners.shares(&areas);
-        Self { pieces, source_weights, x, y, areas, shares }
-    }
-
-    /// The fragment of one of the pixels.
-    #[inline(always)]
-    pub(crate) fn lane(&self, lane: usize) -> Fragment<'a> {
-        let piece = self.pieces[lane];
-        let [a, b, c] = &self.areas;
-        let [p, q, r] = &self.shares;
-        let weights = in_source(piece, self.source_weights, [p[lane], q[lane], r[lane]]);
-        Fragment {
-            id: piece.id,
-            x: self.x + lane as u32,
-            y: self.y,
-            weights,
-            areas: [a[lane], b[lane], c[lane]],
-            piece,
-            source_weights: self.source_weights,
-        }
-    }
-}
-
-/// The corners of the pieces of eight pixels of a row: how far they are from the pixels' centres, and 1/w.
-///
-/// Plain loops everywhere: closures over arrays are not always taken into the function that has the vector instructions.
-struct Corners {
-    dx: [[f64; 8]; 3],
-    dy: [[f64; 8]; 3],
-    inv_w: [[f32; 8]; 3],
-}
-
-impl Corners {
-    const NONE: Self = Self { dx: [[0.0; 8]; 3], dy: [[0.0; 8]; 3], inv_w: [[0.0; 8]; 3] };
-
-    /// All pixels show one piece, the usual case, and nothing has to be gathered.
-    #[inline(always)]
-    fn of_one(piece: &Piece, x: i32, y: i32) -> Self {
-        let mut corners = Self::NONE;
-        for (k, corner) in piece.corners.iter().enumerate() {
-            let first = f64::from(corner.x - x);
-            for (lane, dx) in corners.dx[k].iter_mut().enumerate() {
-                *dx = first - f64::from(lane as i32 * SUBPIXELS);
-            }
-            corners.dy[k] = [f64::from(corner.y - y); 8];
-            corners.inv_w[k] = [corner.inv_w; 8];
-        }
-        corners
-    }
-
-    #[inline(always)]
-    fn of_each(pieces: [&Piece; 8], x: i32, y: i32) -> Self {
-        let mut corners = Self::NONE;
-        for (lane, piece) in pieces.iter().enumerate() {
-            for (k, corner) in piece.corners.iter().enumerate() {
-                corners.dx[k][lane] = f64::from(corner.x - (x + lane as i32 * SUBPIXELS));
-                corners.dy[k][lane] = f64::from(corner.y - y);
-                corners.inv_w[k][lane] = corner.inv_w;
-            }
-        }
-        corners
-    }
-
-    /// [`areas`] for each pixel. Products and differences of grid coordinates are exact in double precision.
-    #[inline(always)]
-    fn areas(&self) -> [[f32; 8]; 3] {
-        let Self { dx, dy, .. } = self;
-        let mut areas = [[0.0_f32; 8]; 3];
-        for (area, (a, b)) in areas.iter_mut().zip([(1, 2), (2, 0), (0, 1)]) {
-            for (lane, area) in area.iter_mut().enumerate() {
-                *area = (dx[a][lane] * dy[b][lane] - dy[a][lane] * dx[b][lane]) as f32;
-            }
-        }
-        areas
-    }
-
-    /// [`shares`] for each pixel, of the areas that are not negative.
-    #[inline(always)]
-    fn shares(&self, areas: &[[f32; 8]; 3]) -> [[f32; 8]; 3] {
-        let mut shares = self.inv_w;
-        for (share, area) in shares.iter_mut().zip(areas) {
-            for (share, area) in share.iter_mut().zip(area) {
-                *share *= area.max(0.0);
-            }
-        }
-        let mut per_sum = [0.0_f32; 8];
-        for (lane, per) in per_sum.iter_mut().enumerate() {
-            *per = 1.0 / (shares[0][lane] + shares[1][lane] + shares[2][lane]);
-        }
-        for share in &mut shares {
-            for (share, per) in share.iter_mut().zip(per_sum) {
-                *share *= per;
-            }
-        }
-        shares
-    }
-}
-
-/// Shares of a piece's corners from shares of area on the screen (IN-2).
-#[inline]
-fn shares(piece: &Piece, areas: [f32; 3]) -> [f32; 3] {
-    let shares = [0, 1, 2].map(|k| areas[k] * piece.corners[k].inv_w);
-    let per_sum = 1.0 / (shares[0] + shares[1] + shares[2]);
-    shares.map(|share| share * per_sum)
-}
-
 /// Shares of the source primitive's corners from those of a piece's.
 #[inline]
-fn in_source(piece: &Piece, source_weights: &[SourceWeights], [p, q, r]: [f32; 3]) -> [f32; 3] {
+pub(crate) fn in_source(
+    piece: &Piece,
+    source_weights: &[SourceWeights],
+    [p, q, r]: [f32; 3],
+) -> [f32; 3] {
     match piece.source {
         Source::Whole => [p, q, r],
         Source::Turned => [p, r, q],

@@ -53,6 +53,15 @@ pub(crate) struct Piece {
     pub(crate) cover: Cover,
 }
 
+impl Piece {
+    /// The depth of its nearest corner.
+    #[inline(always)]
+    pub(crate) fn nearest(&self) -> f32 {
+        let [p, q, r] = &self.corners;
+        p.depth.max(q.depth).max(r.depth)
+    }
+}
+
 /// How the corners of a piece lead back to those of the primitive it is a piece of.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Source {

@@ -1,7 +1,8 @@
 //! Visibility in one tile: for each sample, how near the nearest solid surface is and which it is.
 
+use crate::fill::Lanes;
 use crate::grid::{TILE, TileRect};
-use crate::plane::{LANES, Lanes, NOTHING, Plane};
+use crate::plane::{LANES, NOTHING, Plane};
 use crate::setup::Setup;
 use crate::{Cover, Fragment, Frame, Surface};
 use fearless_simd::{Simd, dispatch};
@@ -22,6 +23,8 @@ pub(crate) struct Layer {
 pub(crate) struct Tile {
     planes: Vec<Plane>,
     pub(crate) layers: Vec<Layer>,
+    /// A depth that no sample of any plane is farther than: what lies behind it is hidden.
+    hidden: f32,
 }
 
 impl Tile {
@@ -31,16 +34,11 @@ impl Tile {
     }
 
     /// The pieces that one sample of each of eight neighbouring pixels sees, from the one at `at`, which begins a row of a block.
+    #[inline(always)]
     pub(crate) fn pieces(&self, sample: usize, at: usize) -> [u32; LANES] {
         let mut row = [NOTHING; LANES];
         row.copy_from_slice(&self.planes[sample].piece[at..at + LANES]);
         row
-    }
-
-    /// Whether all samples of a pixel see the same piece.
-    pub(crate) fn is_uniform(&self, at: usize) -> bool {
-        let first = self.planes[0].piece[at];
-        self.planes[1..].iter().all(|plane| plane.piece[at] == first)
     }
 
     /// The depth of the nearest piece at a sample of a pixel, −∞ for the background.
@@ -57,7 +55,8 @@ impl Tile {
         surface: &impl Surface,
     ) {
         self.planes.resize_with(frame.samples.count(), Plane::new);
-        self.planes.iter_mut().for_each(Plane::clear);
+        self.planes.iter_mut().for_each(|plane| plane.clear(rect));
+        self.hidden = f32::NEG_INFINITY;
         self.layers.clear();
         dispatch!(frame.instructions.level(), simd => self.fill_pieces(simd, frame, rect, bin, surface));
         self.sort_layers();
@@ -92,11 +91,17 @@ impl Tile {
     #[inline(always)]
     fn solid<S: Simd>(&mut self, simd: S, frame: &Frame, rect: TileRect, index: u32) {
         let piece = &frame.pieces[index as usize];
+        if piece.nearest() <= self.hidden {
+            return;
+        }
         let Some(setup) = Setup::new(piece, rect, frame.samples.reach()) else { return };
         let lanes = Lanes::new(simd, &setup);
+        let mut hidden = f32::INFINITY;
         for (plane, offset) in self.planes.iter_mut().zip(frame.samples.offsets()) {
             plane.fill(simd, &lanes, &setup.start(offset), index);
+            hidden = hidden.min(plane.farthest_of_all());
         }
+        self.hidden = hidden;
     }
 
     #[inline(always)]
@@ -116,8 +121,7 @@ impl Tile {
                 let (px, py) = (rect.x + x as u32, rect.y + y as u32);
                 let fragment = Fragment::new(piece, &frame.source_weights, px, py);
                 if rect.shows(x, y) && surface.keeps(&fragment) {
-                    plane.depth[at] = depth;
-                    plane.piece[at] = index;
+                    plane.put(at, depth, index);
                 }
             });
         }
@@ -130,7 +134,7 @@ impl Tile {
         let Some(setup) = Setup::new(piece, rect, frame.samples.reach()) else { return };
         let lanes = Lanes::new(simd, &setup);
         let first = self.layers.len();
-        let Self { planes, layers } = self;
+        let Self { planes, layers, .. } = self;
         let samples = planes.iter_mut().zip(frame.samples.offsets()).enumerate();
         for (sample, (plane, offset)) in samples {
             plane.visit(simd, &lanes, &setup.start(offset), true, |_, _, x, y, depth| {

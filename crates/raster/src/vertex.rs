@@ -18,6 +18,9 @@ pub const GUARD_BAND: core::ops::RangeInclusive<f64> = -8192.0..=24576.0;
 /// [`GUARD_BAND`] in grid steps.
 pub(crate) const GRID: core::ops::RangeInclusive<i32> = -8192 * SUBPIXELS..=24576 * SUBPIXELS;
 
+/// The greatest size of a depth. With it no step in the evaluation of a depth plane overflows.
+const MAX_DEPTH: f32 = 1_048_576.0;
+
 /// A vertex after the viewport: x to the right and y down in 1/256 pixel, depth, and 1/w.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ScreenVertex {
@@ -34,8 +37,8 @@ pub struct ScreenVertex {
 impl ScreenVertex {
     /// Snaps a point of the screen (pixels, y down; z is the depth) with the clip-space w it was divided by.
     ///
-    /// `None` if the point cannot be drawn: a coordinate is not finite, lies outside of [`GUARD_BAND`], or w is not
-    /// positive. Geometry that was clipped to the view volume and a guard band always can.
+    /// `None` if the point cannot be drawn: a coordinate is not finite, lies outside of [`GUARD_BAND`], the depth is beyond
+    /// ±2²⁰, or w is not positive. Geometry that was clipped to the view volume and a guard band always can.
     #[must_use]
     pub fn snap(point: Point<Screen>, w: f64) -> Option<Self> {
         let vertex = Self {
@@ -51,7 +54,8 @@ impl ScreenVertex {
     #[must_use]
     pub fn is_drawable(&self) -> bool {
         let on_grid = GRID.contains(&self.x) && GRID.contains(&self.y);
-        on_grid && self.depth.is_finite() && self.inv_w > 0.0 && self.inv_w.is_finite()
+        let measured = self.depth.abs() <= MAX_DEPTH;
+        on_grid && measured && self.inv_w > 0.0 && self.inv_w.is_finite()
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod euc;
 mod llvmpipe;
+mod look;
 mod raster;
 mod render;
 
@@ -11,6 +12,7 @@ pub use self::raster::Raster;
 pub use self::render::Render;
 
 use crate::scene::SIZE;
+use ::raster::{Eight, WIDE};
 
 /// A rasteriser with a scene in its buffers.
 pub trait Peer {
@@ -30,9 +32,30 @@ pub trait Peer {
 /// Pixels of the picture.
 pub const AREA: usize = (SIZE.0 * SIZE.1) as usize;
 
-/// A colour, each channel from 0 to 1, as the peers' shaders write it: 8 bits for each channel, no sRGB curve.
+/// Colours, each channel from 0 to 1, kept as the peers' shaders write them: 8 bits for each channel, no sRGB curve.
+pub struct Quantized;
+
+impl ::raster::Encode<[u8; 4]> for Quantized {
+    #[inline(always)]
+    fn pixel(&self, color: [f32; 4]) -> [u8; 4] {
+        color.map(|channel| quantized(channel) as u8)
+    }
+
+    #[inline(always)]
+    fn eight(&self, [r, g, b, alpha]: &[Eight; 4]) -> [[u8; 4]; WIDE] {
+        let mut pixels = [0; WIDE];
+        for lane in 0..WIDE {
+            pixels[lane] = quantized(r[lane])
+                | quantized(g[lane]) << 8
+                | quantized(b[lane]) << 16
+                | quantized(alpha[lane]) << 24;
+        }
+        pixels.map(u32::to_le_bytes)
+    }
+}
+
+/// At 2²³ floats are whole numbers: the sum rounds, and its last bits are the result.
 #[inline(always)]
-fn quantized(color: [f32; 4]) -> [u8; 4] {
-    // At 2²³ floats are whole numbers: the sum rounds, and its last bits are the result.
-    color.map(|channel| (channel * 255.0 + 8_388_608.0).to_bits() as u8)
+fn quantized(channel: f32) -> u32 {
+    (channel * 255.0 + 8_388_608.0).to_bits() & 255
 }

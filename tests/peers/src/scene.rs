@@ -113,6 +113,9 @@ impl Scene {
     }
 }
 
+/// From a texel's channel to the range from 0 to 1.
+pub const TEXTURE_SCALE: f32 = 1.0 / 255.0;
+
 impl Texture {
     /// A board of two colours with softly varying brightness, `size` × `size` texels in `fields` × `fields` squares.
     pub fn board(size: usize, fields: usize, colors: [[u8; 3]; 2]) -> Self {
@@ -138,19 +141,21 @@ impl Texture {
         [0, 1, 2].map(|k| {
             let upper = a[k] + (b[k] - a[k]) * s;
             let lower = c[k] + (d[k] - c[k]) * s;
-            (upper + (lower - upper) * t) * (1.0 / 255.0)
+            (upper + (lower - upper) * t) * TEXTURE_SCALE
         })
     }
 }
 
-#[inline]
-fn floor_of(x: f32) -> i32 {
+/// The largest whole number not above `x`.
+#[inline(always)]
+pub fn floor_of(x: f32) -> i32 {
     let cut = x as i32;
     cut - i32::from(cut as f32 > x)
 }
 
-#[inline]
-fn wrap(at: i32, size: usize) -> usize {
+/// The texel that is read in place of number `at` of a row that repeats.
+#[inline(always)]
+pub fn wrap(at: i32, size: usize) -> usize {
     if size.is_power_of_two() {
         return at as usize & (size - 1);
     }
@@ -158,7 +163,7 @@ fn wrap(at: i32, size: usize) -> usize {
 }
 
 /// The share of light that a surface with this normal sends to the eye.
-#[inline]
+#[inline(always)]
 pub fn light(normal: [f32; 3]) -> f32 {
     let [x, y, z] = normal;
     let squared = x * x + y * y + z * z;

@@ -67,14 +67,15 @@ impl Draw<'_> {
         Some(blend(colors, self.corners(fragment.id), fragment.weights))
     }
 
-    /// The texture's coordinates here, one pixel to the right, and one below.
+    /// The texture's coordinates, and their derivatives by the pixel's column and row.
     pub(super) fn uvs(&self, fragment: &Fragment<'_>, used: &TextureUse) -> [[f32; 2]; 3] {
         let Some(uvs) = self.primitive.uvs.get(used.uv_set) else { return [[0.0; 2]; 3] };
         let corners = self.corners(fragment.id);
-        [fragment.weights, fragment.weights_right(), fragment.weights_below()].map(|weights| {
-            let [u, v] = blend(uvs, corners, weights);
-            used.uv_map.map(|row| row[0] * u + row[1] * v + row[2])
-        })
+        let weights = [fragment.weights, fragment.weights_dx(), fragment.weights_dy()];
+        let [[u, v], right, below] = weights.map(|weights| blend(uvs, corners, weights));
+        let [a, b] = used.uv_map;
+        let turned = |[u, v]: [f32; 2]| [a[0] * u + a[1] * v, b[0] * u + b[1] * v];
+        [[a[0] * u + a[1] * v + a[2], b[0] * u + b[1] * v + b[2]], turned(right), turned(below)]
     }
 
     /// The unit normal on the side of the viewer, `to_viewer` leading there.

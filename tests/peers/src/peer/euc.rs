@@ -1,7 +1,8 @@
 //! euc 0.5, a rasteriser in Rust: float edges, every pixel of a bounding box, no clipping.
 
-use super::{AREA, Peer, quantized};
+use super::{AREA, Peer, Quantized};
 use crate::scene::{Part, SIZE, Scene, Texture, light};
+use ::raster::Encode as _;
 use euc::buffer::Buffer2d;
 use euc::rasterizer::{BackfaceCullingDisabled, BackfaceCullingEnabled, Triangles};
 use euc::{Interpolate, Pipeline, Target};
@@ -127,6 +128,6 @@ impl<const LIT: bool, const TEXTURED: bool> Pipeline for Shader<'_, LIT, TEXTURE
             let light = light(carried.normal);
             color = color.map(|channel| channel * light);
         }
-        quantized([color[0], color[1], color[2], 1.0])
+        Quantized.pixel([color[0], color[1], color[2], 1.0])
     }
 }

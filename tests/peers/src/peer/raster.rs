@@ -1,14 +1,12 @@
 //! The crate `raster` with the stages before it and a shader of this comparison's own: what the other peers do, no more.
 
-use super::{AREA, Peer, quantized};
-use crate::scene::{Part, SIZE, Scene, light};
+use super::look::Look;
+use super::{AREA, Peer, Quantized};
+use crate::scene::{Part, SIZE, Scene};
 use clip::{Outcode, Volume, clip_triangle};
 use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, Screen, World};
 use projection::Convention;
-use raster::{
-    Cover, Cull, Fragment, Frame, GUARD_BAND, Instructions, Samples, ScreenVertex, Surface,
-    signed_area,
-};
+use raster::{Cover, Cull, Frame, GUARD_BAND, Instructions, Samples, ScreenVertex, signed_area};
 use viewport::Viewport;
 
 /// Our rasteriser with a scene.
@@ -129,60 +127,10 @@ impl Peer for Raster<'_> {
     fn draw(&mut self) {
         self.vertices();
         self.submit();
-        self.frame.draw(&self.look, [0.0; 4], self.threads, &mut self.pixels, quantized);
+        self.frame.draw(&self.look, [0.0; 4], self.threads, &mut self.pixels, Quantized);
     }
 
     fn pixels(&mut self) -> Vec<[u8; 4]> {
         self.pixels.clone()
-    }
-}
-
-/// The shader: tint × texture × light, as the GLSL of the other peer has it.
-struct Look<'a> {
-    scene: &'a Scene,
-    /// For each triangle the number of its part.
-    parts: Vec<u32>,
-}
-
-impl<'a> Look<'a> {
-    fn new(scene: &'a Scene) -> Self {
-        let mut parts = vec![0; scene.triangles()];
-        for (number, part) in (0..).zip(&scene.parts) {
-            parts[part.indices.start / 3..part.indices.end / 3].fill(number);
-        }
-        Self { scene, parts }
-    }
-
-    fn blend<const N: usize>(
-        &self,
-        fragment: &Fragment<'_>,
-        value: impl Fn(&crate::scene::Vertex) -> [f32; N],
-    ) -> [f32; N] {
-        let first = fragment.id as usize * 3;
-        let [a, b, c] =
-            [0, 1, 2].map(|k| value(&self.scene.vertices[self.scene.indices[first + k] as usize]));
-        let [wa, wb, wc] = fragment.weights;
-        std::array::from_fn(|k| a[k] * wa + b[k] * wb + c[k] * wc)
-    }
-}
-
-impl Surface for Look<'_> {
-    fn keeps(&self, _: &Fragment<'_>) -> bool {
-        true
-    }
-
-    #[inline]
-    fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
-        let part = &self.scene.parts[self.parts[fragment.id as usize] as usize];
-        let mut color = part.tint;
-        if let Some(texture) = part.texture {
-            let texel = self.scene.textures[texture].bilinear(self.blend(fragment, |v| v.uv));
-            color = [0, 1, 2].map(|k| color[k] * texel[k]);
-        }
-        if part.lit {
-            let light = light(self.blend(fragment, |v| v.normal));
-            color = color.map(|channel| channel * light);
-        }
-        [color[0], color[1], color[2], 1.0]
     }
 }
