@@ -8,6 +8,8 @@ pub struct Row {
     pub path: String,
     /// How many triangles the shown scene has, each counted as often as it is shown.
     pub scene_triangles: Option<usize>,
+    /// The names of the errors that the Khronos validator finds in the file.
+    pub validator_errors: Vec<String>,
 }
 
 impl Row {
@@ -33,6 +35,7 @@ pub fn read(folder: &Path) -> Result<Vec<Row>, String> {
         return Err(format!("{}: there is no column `path`", path.display()));
     };
     let triangles_column = column("scene_triangles");
+    let errors_column = column("validator_error_codes");
     let mut rows = Vec::new();
     for line in lines.filter(|line| !line.trim().is_empty()) {
         let cells: Vec<&str> = line.split('\t').collect();
@@ -42,7 +45,9 @@ pub fn read(folder: &Path) -> Result<Vec<Row>, String> {
             return Err(format!("{}: the file {file} does not exist", path.display()));
         }
         let scene_triangles = triangles_column.and_then(|at| cell(at).parse().ok());
-        rows.push(Row { path: file, scene_triangles });
+        let errors = errors_column.map_or("", cell).split(',').filter(|code| !code.is_empty());
+        let validator_errors = errors.map(ToOwned::to_owned).collect();
+        rows.push(Row { path: file, scene_triangles, validator_errors });
     }
     Ok(rows)
 }

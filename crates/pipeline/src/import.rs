@@ -18,6 +18,7 @@ mod budget;
 mod buffers;
 mod build;
 mod camera;
+mod check;
 mod choice;
 mod container;
 mod decode;
@@ -46,6 +47,7 @@ mod topology;
 mod untyped;
 mod warnings;
 
+pub use check::{Problem, Report, Severity, check, check_bytes};
 pub use choice::Choice;
 pub use error::{Fault, FaultKind, ImportError};
 pub use limits::Limits;

@@ -1,0 +1,123 @@
+//! The list of problems, kept short even if a file has millions, and without doubles.
+
+use super::codes::Code;
+use super::report::{Problem, Severity};
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::fmt::Display;
+
+/// So many problems of each severity are kept; a reader has lost patience long before.
+const KEPT: usize = 400;
+/// No message and no pointer is longer than this: what a file has for names may have megabytes.
+const LONGEST: usize = 500;
+
+/// Collects problems while a file is checked.
+#[derive(Default, Debug)]
+pub(super) struct Findings {
+    lists: RefCell<[List; 3]>,
+}
+
+/// The problems of one severity.
+#[derive(Default, Debug)]
+struct List {
+    kept: Vec<Problem>,
+    known: BTreeSet<(&'static str, String)>,
+    count: usize,
+}
+
+impl Findings {
+    /// Adds a problem, with the remedy that goes with its code. Nothing is formatted if the list is full.
+    pub(super) fn add(&self, code: &Code, pointer: impl Display, message: impl Display) {
+        self.add_with(code, pointer, message, code.remedy);
+    }
+
+    /// Adds a problem with a remedy of its own.
+    pub(super) fn add_with(
+        &self,
+        code: &Code,
+        pointer: impl Display,
+        message: impl Display,
+        remedy: &str,
+    ) {
+        let list = &mut self.lists.borrow_mut()[code.severity as usize];
+        if list.kept.len() >= KEPT {
+            list.count += 1;
+            return;
+        }
+        let pointer = shortened(pointer.to_string());
+        if list.known.insert((code.name, pointer.clone())) {
+            list.count += 1;
+            list.kept.push(Problem {
+                severity: code.severity,
+                code: code.name,
+                pointer,
+                message: shortened(message.to_string()),
+                remedy: remedy.to_owned(),
+            });
+        }
+    }
+
+    /// Whether something worse than a note is known of this very place, or of a place in it.
+    pub(super) fn knows(&self, pointer: &str) -> bool {
+        let lists = self.lists.borrow();
+        let concerns = |problem: &Problem| {
+            let rest = problem.pointer.strip_prefix(pointer);
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+        };
+        let worse = &lists[..Severity::Note as usize];
+        !pointer.is_empty() && worse.iter().any(|list| list.kept.iter().any(concerns))
+    }
+
+    /// Whether there is an error.
+    pub(super) fn has_errors(&self) -> bool {
+        self.lists.borrow()[Severity::Error as usize].count > 0
+    }
+
+    /// Whether a problem of this kind is known.
+    pub(super) fn has_code(&self, code: &Code) -> bool {
+        let list = &self.lists.borrow()[code.severity as usize];
+        list.kept.iter().any(|problem| problem.code == code.name)
+    }
+
+    /// All that is kept, the worst first, and how many there are of each severity.
+    pub(super) fn into_parts(self) -> (Vec<Problem>, [usize; 3]) {
+        let lists = self.lists.into_inner();
+        let counts = [lists[0].count, lists[1].count, lists[2].count];
+        (lists.into_iter().flat_map(|list| list.kept).collect(), counts)
+    }
+}
+
+fn shortened(mut text: String) -> String {
+    if text.len() > LONGEST {
+        let end = (0..=LONGEST).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
+        text.truncate(end);
+        text.push('…');
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::codes;
+    use super::*;
+
+    #[test]
+    fn the_list_is_short_sorted_and_without_doubles() {
+        let findings = Findings::default();
+        findings.add(&codes::NODE_EMPTY, "/nodes/0", "empty");
+        for at in [1, 1, 2] {
+            findings.add(&codes::ACCESSOR_TOO_LONG, format_args!("/accessors/{at}"), "too long");
+        }
+        for at in 0..1_000_000 {
+            findings.add(&codes::NON_RELATIVE_URI, format_args!("/images/{at}/uri"), "absolute");
+        }
+        findings.add(&codes::EMPTY_ENTITY, "é".repeat(10_000), "empty");
+        assert!(findings.knows("/accessors/1") && !findings.knows("/accessors/11"));
+        assert!(findings.knows("/accessors") && !findings.knows("/nodes/0") && !findings.knows(""));
+        let (problems, counts) = findings.into_parts();
+        assert_eq!(counts, [3, 1_000_000, 1]);
+        assert_eq!(problems.len(), 3 + KEPT + 1);
+        assert!(problems.windows(2).all(|pair| pair[0].severity <= pair[1].severity));
+        assert!(problems[2].pointer.len() < LONGEST + 5);
+    }
+}

@@ -1,0 +1,198 @@
+//! The container: header and chunks of a binary file (glTF 2.0 §4.4), each rule by itself.
+//!
+//! ```text
+//!  magic · version · length │ length · JSON · … │ length · BIN · … │ length · anything · …
+//! ```
+
+use super::codes::{self, Code};
+use super::findings::Findings;
+use std::fmt::Display;
+use std::ops::Range;
+
+/// Where the parts of a file lie, as far as they can be made out.
+#[derive(Default, Debug)]
+pub(super) struct Parts {
+    pub(super) json: Option<Range<usize>>,
+    pub(super) binary: Option<Range<usize>>,
+    /// Whether the file is a binary one.
+    pub(super) is_binary: bool,
+}
+
+/// Finds the parts of a file and what is wrong with its container.
+pub(super) fn check(bytes: &[u8], findings: &Findings) -> Parts {
+    if !bytes.starts_with(b"glTF") {
+        let mark = if bytes.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
+        check_mark(bytes, findings);
+        return Parts { json: Some(mark..bytes.len()), ..Parts::default() };
+    }
+    let mut reader =
+        Reader { bytes, findings, parts: Parts { is_binary: true, ..Parts::default() } };
+    reader.header();
+    if let Some(json) = &reader.parts.json {
+        check_mark(&bytes[json.clone()], findings);
+    }
+    reader.parts
+}
+
+/// JSON must not begin with a byte order mark (glTF 2.0 §2.7); it is skipped.
+fn check_mark(json: &[u8], findings: &Findings) {
+    if json.starts_with(b"\xEF\xBB\xBF") {
+        findings.add(&codes::INVALID_JSON, "", "the JSON begins with a byte order mark");
+    }
+}
+
+struct Reader<'a> {
+    bytes: &'a [u8],
+    findings: &'a Findings,
+    parts: Parts,
+}
+
+impl Reader<'_> {
+    fn say(&self, code: &Code, message: impl Display) {
+        self.findings.add(code, "", message);
+    }
+
+    fn number(&self, at: usize) -> Option<usize> {
+        let number = u32::from_le_bytes(*self.bytes.get(at..)?.first_chunk()?);
+        usize::try_from(number).ok()
+    }
+
+    fn header(&mut self) {
+        let there = self.bytes.len();
+        let (Some(version), Some(length)) = (self.number(4), self.number(8)) else {
+            let message = format_args!("the file ends after {there} bytes, in its header");
+            return self.say(&codes::GLB_UNEXPECTED_END_OF_HEADER, message);
+        };
+        if version != 2 {
+            let message = format_args!("the version is {version}, and only 2 is known");
+            return self.say(&codes::GLB_INVALID_VERSION, message);
+        }
+        let is_small = length < 20;
+        if is_small {
+            let message = format_args!("the header says {length} bytes, too few for any content");
+            self.say(&codes::GLB_LENGTH_TOO_SMALL, message);
+        }
+        if length > there || is_small {
+            let message = format_args!("the header says {length} bytes, the file has {there}");
+            self.say(&codes::GLB_LENGTH_MISMATCH, message);
+        } else if length < there {
+            let message = format_args!("{} bytes follow the end", there - length);
+            self.say(&codes::GLB_EXTRA_DATA, message);
+            self.bytes = &self.bytes[..length];
+        }
+        self.chunks();
+    }
+
+    fn chunks(&mut self) {
+        let (mut at, mut number, mut known) = (12, 0, [false; 2]);
+        while at < self.bytes.len() {
+            let (Some(length), Some(kind)) = (self.number(at), self.bytes.get(at + 4..at + 8))
+            else {
+                let message = format_args!("chunk {number} ends within its header");
+                return self.say(&codes::GLB_UNEXPECTED_END_OF_CHUNK_HEADER, message);
+            };
+            let name = String::from_utf8_lossy(kind).escape_default().to_string();
+            self.chunk(number, &name, kind, length, &mut known);
+            let (start, end) = (at + 8, (at + 8).saturating_add(length));
+            if end > self.bytes.len() {
+                let left = self.bytes.len() - start;
+                let message = format_args!("chunk {number} says {length} bytes, {left} are left");
+                return self.say(&codes::GLB_UNEXPECTED_END_OF_CHUNK_DATA, message);
+            }
+            match kind {
+                b"JSON" if self.parts.json.is_none() && number == 0 => {
+                    self.parts.json = Some(start..end);
+                }
+                b"BIN\0" if self.parts.binary.is_none() && number == 1 => {
+                    self.parts.binary = Some(start..end);
+                }
+                _ => {}
+            }
+            (at, number) = (end, number + 1);
+        }
+    }
+
+    /// The rules for one chunk.
+    fn chunk(&self, number: usize, name: &str, kind: &[u8], length: usize, known: &mut [bool; 2]) {
+        if !length.is_multiple_of(4) {
+            let message = format_args!("chunk {number} has {length} bytes, no multiple of 4");
+            self.say(&codes::GLB_CHUNK_LENGTH_UNALIGNED, message);
+        }
+        if number == 0 && kind != b"JSON" {
+            let message = format_args!("the first chunk is {name} and not JSON");
+            self.say(&codes::GLB_UNEXPECTED_FIRST_CHUNK, message);
+        }
+        let slot = match kind {
+            b"JSON" => 0,
+            b"BIN\0" => 1,
+            _ => {
+                let message = format_args!("chunk {number} is {name}, which is not known");
+                return self.say(&codes::GLB_UNKNOWN_CHUNK_TYPE, message);
+            }
+        };
+        if length == 0 && slot == 0 {
+            self.say(&codes::GLB_EMPTY_CHUNK, format_args!("chunk {number} is empty"));
+        }
+        if known[slot] {
+            let message = format_args!("chunk {number} is {name} once more");
+            self.say(&codes::GLB_DUPLICATE_CHUNK, message);
+        } else if slot == 1 && number > 1 {
+            let message = format_args!("{name} is chunk {number} and must be the second");
+            self.say(&codes::GLB_UNEXPECTED_BIN_CHUNK, message);
+        }
+        known[slot] = true;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn glb(length: Option<u32>, chunks: &[(&[u8; 4], &[u8])]) -> Vec<u8> {
+        let mut bytes = b"glTF\x02\0\0\0\0\0\0\0".to_vec();
+        for (kind, data) in chunks {
+            bytes.extend((data.len() as u32).to_le_bytes());
+            bytes.extend(*kind);
+            bytes.extend(*data);
+        }
+        let length = length.unwrap_or(bytes.len() as u32);
+        bytes[8..12].copy_from_slice(&length.to_le_bytes());
+        bytes
+    }
+
+    fn codes(bytes: &[u8]) -> (Parts, Vec<&'static str>) {
+        let findings = Findings::default();
+        let parts = check(bytes, &findings);
+        let (problems, _) = findings.into_parts();
+        (parts, problems.iter().map(|problem| problem.code).collect())
+    }
+
+    #[test]
+    fn every_rule_of_the_container() {
+        let (json, bin): ((&[u8; 4], &[u8]), (&[u8; 4], &[u8])) =
+            ((b"JSON", b"{}  "), (b"BIN\0", b"1234"));
+        let good = glb(None, &[json, bin]);
+        let (parts, found) = codes(&good);
+        assert_eq!((parts.json, parts.binary, found), (Some(20..24), Some(32..36), vec![]));
+        let cases: [(Vec<u8>, &[&str]); 9] = [
+            (b"glTF\x02".to_vec(), &["GLB_UNEXPECTED_END_OF_HEADER"]),
+            (glb(Some(3), &[json]), &["GLB_LENGTH_TOO_SMALL", "GLB_LENGTH_MISMATCH"]),
+            (good[..34].to_vec(), &["GLB_LENGTH_MISMATCH", "GLB_UNEXPECTED_END_OF_CHUNK_DATA"]),
+            (good[..28].to_vec(), &["GLB_LENGTH_MISMATCH", "GLB_UNEXPECTED_END_OF_CHUNK_HEADER"]),
+            (glb(None, &[bin, json]), &["GLB_UNEXPECTED_FIRST_CHUNK"]),
+            (
+                glb(None, &[json, (b"ACME", b""), bin]),
+                &["GLB_UNEXPECTED_BIN_CHUNK", "GLB_UNKNOWN_CHUNK_TYPE"],
+            ),
+            (glb(None, &[json, bin, bin]), &["GLB_DUPLICATE_CHUNK"]),
+            (glb(None, &[(b"JSON", b"")]), &["GLB_EMPTY_CHUNK"]),
+            (glb(None, &[(b"JSON", b"{}")]), &["GLB_CHUNK_LENGTH_UNALIGNED"]),
+        ];
+        for (bytes, expected) in cases {
+            assert_eq!(codes(&bytes).1, expected);
+        }
+        for end in 4..good.len() {
+            assert!(!codes(&good[..end]).1.is_empty(), "cut at {end}");
+        }
+    }
+}

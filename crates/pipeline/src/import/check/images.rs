@@ -1,0 +1,171 @@
+//! Images: where their bytes are, whether they are what the file says, and whether textures may use them.
+
+use super::codes;
+use super::document::{Document, extension, index, text};
+use super::store::Store;
+use super::uris;
+use super::usage::{Usage, ViewUse};
+use crate::import::decode;
+use crate::import::resolver::Resolver;
+use serde_json::Value;
+use std::borrow::Cow;
+
+/// Checks all images, and the textures that use them.
+pub(super) fn check(
+    document: &Document<'_>,
+    store: &Store<'_>,
+    usage: &Usage<'_>,
+    resolver: &Resolver<'_>,
+    is_binary: bool,
+) {
+    let mut kinds = Vec::new();
+    for (at, image) in document.all("images").iter().enumerate() {
+        let checker = Checker {
+            document,
+            store,
+            usage,
+            resolver,
+            is_binary,
+            pointer: format!("/images/{at}"),
+        };
+        kinds.push(checker.check(image));
+    }
+    for (at, texture) in document.all("textures").iter().enumerate() {
+        check_texture(document, at, texture, &kinds);
+    }
+}
+
+/// The kinds of image, by their media types, with the extension that allows each and that extension's place.
+const KINDS: [(&str, Option<&str>); 4] = [
+    ("image/png", None),
+    ("image/jpeg", None),
+    ("image/webp", Some("EXT_texture_webp")),
+    ("image/ktx2", Some("KHR_texture_basisu")),
+];
+
+/// What an image is by its first bytes.
+fn recognised(bytes: &[u8]) -> Option<&'static str> {
+    match bytes {
+        [0x89, b'P', b'N', b'G', ..] => Some("image/png"),
+        [0xFF, 0xD8, 0xFF, ..] => Some("image/jpeg"),
+        [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => Some("image/webp"),
+        [0xAB, b'K', b'T', b'X', b' ', b'2', b'0', ..] => Some("image/ktx2"),
+        _ => None,
+    }
+}
+
+struct Checker<'a> {
+    document: &'a Document<'a>,
+    store: &'a Store<'a>,
+    usage: &'a Usage<'a>,
+    resolver: &'a Resolver<'a>,
+    is_binary: bool,
+    pointer: String,
+}
+
+impl Checker<'_> {
+    /// Checks an image; gives what it is, as far as its bytes or the file tell.
+    fn check(&self, image: &Value) -> Option<String> {
+        let findings = self.document.findings;
+        let declared = text(image, "mimeType");
+        if image.get("bufferView").is_some() && declared.is_none() {
+            let message = "an image in a buffer view must have a mimeType";
+            let pointer = format_args!("{}/bufferView", self.pointer);
+            findings.add(&codes::UNSATISFIED_DEPENDENCY, pointer, message);
+        }
+        let in_uri = text(image, "uri").and_then(uris::media_type);
+        let bytes = self.bytes(image);
+        let found = bytes.as_deref().and_then(|bytes| self.look(bytes));
+        if let (Some(said), Some(found)) = (declared, found)
+            && found != said
+        {
+            let message = format_args!("the image is {found}, and not {said}");
+            findings.add(&codes::IMAGE_MIME_TYPE_INVALID, &self.pointer, message);
+        }
+        if let Some(said) = in_uri.filter(|said| bytes.is_some() && Some(said.as_str()) != found) {
+            let message =
+                format_args!("the image is {}, and not {said}", found.unwrap_or("unknown"));
+            findings.add(&codes::INVALID_URI, format_args!("{}/uri", self.pointer), message);
+        }
+        let kind = found.or(declared)?;
+        if let Some((_, Some(extension))) = KINDS.iter().find(|known| known.0 == kind)
+            && found.is_some()
+            && !self.document.uses(extension)
+        {
+            let message = format_args!("{kind} is allowed only with {extension}");
+            // The validator does not know the format of the other ones, and extensions of vendors allow it too.
+            let is_webp = kind == "image/webp";
+            let strange = &codes::IMAGE_UNRECOGNIZED_FORMAT;
+            let code = if is_webp { &codes::IMAGE_NON_ENABLED_MIME_TYPE } else { strange };
+            findings.add(code, &self.pointer, message);
+        }
+        Some(kind.to_owned())
+    }
+
+    fn bytes(&self, image: &Value) -> Option<Cow<'_, [u8]>> {
+        let findings = self.document.findings;
+        if let Some(view) = index(image, "bufferView") {
+            let pointer = format!("{}/bufferView", self.pointer);
+            self.usage.view(view, ViewUse::Image, &pointer);
+            if self.store.stride(view).is_some() {
+                let message = "the view of an image must not have a stride";
+                findings.add(&codes::IMAGE_BUFFER_VIEW_WITH_BYTESTRIDE, &pointer, message);
+            }
+            return self.store.view(view).map(Cow::Borrowed);
+        }
+        let uri = text(image, "uri")?;
+        let pointer = format!("{}/uri", self.pointer);
+        uris::check(uri, &pointer, self.is_binary, findings);
+        uris::read(self.resolver, uri, &pointer, findings).map(Cow::Owned)
+    }
+
+    /// What an image is; its header must be whole.
+    fn look(&self, bytes: &[u8]) -> Option<&'static str> {
+        let findings = self.document.findings;
+        let Some(kind) = recognised(bytes) else {
+            let is_cut = KINDS.len() > bytes.len();
+            let code = if is_cut {
+                &codes::IMAGE_UNEXPECTED_EOS
+            } else {
+                &codes::IMAGE_UNRECOGNIZED_FORMAT
+            };
+            let message = format_args!("{} bytes are of no format that glTF knows", bytes.len());
+            findings.add(code, &self.pointer, message);
+            return None;
+        };
+        let problem = match kind {
+            "image/ktx2" => None,
+            _ => decode::size(bytes).err(),
+        };
+        if let Some(problem) = problem {
+            let is_cut = ["end of file", "EOF", "fill whole buffer", "end before", "exhausted"]
+                .iter()
+                .any(|words| problem.contains(words));
+            let code =
+                if is_cut { &codes::IMAGE_UNEXPECTED_EOS } else { &codes::IMAGE_DATA_INVALID };
+            findings.add(code, &self.pointer, problem);
+        }
+        Some(kind)
+    }
+}
+
+/// A texture uses PNG or JPEG, and other formats through the extension for each.
+fn check_texture(document: &Document<'_>, at: usize, texture: &Value, kinds: &[Option<String>]) {
+    let say = |member: &str, found: &str| {
+        let message = format_args!("an image that is {found} cannot be used here");
+        let pointer = format_args!("/textures/{at}/{member}");
+        document.findings.add(&codes::TEXTURE_INVALID_IMAGE_MIME_TYPE, pointer, message);
+    };
+    let kind = |source: Option<usize>| kinds.get(source?)?.as_deref();
+    let source = kind(index(texture, "source"));
+    if let Some(found) = source.filter(|&kind| kind != "image/png" && kind != "image/jpeg") {
+        say("source", found);
+    }
+    for (due, name) in KINDS.iter().filter_map(|(due, name)| Some((due, (*name)?))) {
+        let source =
+            extension(texture, name).and_then(|extension| kind(index(extension, "source")));
+        if let Some(found) = source.filter(|found| found != due) {
+            say(&format!("extensions/{name}/source"), found);
+        }
+    }
+}

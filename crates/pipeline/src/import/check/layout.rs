@@ -1,0 +1,210 @@
+//! How the elements of an accessor lie in memory (glTF 2.0 §3.6.2).
+
+use super::document::{index, integer, text};
+use serde_json::Value;
+
+/// What an accessor says of its elements, as far as it makes sense.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Layout {
+    pub(super) component: Component,
+    pub(super) shape: Shape,
+    pub(super) normalized: bool,
+    pub(super) count: u64,
+    pub(super) offset: u64,
+    pub(super) view: Option<usize>,
+}
+
+/// The type of a number.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) enum Component {
+    I8,
+    U8,
+    I16,
+    U16,
+    U32,
+    F32,
+}
+
+/// How many numbers an element has: rows and columns.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Shape {
+    pub(super) rows: usize,
+    pub(super) columns: usize,
+}
+
+pub(super) const SCALAR: Shape = Shape { rows: 1, columns: 1 };
+pub(super) const VEC2: Shape = Shape { rows: 2, columns: 1 };
+pub(super) const VEC3: Shape = Shape { rows: 3, columns: 1 };
+pub(super) const VEC4: Shape = Shape { rows: 4, columns: 1 };
+pub(super) const MAT4: Shape = Shape { rows: 4, columns: 4 };
+
+impl Component {
+    /// The type with this number in OpenGL.
+    pub(super) fn of(number: u64) -> Option<Self> {
+        Some(match number {
+            5120 => Self::I8,
+            5121 => Self::U8,
+            5122 => Self::I16,
+            5123 => Self::U16,
+            5125 => Self::U32,
+            5126 => Self::F32,
+            _ => return None,
+        })
+    }
+
+    pub(super) fn size(self) -> usize {
+        match self {
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
+            Self::U32 | Self::F32 => 4,
+        }
+    }
+
+    /// The largest number of the type: among indices it would restart a strip.
+    pub(super) fn largest(self) -> f64 {
+        match self {
+            Self::I8 => f64::from(i8::MAX),
+            Self::U8 => f64::from(u8::MAX),
+            Self::I16 => f64::from(i16::MAX),
+            Self::U16 => f64::from(u16::MAX),
+            Self::U32 => f64::from(u32::MAX),
+            Self::F32 => f64::from(f32::MAX),
+        }
+    }
+
+    /// The number at the beginning of some bytes; 0 if they are too few, which the caller has excluded.
+    pub(super) fn read(self, bytes: &[u8]) -> f64 {
+        let one = || bytes.first().copied().unwrap_or(0);
+        let two = || bytes.first_chunk().copied().unwrap_or_default();
+        let four = || bytes.first_chunk().copied().unwrap_or_default();
+        match self {
+            Self::I8 => f64::from(one().cast_signed()),
+            Self::U8 => f64::from(one()),
+            Self::I16 => f64::from(i16::from_le_bytes(two())),
+            Self::U16 => f64::from(u16::from_le_bytes(two())),
+            Self::U32 => f64::from(u32::from_le_bytes(four())),
+            Self::F32 => f64::from(f32::from_le_bytes(four())),
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::I8 => "BYTE",
+            Self::U8 => "UNSIGNED_BYTE",
+            Self::I16 => "SHORT",
+            Self::U16 => "UNSIGNED_SHORT",
+            Self::U32 => "UNSIGNED_INT",
+            Self::F32 => "FLOAT",
+        }
+    }
+}
+
+impl Shape {
+    fn of(name: &str) -> Option<Self> {
+        Some(match name {
+            "SCALAR" => SCALAR,
+            "VEC2" => VEC2,
+            "VEC3" => VEC3,
+            "VEC4" => VEC4,
+            "MAT2" => Self { rows: 2, columns: 2 },
+            "MAT3" => Self { rows: 3, columns: 3 },
+            "MAT4" => MAT4,
+            _ => return None,
+        })
+    }
+
+    /// How many numbers an element has.
+    pub(super) fn numbers(self) -> usize {
+        self.rows * self.columns
+    }
+
+    pub(super) fn is_matrix(self) -> bool {
+        self.columns > 1
+    }
+
+    fn name(self) -> &'static str {
+        match (self.rows, self.columns) {
+            (1, _) => "SCALAR",
+            (2, 1) => "VEC2",
+            (3, 1) => "VEC3",
+            (_, 1) => "VEC4",
+            (2, _) => "MAT2",
+            (3, _) => "MAT3",
+            _ => "MAT4",
+        }
+    }
+}
+
+impl Layout {
+    /// What an accessor says, if its type, its component type and its count can be read.
+    pub(super) fn of(accessor: &Value) -> Option<Self> {
+        Some(Self {
+            component: Component::of(integer(accessor, "componentType")?)?,
+            shape: Shape::of(text(accessor, "type")?)?,
+            normalized: accessor.get("normalized").and_then(Value::as_bool).unwrap_or(false),
+            count: integer(accessor, "count")?,
+            offset: match accessor.get("byteOffset") {
+                Some(_) => integer(accessor, "byteOffset")?,
+                None => 0,
+            },
+            view: index(accessor, "bufferView"),
+        })
+    }
+
+    /// From one column to the next: columns of matrices begin at multiples of four.
+    pub(super) fn column(&self) -> usize {
+        let column = self.shape.rows * self.component.size();
+        if self.shape.is_matrix() { column.next_multiple_of(4) } else { column }
+    }
+
+    /// The bytes of an element, up to the end of its last number.
+    pub(super) fn size(&self) -> usize {
+        (self.shape.columns - 1) * self.column() + self.shape.rows * self.component.size()
+    }
+
+    /// From one element to the next where the buffer view does not say.
+    pub(super) fn tight(&self) -> usize {
+        self.shape.columns * self.column()
+    }
+
+    /// The bytes of all elements.
+    pub(super) fn length(&self, stride: usize) -> u64 {
+        if self.count == 0 {
+            return 0;
+        }
+        let gaps = self.count.saturating_sub(1).saturating_mul(stride as u64);
+        gaps.saturating_add(self.size() as u64)
+    }
+
+    /// The format in words, such as `VEC3 of FLOAT`.
+    pub(super) fn format(&self) -> String {
+        let normalized = if self.normalized { "normalized " } else { "" };
+        format!("{} of {normalized}{}", self.shape.name(), self.component.name())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn sizes_of_elements() {
+        // Small matrices of small integers have gaps between their columns (§3.6.2.4).
+        for (shape, component, size, tight) in [
+            ("SCALAR", 5121, 1, 1),
+            ("VEC3", 5122, 6, 6),
+            ("VEC4", 5126, 16, 16),
+            ("MAT2", 5121, 6, 8),
+            ("MAT3", 5120, 11, 12),
+            ("MAT3", 5123, 22, 24),
+            ("MAT4", 5126, 64, 64),
+        ] {
+            let accessor = json!({"componentType": component, "type": shape, "count": 3});
+            let layout = Layout::of(&accessor).unwrap();
+            assert_eq!((layout.size(), layout.tight()), (size, tight), "{shape} of {component}");
+            assert_eq!(layout.length(tight), (2 * tight + size) as u64);
+        }
+        assert_eq!(Layout::of(&json!({"componentType": 5124, "type": "VEC2", "count": 3})), None);
+    }
+}

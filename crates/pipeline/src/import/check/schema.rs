@@ -1,0 +1,150 @@
+//! The JSON schema of glTF as tables: which members an object may have, and what each must be.
+//!
+//! The tables are the specification's own property tables (glTF 2.0 §5) and those of the extensions, line by line. A walk over
+//! a document ([`super::walk`]) by these tables finds whatever is of the wrong type, out of range, missing, or refers
+//! to nothing, without a line of code for any single member.
+
+pub(super) mod core;
+pub(super) mod extensions;
+
+/// An object: its name in the tables of extensions, and its members. All may have `extensions` and `extras` besides.
+#[derive(Debug)]
+pub(super) struct Object {
+    pub(super) name: &'static str,
+    pub(super) members: &'static [Member],
+}
+
+/// A member of an object.
+#[derive(Debug)]
+pub(super) struct Member {
+    pub(super) name: &'static str,
+    pub(super) kind: Kind,
+    pub(super) rule: Rule,
+}
+
+/// When a member must be there.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Rule {
+    /// Whenever one likes.
+    May,
+    /// Always.
+    Must,
+    /// Only together with another member.
+    With(&'static str),
+    /// Exactly one of this member and that one must be there.
+    Either(&'static str),
+    /// Only without another member.
+    Not(&'static str),
+}
+
+/// What a member must be.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Kind {
+    /// Anything at all.
+    Any,
+    /// true or false.
+    Flag,
+    /// A text.
+    Text,
+    /// A text of the form `2.0`.
+    Version,
+    /// One of these texts; another one is only a warning.
+    Word(&'static [&'static str]),
+    /// A whole number from the first to the second.
+    Integer(u64, u64),
+    /// One of these whole numbers; another one is only a warning.
+    Choice(&'static [u64]),
+    /// A number in a range.
+    Number(Range),
+    /// So many numbers, each in a range; 0 for any number but none.
+    Numbers(usize, Range),
+    /// The number of something.
+    Index(Collection),
+    /// The numbers of several things, all different.
+    Indices(Collection),
+    /// Texts, all different.
+    Texts,
+    /// An object.
+    Object(&'static Object),
+    /// At least one object.
+    Objects(&'static Object),
+    /// Accessors by the names of attributes.
+    Attributes,
+    /// Several of them: morph targets.
+    Targets,
+}
+
+/// The least and the greatest number that is allowed, and whether the least itself is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Range {
+    pub(super) least: f64,
+    pub(super) most: f64,
+    pub(super) above: bool,
+}
+
+const fn not(name: &'static str, other: &'static str, kind: Kind) -> Member {
+    Member { name, kind, rule: Rule::Not(other) }
+}
+
+const ANY: Range = Range { least: f64::NEG_INFINITY, most: f64::INFINITY, above: false };
+const UNIT: Range = Range { least: 0.0, most: 1.0, above: false };
+const SIGNED_UNIT: Range = Range { least: -1.0, most: 1.0, above: false };
+const NOT_NEGATIVE: Range = Range { least: 0.0, ..ANY };
+const POSITIVE: Range = Range { least: 0.0, above: true, ..ANY };
+
+/// What an index counts.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Collection {
+    Accessors,
+    Buffers,
+    BufferViews,
+    Cameras,
+    Images,
+    Materials,
+    Meshes,
+    Nodes,
+    Samplers,
+    Scenes,
+    Skins,
+    Textures,
+    Lights,
+    Variants,
+    /// The samplers of the same animation; they are checked with it.
+    AnimationSamplers,
+}
+
+impl Collection {
+    /// Those that are arrays of a document, where each is, and whether something in it that nobody uses is worth a note.
+    pub(super) const ALL: [(Self, &'static str, bool); 14] = [
+        (Self::Accessors, "/accessors", true),
+        (Self::Buffers, "/buffers", true),
+        (Self::BufferViews, "/bufferViews", true),
+        (Self::Cameras, "/cameras", true),
+        (Self::Images, "/images", true),
+        (Self::Materials, "/materials", true),
+        (Self::Meshes, "/meshes", true),
+        (Self::Nodes, "/nodes", false),
+        (Self::Samplers, "/samplers", true),
+        (Self::Scenes, "/scenes", false),
+        (Self::Skins, "/skins", true),
+        (Self::Textures, "/textures", true),
+        (Self::Lights, "/extensions/KHR_lights_punctual/lights", true),
+        (Self::Variants, "/extensions/KHR_materials_variants/variants", true),
+    ];
+}
+
+const fn may(name: &'static str, kind: Kind) -> Member {
+    Member { name, kind, rule: Rule::May }
+}
+
+const fn must(name: &'static str, kind: Kind) -> Member {
+    Member { name, kind, rule: Rule::Must }
+}
+
+const fn with(name: &'static str, other: &'static str, kind: Kind) -> Member {
+    Member { name, kind, rule: Rule::With(other) }
+}
+
+const fn either(name: &'static str, other: &'static str, kind: Kind) -> Member {
+    Member { name, kind, rule: Rule::Either(other) }
+}

@@ -1,0 +1,67 @@
+//! URIs: what may be wrong with their letters, and with what they name.
+
+use super::codes;
+use super::findings::Findings;
+use crate::import::error::{Fault, FaultKind};
+use crate::import::resolver::Resolver;
+
+/// The media type of a data URI, in lower case; `None` for another URI.
+pub(super) fn media_type(uri: &str) -> Option<String> {
+    let (scheme, rest) = uri.split_once(':')?;
+    let kind = rest.split([';', ',']).next()?;
+    scheme.eq_ignore_ascii_case("data").then(|| kind.to_ascii_lowercase())
+}
+
+/// What the letters of any URI tell.
+pub(super) fn check(uri: &str, pointer: &str, is_binary: bool, findings: &Findings) {
+    let is_data = media_type(uri).is_some();
+    if is_data && is_binary {
+        findings.add(&codes::DATA_URI_GLB, pointer, "a binary file has data in a text");
+    }
+    let kind = uri.split(',').next().filter(|_| is_data);
+    if kind.is_some_and(|kind| kind.split(';').skip(1).any(str::is_empty)) {
+        findings.add(&codes::INVALID_URI, pointer, "the data URI has an empty parameter");
+    }
+    let letters = |scheme: &str| {
+        scheme.len() > 1 && scheme.bytes().all(|b| b.is_ascii_alphanumeric() || b"+-.".contains(&b))
+    };
+    let has_scheme = uri.split_once(':').is_some_and(|(scheme, _)| letters(scheme));
+    if !is_data && (has_scheme || uri.starts_with('/')) {
+        findings.add(&codes::NON_RELATIVE_URI, pointer, format_args!("{uri:?} is not relative"));
+    }
+}
+
+/// What the letters of a buffer's URI tell.
+pub(super) fn check_buffer(uri: &str, pointer: &str, is_binary: bool, findings: &Findings) {
+    check(uri, pointer, is_binary, findings);
+    if let Some(kind) = media_type(uri)
+        && !["application/octet-stream", "application/gltf-buffer"].contains(&kind.as_str())
+    {
+        let message = format_args!("the media type {kind:?} is none of a buffer");
+        findings.add(&codes::BUFFER_DATA_URI_MIME_TYPE_INVALID, pointer, message);
+    }
+}
+
+/// The bytes a URI names, or a problem.
+pub(super) fn read(
+    resolver: &Resolver<'_>,
+    uri: &str,
+    pointer: &str,
+    findings: &Findings,
+) -> Option<Vec<u8>> {
+    if uri.starts_with(':') {
+        let message = format_args!("{uri:?} begins with a colon");
+        findings.add(&codes::INVALID_URI, pointer, message);
+        return None;
+    }
+    resolver.read(uri, pointer).map_err(|fault| tell(&fault, findings)).ok()
+}
+
+fn tell(fault: &Fault, findings: &Findings) {
+    let code = match fault.kind {
+        FaultKind::Invalid => &codes::INVALID_URI,
+        FaultKind::Limit => &codes::LIMIT_EXCEEDED,
+        _ => &codes::IO_ERROR,
+    };
+    findings.add_with(code, &fault.pointer, &fault.problem, &fault.remedy);
+}

@@ -1,0 +1,90 @@
+//! Where the check and the validator differ, and why.
+
+use crate::manifest::Row;
+use pipeline::import::Report;
+use std::collections::BTreeSet;
+
+const KTX: &str = "KHR_texture_ktx, for images of several layers, is not read";
+
+/// Files in which the validator finds no error and the check does, with the kind and the reason.
+const STRICTER: &[(&str, &str, &str)] = &[
+    (
+        "acme-box-unknown-required-extension/ACMEBox.gltf",
+        "UNSUPPORTED_REQUIRED_EXTENSION",
+        "the extension does not exist",
+    ),
+    (
+        "required-extensions-unsupported.gltf",
+        "UNSUPPORTED_REQUIRED_EXTENSION",
+        "EXT_lights_image_based is not read",
+    ),
+    ("Test/image-3d-bundled.gltf", "UNSUPPORTED_REQUIRED_EXTENSION", KTX),
+    ("Test/image-3d-compressed.glb", "UNSUPPORTED_REQUIRED_EXTENSION", KTX),
+    ("Test/image-3d-not-bundled.glb", "UNSUPPORTED_REQUIRED_EXTENSION", KTX),
+    ("Test/image-3d.glb", "UNSUPPORTED_REQUIRED_EXTENSION", KTX),
+    ("Test/image-3d.gltf", "UNSUPPORTED_REQUIRED_EXTENSION", KTX),
+    (
+        "version-unsupported-min.gltf",
+        "UNSUPPORTED_VERSION",
+        "it needs glTF 2.1, which is not known",
+    ),
+    (
+        "asset/min_version_valid.gltf",
+        "UNSUPPORTED_VERSION",
+        "it needs glTF 2.1, which is not known",
+    ),
+    (
+        "KHR_node_visibility/data/node/unexpected_extension.gltf",
+        "UNEXPECTED_EXTENSION_OBJECT",
+        "the file is wrong on purpose; the validator that was asked does not know the extension",
+    ),
+];
+
+/// Kinds of errors that the validator lists and the check does not find in a file, with the reason.
+const MILDER: &[(&str, &str, &str)] = &[
+    ("Test/mesh-invalid.gltf", "EXCEPTION", "the validator itself broke; the check finds 28 kinds"),
+    ("glb/no_header.glb", "EXCEPTION", "the validator itself broke; NOT_GLTF here"),
+    ("json/invalid_object.gltf", "EXCEPTION", "the validator itself broke; TYPE_MISMATCH here"),
+    (
+        "camera/infinite_znear.gltf",
+        "VALUE_NOT_IN_RANGE",
+        "1e999 is refused as JSON: INVALID_JSON here",
+    ),
+    (
+        "node/infinite_transform.gltf",
+        "VALUE_NOT_IN_RANGE",
+        "1e999 is refused as JSON: INVALID_JSON here",
+    ),
+    (
+        "Test/mesh-multiple-primitives.gltf",
+        "INVALID_JSON",
+        "base64 whose last digit has stray bits is read; the validator's parser gives up",
+    ),
+    (
+        "mesh-invalid-texcoord-flip-attribute-accessor-invalid-normalized.gltf",
+        "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT",
+        "the accessor has no type at all, which is UNDEFINED_PROPERTY",
+    ),
+];
+
+/// How a report differs from what is expected of a file.
+pub fn differs(row: &Row, report: &Report, found: &BTreeSet<&'static str>) -> Option<String> {
+    let listed: BTreeSet<&str> = row.validator_errors.iter().map(String::as_str).collect();
+    let allowed = |table: &[(&str, &str, &str)], code: &str| {
+        table.iter().any(|(end, known, _)| row.path.ends_with(end) && *known == code)
+    };
+    if row.group() != "bad" {
+        let wrong = found.iter().find(|code| !allowed(STRICTER, code))?;
+        let problem = report.problems.iter().find(|problem| problem.code == *wrong)?;
+        return Some(format!("no error is listed: {problem}"));
+    }
+    if !listed.is_empty() && report.errors == 0 {
+        return Some(format!("no error is found, and there are {listed:?}"));
+    }
+    let missing: Vec<&str> = listed
+        .iter()
+        .copied()
+        .filter(|code| !found.contains(code) && !allowed(MILDER, code))
+        .collect();
+    if missing.is_empty() { None } else { Some(format!("{missing:?} not found, but {found:?}")) }
+}
