@@ -2,7 +2,8 @@
 //!
 //! Whatever a file says, loading returns, does not panic, takes little time and little memory; and if there is a model, it
 //! keeps every promise of its documentation. What must come of a file is stated where it is certain, word by word where the
-//! message matters. Arguments that are not flags choose cases by a part of their name, as in `cargo test`.
+//! message matters. Arguments that are not flags choose cases by a part of their name, as in `cargo test`; `--write DIR` writes
+//! all of them and loads none.
 
 #![allow(clippy::print_stdout, reason = "a test program speaks on its standard output")]
 #![allow(missing_docs, unreachable_pub, reason = "the modules of a program have no other outside")]
@@ -43,6 +44,20 @@ struct Tally {
 }
 
 fn main() -> ExitCode {
+    let mut arguments = std::env::args();
+    if arguments.any(|argument| argument == "--write") {
+        let folder = arguments.next().unwrap_or_default();
+        return match write(folder.as_ref()) {
+            Ok(count) => {
+                println!("{count} files");
+                ExitCode::SUCCESS
+            }
+            Err(error) => {
+                println!("{folder}: {error}");
+                ExitCode::FAILURE
+            }
+        };
+    }
     let folder = std::env::temp_dir().join(format!("alberti-hostile-{}", std::process::id()));
     let tally = run(&folder);
     let _ = std::fs::remove_dir_all(&folder);
@@ -59,6 +74,18 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Writes the files of all cases into a folder, for the fuzzer to begin with.
+fn write(folder: &Path) -> std::io::Result<usize> {
+    let mut count = 0;
+    for (group, cases) in groups() {
+        for case in cases().iter().filter(|case| case.file.len() <= 64 << 10) {
+            std::fs::write(folder.join(format!("{group}-{count:05}")), &case.file)?;
+            count += 1;
+        }
+    }
+    Ok(count)
 }
 
 fn run(folder: &Path) -> Result<Tally, String> {

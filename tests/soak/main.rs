@@ -8,6 +8,7 @@
 #![allow(clippy::print_stdout, reason = "a program speaks on its standard output")]
 #![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
 
+mod bits;
 mod camera;
 mod clip;
 mod finite;

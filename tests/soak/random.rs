@@ -1,7 +1,8 @@
 //! Random arguments: ordinary numbers most of the time, and every other sort there is.
 //!
-//! splitmix64 (Steele, Lea, Flood 2014): the state is a counter, so any call can be made again.
+//! The fuzzer has this file too, and a source of bits of its own.
 
+use crate::bits::Bits;
 use glam::{DMat3, DMat4, DVec3, DVec4};
 use homog::{Affine, HPoint, Normal, Plane, Point, Projective, Space, Vector};
 use std::f64::consts::PI;
@@ -20,7 +21,7 @@ enum Mood {
 
 /// The generator, and what it notes about the current call.
 pub struct Random {
-    state: u64,
+    bits: Bits,
     mood: Mood,
     last: f64,
     only_finite: bool,
@@ -43,30 +44,29 @@ const EXTREMES: [f64; 12] = [
 ];
 
 impl Random {
-    pub fn new(seed: u64) -> Self {
-        Self { state: seed, mood: Mood::Ordinary, last: 0.0, only_finite: true, drawn: None }
-    }
-
-    /// The generator in the state of an earlier call, which notes what it draws.
-    pub fn recording(state: u64) -> Self {
-        let mut random = Self { drawn: Some(Vec::new()), ..Self::new(state) };
+    /// Arguments for a call, from the bits that are to come.
+    pub fn new(bits: Bits) -> Self {
+        let (mood, drawn) = (Mood::Ordinary, None);
+        let mut random = Self { bits, mood, last: 0.0, only_finite: true, drawn };
         random.settle();
         random
     }
 
-    /// Begins a call.
-    pub fn begin(&mut self) {
-        self.bits();
+    /// The same, and it notes what it draws.
+    pub fn recording(bits: Bits) -> Self {
+        Self { drawn: Some(Vec::new()), ..Self::new(bits) }
+    }
+
+    /// Begins another call; gives the bits that it will be made of.
+    pub fn begin(&mut self) -> Bits {
+        self.bits.next();
         self.settle();
+        self.bits
     }
 
-    pub fn state(&self) -> u64 {
-        self.state
-    }
-
-    /// Chooses the mood of a call from the state alone.
+    /// Chooses the mood of a call, and uses no bits up.
     fn settle(&mut self) {
-        self.mood = match mixed(self.state ^ 0x5bd1_e995) & 7 {
+        self.mood = match self.bits.peek() & 7 {
             0..=4 => Mood::Ordinary,
             5 | 6 => Mood::Extreme,
             _ => Mood::Anything,
@@ -84,14 +84,9 @@ impl Random {
         self.drawn.as_deref().unwrap_or_default()
     }
 
-    fn bits(&mut self) -> u64 {
-        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        mixed(self.state)
-    }
-
     /// From 0 to `count` − 1.
     pub fn below(&mut self, count: usize) -> usize {
-        (self.bits() >> 32) as usize % count
+        (self.bits.next() >> 32) as usize % count
     }
 
     pub fn pick<T: Copy>(&mut self, all: &[T]) -> T {
@@ -99,12 +94,12 @@ impl Random {
     }
 
     pub fn coin(&mut self) -> bool {
-        self.bits() >> 63 == 1
+        self.bits.next() >> 63 == 1
     }
 
     /// Any 32 bits; small numbers half of the time.
     pub fn count(&mut self) -> u32 {
-        let bits = self.bits();
+        let bits = self.bits.next();
         let count = (bits >> 32) as u32;
         let count = if bits & 1 == 0 { count % 64 } else { count };
         self.given(count.into());
@@ -171,13 +166,13 @@ impl Random {
     }
 
     fn of(&mut self, mood: Mood) -> f64 {
-        let bits = self.bits();
+        let bits = self.bits.next();
         let unit = (bits >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0);
         match (mood, bits & 15) {
             (Mood::Anything, 0) => f64::NAN,
             (Mood::Anything, 1) => f64::INFINITY,
             (Mood::Anything, 2) => f64::NEG_INFINITY,
-            (Mood::Anything, 3) => f64::from_bits(self.bits()),
+            (Mood::Anything, 3) => f64::from_bits(self.bits.next()),
             (Mood::Anything, _) => self.of(Mood::Extreme),
             (Mood::Extreme, 0 | 1) => EXTREMES[(bits >> 32) as usize % EXTREMES.len()],
             (Mood::Extreme, 2..=7) => signed(libm::exp10(unit * 632.0 - 324.0), bits),
@@ -189,13 +184,6 @@ impl Random {
             (Mood::Ordinary, _) => unit * 20.0 - 10.0,
         }
     }
-}
-
-/// The output function of splitmix64.
-fn mixed(state: u64) -> u64 {
-    let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 fn signed(size: f64, bits: u64) -> f64 {

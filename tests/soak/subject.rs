@@ -1,5 +1,6 @@
 //! One function under test: called over and over, and what came of it.
 
+use crate::bits::Bits;
 use crate::random::Random;
 use std::cell::RefCell;
 use std::fmt;
@@ -22,21 +23,20 @@ pub struct Report {
 /// Calls the function until it fails or has been called often enough.
 pub fn run(&(name, call): &Subject, calls: u64, seed: u64) -> Report {
     let start = Instant::now();
-    let mut random = Random::new(seed);
+    let mut random = Random::new(Bits::new(seed));
     let mut report = Report { name, calls: 0, made: 0, time: Duration::ZERO, fault: None };
     while report.calls < calls && report.fault.is_none() {
         report.calls += 1;
-        random.begin();
-        let state = random.state();
+        let bits = random.begin();
         match catch_unwind(AssertUnwindSafe(|| call(&mut random))) {
             Ok(None) => {}
             Ok(Some(finite)) if finite || !random.drew_only_finite() => report.made += 1,
             Ok(Some(_)) => {
-                report.fault = Some(format!("not finite for {}", arguments(call, state)));
+                report.fault = Some(format!("not finite for {}", arguments(call, bits)));
             }
             Err(_) => {
                 let message = LAST_PANIC.take();
-                report.fault = Some(format!("panicked {message} for {}", arguments(call, state)));
+                report.fault = Some(format!("panicked {message} for {}", arguments(call, bits)));
             }
         }
     }
@@ -44,9 +44,9 @@ pub fn run(&(name, call): &Subject, calls: u64, seed: u64) -> Report {
     report
 }
 
-/// What the call from this state drew, in order.
-fn arguments(call: fn(&mut Random) -> Option<bool>, state: u64) -> String {
-    let mut random = Random::recording(state);
+/// What the call drew from these bits, in order.
+fn arguments(call: fn(&mut Random) -> Option<bool>, bits: Bits) -> String {
+    let mut random = Random::recording(bits);
     let _ = catch_unwind(AssertUnwindSafe(|| call(&mut random)));
     format!("{:?}", random.drawn())
 }

@@ -8,6 +8,7 @@
 mod bench;
 mod conformance;
 mod determinism;
+mod fuzz;
 mod gallery;
 mod golden;
 mod models;
@@ -72,6 +73,12 @@ const COMMANDS: &[Command] = &[
         arguments: "[--calls N] [--seed S] [NAME…]",
         about: "Millions of random calls: nothing panics, finite numbers give finite ones",
         run: soak::run,
+    },
+    Command {
+        name: "fuzz",
+        arguments: "[TARGET…] [--minutes N] [--jobs N]",
+        about: "Bytes made up to break what reads them; `fuzz --help` lists the targets",
+        run: fuzz::run,
     },
     Command {
         name: "bench",

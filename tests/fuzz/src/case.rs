@@ -1,0 +1,43 @@
+//! One case: work that must end soon, without a panic, and in little memory.
+
+use nix::sys::resource::{UsageWho, getrusage};
+use peak_alloc::PeakAlloc;
+use std::time::{Duration, Instant};
+
+#[global_allocator]
+static MEMORY: PeakAlloc = PeakAlloc;
+
+/// So much memory a case may take beyond what the fuzzer itself holds.
+const MOST_BYTES: usize = 200 << 20;
+
+/// So much time a case may take of the processors.
+const LONGEST: Duration = Duration::from_secs(1);
+
+/// Does the work of a case.
+///
+/// # Panics
+/// If it takes too much memory or too long. Time counts only if it is the processors', for a busy machine is no fault
+/// of the case: slow work is done again to measure that.
+pub fn run(work: impl Fn()) {
+    MEMORY.reset_peak_usage();
+    let before = MEMORY.current_usage();
+    let start = Instant::now();
+    work();
+    let taken = MEMORY.peak_usage().saturating_sub(before);
+    assert!(taken <= MOST_BYTES, "the case took {taken} bytes of memory");
+    if start.elapsed() > LONGEST {
+        let before = processor_time();
+        work();
+        let taken = processor_time().saturating_sub(before);
+        assert!(taken <= LONGEST, "the case took {taken:?} of the processors");
+    }
+}
+
+/// The time that all threads of this process have run.
+fn processor_time() -> Duration {
+    let Ok(usage) = getrusage(UsageWho::RUSAGE_SELF) else { return Duration::ZERO };
+    let micros = |time: nix::sys::time::TimeVal| {
+        Duration::from_micros(time.tv_sec() as u64 * 1_000_000 + time.tv_usec() as u64)
+    };
+    micros(usage.user_time()) + micros(usage.system_time())
+}

@@ -1,0 +1,21 @@
+//! What the fuzz targets do with their bytes; the targets themselves only hand them over.
+//!
+//! ```text
+//!  model ───────────────────────► a whole .glb or .gltf ─┐
+//!  meshopt, draco, image ─wrap──► a model around them ───┴─► load ─► promises ─► pose ─► draw ─► PNG
+//!  scene ───────────────────────► the text of a scene ─────► parse ─► resolve ──────────► draw
+//!  maths ───────────────────────► numbers for the calls of `tests/soak`
+//!  raster ──────────────────────► triangles, lines and points, drawn whole, in parts, by all instructions
+//! ```
+//!
+//! A case fails by a panic, by a broken promise, by more than a second or by more than 200 MB; see [`case`].
+
+pub mod case;
+pub mod glb;
+pub mod model;
+pub mod mutate;
+#[path = "../../hostile/promises.rs"]
+mod promises;
+pub mod raster;
+pub mod scene;
+pub mod streams;

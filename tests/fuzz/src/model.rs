@@ -1,0 +1,91 @@
+//! A model from bytes: loaded, held to its promises, posed, drawn from a few sides and encoded.
+
+use crate::{glb, promises};
+use homog::Affine;
+use pipeline::import::{Choice, Images, ImportError, ImportOptions, Limits, load_bytes};
+use pipeline::model::Model;
+use pipeline::scene::Placed;
+use pipeline::scene::file::{
+    CameraChoice, FromFile, SceneFile, StyleFile, USUAL_PADDING, ViewFile,
+};
+use pipeline::{Origin, Scene, render};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Small enough that each case is fast, and large enough for every branch.
+fn limits() -> Limits {
+    Limits {
+        json_values: 100_000,
+        array_bytes: 48 << 20,
+        image_side: 4096,
+        image_texels: 4 << 20,
+        nodes: 2_000,
+        scene_items: 20_000,
+        ..Limits::default()
+    }
+}
+
+/// A file, as it is and with its lengths mended.
+pub fn file(bytes: &[u8]) {
+    let loaded = load(bytes, ImportOptions::default());
+    let has_variants = loaded.as_ref().is_ok_and(|model| !model.variants.is_empty());
+    show(loaded);
+    if has_variants {
+        let (variant, images) = (Some(Choice::Index(0)), Images::Headers);
+        show(load(bytes, ImportOptions { variant, images, ..ImportOptions::default() }));
+    }
+    if bytes.starts_with(b"glTF") {
+        let (json, binary) = glb::parts(bytes);
+        let mended = glb::glb(json, binary);
+        if mended != bytes {
+            show(load(&mended, ImportOptions::default()));
+        }
+    }
+}
+
+fn load(bytes: &[u8], options: ImportOptions) -> Result<Model, ImportError> {
+    load_bytes("model.glb", bytes, &ImportOptions { limits: limits(), ..options })
+}
+
+/// What a person would do with the outcome: read the error, or look at the model.
+fn show(loaded: Result<Model, ImportError>) {
+    let mut model = match loaded {
+        Ok(model) => model,
+        Err(error) => {
+            assert!(!error.to_string().is_empty(), "an error has nothing to say");
+            return;
+        }
+    };
+    if let Err(broken) = promises::check(&model) {
+        panic!("a promise is broken: {broken}");
+    }
+    draw(&model, StyleFile::Shaded, ViewFile::default());
+    if !model.cameras.is_empty() {
+        draw(&model, StyleFile::Flat, ViewFile::FromModel(CameraChoice::Index(0)));
+    }
+    if !model.animations.is_empty() {
+        model.pose(model.animations.len() - 1, 0.7);
+        let view = ViewFile::Frame { from: FromFile::Back, padding_percent: USUAL_PADDING };
+        draw(&model, StyleFile::Wireframe, view);
+    }
+}
+
+/// Draws a model in 32 × 24 pixels.
+fn draw(model: &Model, style: StyleFile, view: ViewFile) {
+    let mut file = SceneFile::showing("model.glb".to_owned());
+    file.image.size = (32, 24);
+    file.style = style;
+    file.camera.view = view;
+    let origin =
+        Origin { file: "model.glb".to_owned(), text: String::new(), folder: PathBuf::new() };
+    let placed = Placed { model: Arc::new(model.clone()), model_to_world: Affine::IDENTITY };
+    // A model with nothing to see has no picture, and the error says so.
+    match Scene::of_models(&origin, &file, vec![placed]) {
+        Ok(scene) => {
+            if let Ok(picture) = render(&scene, 1) {
+                assert!(!picture.to_png().is_empty(), "the PNG is empty");
+            }
+        }
+        Err(error) => assert!(!error.to_string().is_empty(), "an error has nothing to say"),
+    }
+}

@@ -1,0 +1,118 @@
+//! Any triangles, lines and points: drawn whole, in two parts and by every set of instructions, they are the same.
+
+use homog::Point;
+use raster::{Cover, Frame, Instructions, Samples, ScreenVertex, Visibility};
+
+/// The fuzzer's bytes as numbers; zeros after their end.
+struct Numbers<'a>(&'a [u8]);
+
+impl Numbers<'_> {
+    fn take<const N: usize>(&mut self) -> [u8; N] {
+        let (now, later) = self.0.split_at(N.min(self.0.len()));
+        self.0 = later;
+        let mut bytes = [0; N];
+        bytes[..now.len()].copy_from_slice(now);
+        bytes
+    }
+
+    fn byte(&mut self) -> u8 {
+        u8::from_le_bytes(self.take())
+    }
+
+    /// A coordinate: any 64 bits, or one of the picture's neighbourhood on the grid or between its steps.
+    fn number(&mut self) -> f64 {
+        match self.byte() % 8 {
+            0 => f64::from_le_bytes(self.take()),
+            1 => f64::from(f32::from_le_bytes(self.take())),
+            2 => f64::from(i16::from_le_bytes(self.take())),
+            3 => f64::from(i32::from_le_bytes(self.take())) / 65_536.0,
+            _ => f64::from(i16::from_le_bytes(self.take())) / 256.0,
+        }
+    }
+
+    fn vertex(&mut self) -> Option<ScreenVertex> {
+        let point = Point::new(self.number(), self.number(), self.number().abs().fract());
+        let w = if self.byte() < 128 { 1.0 } else { self.number() };
+        ScreenVertex::snap(point, w)
+    }
+}
+
+/// A picture from its description: size, samples, then one primitive after the other.
+pub fn frames(bytes: &[u8]) {
+    let mut numbers = Numbers(bytes);
+    let size = [numbers.byte(), numbers.byte()].map(|side| 1 + u32::from(side) % 96);
+    let samples = [Samples::One, Samples::Four, Samples::Eight, Samples::Sixteen];
+    let samples = samples[usize::from(numbers.byte() % 4)];
+    let split = u32::from(numbers.byte()) % size[0];
+    let Ok(mut whole) = Frame::part([0, 0], size, samples) else { panic!("the size is right") };
+    let mut parts = Vec::new();
+    if split > 0 {
+        parts.extend(Frame::part([0, 0], [split, size[1]], samples));
+    }
+    parts.extend(Frame::part([split, 0], [size[0] - split, size[1]], samples));
+    for id in 0..64 {
+        if numbers.0.is_empty() {
+            break;
+        }
+        let rest = numbers.0;
+        for frame in parts.iter_mut().chain([&mut whole]) {
+            numbers.0 = rest;
+            primitive(frame, &mut numbers, id);
+        }
+    }
+    let seen = whole.visibility();
+    for instructions in Instructions::available() {
+        let other = whole.clone().with_instructions(instructions).visibility();
+        assert!(same(&seen, &other), "{instructions:?} give another picture");
+    }
+    check_parts(&seen, &parts, [split, size[0]]);
+    whole.fragments(|fragment| {
+        let [a, b, c] = fragment.weights;
+        assert!(a.is_finite() && b.is_finite() && c.is_finite(), "a weight is not finite");
+    });
+}
+
+fn primitive(frame: &mut Frame, numbers: &mut Numbers<'_>, id: u32) {
+    let kind = numbers.byte();
+    let cover = [Cover::Solid, Cover::Masked, Cover::Translucent][usize::from(kind / 4 % 3)];
+    match kind % 4 {
+        0 | 1 => {
+            let corners = [numbers.vertex(), numbers.vertex(), numbers.vertex()];
+            if let [Some(p), Some(q), Some(r)] = corners {
+                frame.triangle([p, q, r], id, cover);
+            }
+        }
+        2 => {
+            let (ends, width) = ([numbers.vertex(), numbers.vertex()], numbers.number());
+            if let [Some(p), Some(q)] = ends {
+                frame.line([p, q], width, id, cover);
+            }
+        }
+        _ => {
+            let (center, size) = (numbers.vertex(), numbers.number());
+            if let Some(center) = center {
+                frame.point(center, size, id, cover);
+            }
+        }
+    }
+}
+
+fn same(a: &Visibility, b: &Visibility) -> bool {
+    let bits = |seen: &Visibility| seen.depth.iter().map(|d| d.to_bits()).collect::<Vec<_>>();
+    a.ids == b.ids && bits(a) == bits(b)
+}
+
+/// The parts, side by side, are the whole.
+fn check_parts(whole: &Visibility, parts: &[Frame], [split, width]: [u32; 2]) {
+    let mut left = 0;
+    for frame in parts {
+        let (seen, part_width) = (frame.visibility(), frame.width() as usize);
+        for (at, id) in seen.ids.iter().enumerate() {
+            let there = at / part_width * width as usize + left + at % part_width;
+            assert_eq!(*id, whole.ids[there], "a part from column {left}, split at {split}");
+            let depths = [seen.depth[at], whole.depth[there]].map(f32::to_bits);
+            assert_eq!(depths[0], depths[1], "a depth of a part from column {left}");
+        }
+        left += part_width;
+    }
+}

@@ -1,0 +1,38 @@
+//! The text of a scene: parsed, resolved with a model that is there, and drawn by one thread and by two.
+
+use pipeline::scene::parse;
+use pipeline::{Origin, Scene, render};
+use std::path::Path;
+
+/// A small model with several materials.
+const MODEL: &str = "crate.glb";
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/models");
+
+/// A scene from its text.
+pub fn text(bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    let mut file = match parse("scene.ron", text) {
+        Ok(file) => file,
+        Err(error) => return assert!(!error.to_string().is_empty(), "an error says nothing"),
+    };
+    let nowhere = Path::new("nowhere-at-all");
+    resolve(text, nowhere, &file).err().into_iter().for_each(|problem| {
+        assert!(!problem.is_empty(), "an error says nothing");
+    });
+    file.models.truncate(2);
+    for model in &mut file.models {
+        model.path = MODEL.to_owned();
+    }
+    let Ok(mut scene) = resolve(text, Path::new(FOLDER), &file) else { return };
+    scene.image.width = scene.image.width.min(32);
+    scene.image.height = scene.image.height.min(24);
+    if let (Ok(alone), Ok(together)) = (render(&scene, 1), render(&scene, 2)) {
+        assert!(alone == together, "two threads draw another picture than one");
+    }
+}
+
+fn resolve(text: &str, folder: &Path, file: &pipeline::SceneFile) -> Result<Scene, String> {
+    let origin =
+        Origin { file: "scene.ron".to_owned(), text: text.to_owned(), folder: folder.to_owned() };
+    Scene::resolve(&origin, file, &Default::default()).map_err(|error| error.to_string())
+}

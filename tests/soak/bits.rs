@@ -1,0 +1,33 @@
+//! Where random numbers come from.
+//!
+//! splitmix64 (Steele, Lea, Flood 2014): the state is a counter, so any call can be made again.
+
+/// The generator.
+#[derive(Clone, Copy)]
+pub struct Bits {
+    state: u64,
+}
+
+impl Bits {
+    pub fn new(seed: u64) -> Self {
+        Self { state: seed }
+    }
+
+    /// The next 64 bits.
+    pub fn next(&mut self) -> u64 {
+        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        mixed(self.state)
+    }
+
+    /// Bits that depend on the state and are none of those to come.
+    pub fn peek(&self) -> u64 {
+        mixed(self.state ^ 0x5bd1_e995)
+    }
+}
+
+/// The output function of splitmix64.
+fn mixed(state: u64) -> u64 {
+    let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}

@@ -1,0 +1,165 @@
+//! What a target begins with: real files and the hostile ones, in the form that it reads.
+
+use super::assets;
+use super::pack::Packed;
+use crate::program::{cargo, succeed};
+use crate::workspace::{files, root};
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Larger files are too slow to vary.
+const LARGEST_MODEL: usize = 200 << 10;
+const LARGEST_STREAM: usize = 48 << 10;
+
+/// Writes the seeds of a target into a folder; gives how many there are.
+pub fn write(target: &str, folder: &Path) -> Result<usize, String> {
+    let mut seeds = match target {
+        "model" => models().into_iter().map(|model| model.file).collect(),
+        "meshopt" => models().iter().flat_map(meshopt).collect(),
+        "draco" => models().iter().flat_map(draco).collect(),
+        "image" => images(),
+        "scene" => scenes()?,
+        _ => numbers(),
+    };
+    let largest = if target == "model" { LARGEST_MODEL } else { LARGEST_STREAM };
+    seeds.retain(|seed: &Vec<u8>| seed.len() <= largest);
+    seeds.sort();
+    seeds.dedup();
+    for (number, seed) in seeds.iter().enumerate() {
+        let path = folder.join(format!("{number:05}"));
+        fs::write(&path, seed).map_err(|error| format!("{}: {error}", path.display()))?;
+    }
+    if target == "model" {
+        let call = ["test", "--quiet", "--package", "alberti-tests", "--test", "hostile", "--"];
+        succeed(cargo(&call).arg("--write").arg(folder))?;
+    }
+    fs::read_dir(folder).map(Iterator::count).map_err(|error| error.to_string())
+}
+
+/// All files below a folder with one of these endings, sorted.
+fn below(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut paths: Vec<PathBuf> = fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .collect();
+    paths.sort();
+    for path in paths {
+        let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        if path.is_dir() {
+            found.extend(below(&path, endings));
+        } else if endings.contains(&ending.as_str()) {
+            found.push(path);
+        }
+    }
+    found
+}
+
+/// The shared assets with these endings, and the scenes' models.
+fn paths(endings: &[&str]) -> Vec<PathBuf> {
+    let mut paths = below(&root().join("scenes"), endings);
+    match assets() {
+        Some(assets) => paths.extend(below(&assets, endings)),
+        None => println!("SKIPPED shared assets as seeds: they are not there"),
+    }
+    paths
+}
+
+fn models() -> Vec<Packed> {
+    paths(&["glb", "gltf"]).iter().filter_map(|path| Packed::read(path)).collect()
+}
+
+fn scenes() -> Result<Vec<Vec<u8>>, String> {
+    let paths = files(&root().join("scenes"), "ron")?;
+    Ok(paths.iter().filter_map(|path| fs::read(path).ok()).collect())
+}
+
+/// The streams of compressed views, as the target `meshopt` reads them.
+fn meshopt(model: &Packed) -> Vec<Vec<u8>> {
+    let views = model.json["bufferViews"].as_array().into_iter().flatten();
+    let stream = |view: &Value| {
+        let named = |name: &str| view["extensions"].get(name);
+        let packed = named("EXT_meshopt_compression").or(named("KHR_meshopt_compression"))?;
+        let filter = packed["filter"].as_str().unwrap_or("NONE");
+        let kind = match (packed["mode"].as_str()?, filter) {
+            ("ATTRIBUTES", "OCTAHEDRAL") => 1,
+            ("ATTRIBUTES", "QUATERNION") => 2,
+            ("ATTRIBUTES", "EXPONENTIAL") => 3,
+            ("ATTRIBUTES", "COLOR") => 4,
+            ("ATTRIBUTES", _) => 0,
+            ("TRIANGLES", _) => 5,
+            _ => 6,
+        };
+        let stride = packed["byteStride"].as_u64()?;
+        let stride = if kind < 5 { stride / 4 } else { u64::from(stride == 4) };
+        let [low, high, ..] = packed["count"].as_u64()?.to_le_bytes();
+        let mut seed = vec![kind, stride as u8, low, high];
+        seed.extend(model.part(packed)?);
+        Some(seed)
+    };
+    views.filter_map(stream).collect()
+}
+
+/// The streams of compressed primitives, as the target `draco` reads them.
+fn draco(model: &Packed) -> Vec<Vec<u8>> {
+    let meshes = model.json["meshes"].as_array().into_iter().flatten();
+    let primitives = meshes.flat_map(|mesh| mesh["primitives"].as_array().into_iter().flatten());
+    let count = |accessor: &Value| {
+        model.json["accessors"].get(accessor.as_u64()? as usize)?["count"].as_u64()
+    };
+    let stream = |primitive: &Value| {
+        let packed = primitive["extensions"].get("KHR_draco_mesh_compression")?;
+        let number =
+            |name: &str| packed["attributes"][name].as_u64().map_or(15, |n| n.min(15) as u8);
+        let vertices = count(&primitive["attributes"]["POSITION"])?.to_le_bytes();
+        let faces = (count(&primitive["indices"])? / 3).to_le_bytes();
+        let ids = number("POSITION") | number("NORMAL") << 4;
+        let more = number("TEXCOORD_0") | number("COLOR_0") << 4;
+        let mut seed = vec![vertices[0], vertices[1], faces[0], faces[1], ids, more];
+        let view = packed["bufferView"].as_u64()? as usize;
+        seed.extend(model.part(model.json["bufferViews"].get(view)?)?);
+        Some(seed)
+    };
+    primitives.filter_map(stream).collect()
+}
+
+/// Images by themselves and out of models, each after the number of its kind.
+fn images() -> Vec<Vec<u8>> {
+    let kind = |file: &[u8]| match file {
+        [0x89, b'P', ..] => 0,
+        [0xFF, 0xD8, ..] => 1,
+        [b'R', b'I', ..] => 2,
+        [0xAB, b'K', ..] => 3,
+        _ => 4,
+    };
+    let marked = |file: &[u8]| [&[kind(file)], file].concat();
+    let files = paths(&["png", "jpg", "jpeg", "webp", "ktx2"]);
+    let mut seeds: Vec<Vec<u8>> =
+        files.iter().filter_map(|path| Some(marked(&fs::read(path).ok()?))).collect();
+    for model in models() {
+        let images = model.json["images"].as_array().into_iter().flatten();
+        let views = images.filter_map(|image| {
+            model.json["bufferViews"].get(image["bufferView"].as_u64()? as usize)
+        });
+        seeds.extend(views.filter_map(|view| model.part(view)).map(marked));
+    }
+    seeds
+}
+
+/// Bytes from a generator (splitmix64), each time after another number: there are fewer functions than 512.
+fn numbers() -> Vec<Vec<u8>> {
+    let mut state = 0u64;
+    let mut word = || {
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        (z ^ (z >> 31)).to_le_bytes()
+    };
+    let seed = |number: u16| {
+        let bytes: Vec<u8> = (0..40).flat_map(|_| word()).collect();
+        [&number.to_le_bytes()[..], &bytes].concat()
+    };
+    (0..512).map(seed).collect()
+}

@@ -1,0 +1,220 @@
+//! A run of one target: libFuzzer's processes, how long they may work, and what they report.
+
+use crate::workspace::shown;
+use std::collections::BTreeSet;
+use std::fmt;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// What is to be run.
+pub struct Session {
+    pub program: PathBuf,
+    /// The dictionary.
+    pub words: Option<PathBuf>,
+    /// Where `seeds`, `corpus` and `artifacts` are.
+    pub folder: PathBuf,
+    pub minutes: f64,
+    pub jobs: usize,
+}
+
+/// What came of it.
+pub struct Report {
+    pub name: String,
+    /// Of the processors, all jobs together.
+    time: Duration,
+    executions: u64,
+    /// Branches that were reached, and branches told apart by how often.
+    edges: u64,
+    features: u64,
+    corpus: usize,
+    pub crashes: Vec<PathBuf>,
+}
+
+/// A process of libFuzzer.
+struct Job {
+    child: Child,
+    log: PathBuf,
+    start: Instant,
+    time: Duration,
+    done: bool,
+}
+
+impl Session {
+    /// Runs until the time is used up or something crashes.
+    pub fn run(&self, name: &str) -> Result<Report, String> {
+        let before = artifacts(&self.folder)?;
+        let mut jobs = (0..self.jobs).map(|n| self.start(n)).collect::<Result<Vec<_>, _>>()?;
+        let budget = Duration::from_secs_f64(60.0 * self.minutes);
+        loop {
+            sleep(Duration::from_millis(200));
+            jobs.iter_mut().try_for_each(Job::look)?;
+            let time: Duration = jobs.iter().map(|job| job.time).sum();
+            if time >= budget || jobs.iter().any(|job| job.done) {
+                break;
+            }
+        }
+        let unexpected = jobs.iter().any(|job| job.done);
+        for job in &mut jobs {
+            job.end()?;
+        }
+        let new = artifacts(&self.folder)?.difference(&before).cloned().collect::<Vec<_>>();
+        let mut report = self.report(name, &jobs)?;
+        report.crashes.extend(new);
+        if unexpected {
+            for job in &jobs {
+                println!("{}", tail(&job.log));
+            }
+            // A crash that was known is not written again, and is one all the same.
+            if report.crashes.is_empty() {
+                report.crashes.extend(before);
+            }
+            if report.crashes.is_empty() {
+                return Err(format!("{name} ended by itself; see {}", shown(&jobs[0].log)));
+            }
+            report.crashes.iter().for_each(|crash| println!("crash: {}", shown(crash)));
+        }
+        Ok(report)
+    }
+
+    fn start(&self, number: usize) -> Result<Job, String> {
+        let log = self.folder.join(format!("job-{number}.log"));
+        let file = File::create(&log).map_err(|error| format!("{}: {error}", log.display()))?;
+        let folder = |part: &str| self.folder.join(part);
+        // As the last resort only, for each case judges its own time and memory.
+        let mut command = Command::new(&self.program);
+        command.args(["-timeout=30", "-rss_limit_mb=2048", "-print_final_stats=1"]);
+        command.arg(format!("-artifact_prefix={}/", folder("artifacts").display()));
+        if let Some(words) = &self.words {
+            command.arg(format!("-dict={}", words.display()));
+        }
+        command.args(["corpus", "seeds", "artifacts"].map(folder));
+        command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(file);
+        let child =
+            command.spawn().map_err(|error| format!("{}: {error}", self.program.display()))?;
+        let start = Instant::now();
+        Ok(Job { child, log, start, time: Duration::ZERO, done: false })
+    }
+
+    fn report(&self, name: &str, jobs: &[Job]) -> Result<Report, String> {
+        let logs = jobs.iter().map(|job| fs::read_to_string(&job.log).unwrap_or_default());
+        let logs: Vec<String> = logs.collect();
+        let most = |name: &str| logs.iter().filter_map(|log| last_number(log, name)).max();
+        let executions = logs.iter().filter_map(|log| executions(log)).sum();
+        let corpus = fs::read_dir(self.folder.join("corpus")).map_or(0, Iterator::count);
+        Ok(Report {
+            name: name.to_owned(),
+            time: jobs.iter().map(|job| job.time).sum(),
+            executions,
+            edges: most("cov:").unwrap_or(0),
+            features: most("ft:").unwrap_or(0),
+            corpus,
+            crashes: Vec::new(),
+        })
+    }
+}
+
+impl Job {
+    /// Notes how long it has run, and whether it has ended.
+    fn look(&mut self) -> Result<(), String> {
+        // Where the system does not tell, the clock does.
+        self.time =
+            processor_time(self.child.id()).unwrap_or_else(|| self.start.elapsed()).max(self.time);
+        self.done = self.child.try_wait().map_err(|error| error.to_string())?.is_some();
+        Ok(())
+    }
+
+    /// Ends it as a person at the keyboard would, so that it still says what it did.
+    fn end(&mut self) -> Result<(), String> {
+        if !self.done {
+            let id = self.child.id().to_string();
+            let asked = Command::new("kill").args(["-INT", &id]).status();
+            if !asked.is_ok_and(|status| status.success()) {
+                self.child.kill().map_err(|error| error.to_string())?;
+            }
+        }
+        self.child.wait().map(drop).map_err(|error| error.to_string())
+    }
+}
+
+/// The time that a process has run on the processors, where the system tells.
+fn processor_time(process: u32) -> Option<Duration> {
+    let text = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+    // The name, in brackets, may have blanks. Linux counts in hundredths of a second, whatever its own clock does.
+    let (_, after) = text.rsplit_once(')')?;
+    let mut fields = after.split_whitespace().skip(11);
+    let ticks = fields.next()?.parse::<u64>().ok()? + fields.next()?.parse::<u64>().ok()?;
+    Some(Duration::from_millis(10 * ticks))
+}
+
+/// All inputs that ever crashed the target.
+fn artifacts(folder: &Path) -> Result<BTreeSet<PathBuf>, String> {
+    let folder = folder.join("artifacts");
+    let entries =
+        fs::read_dir(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    Ok(entries.filter_map(|entry| Some(entry.ok()?.path())).collect())
+}
+
+/// The number after a word, where it is for the last time.
+fn last_number(log: &str, word: &str) -> Option<u64> {
+    let (_, after) = log.rsplit_once(&format!(" {word} "))?;
+    after.split_whitespace().next()?.parse().ok()
+}
+
+/// How many inputs were tried: by the statistics at the end, or, after a crash, by the last line of progress.
+fn executions(log: &str) -> Option<u64> {
+    if let Some((_, after)) = log.rsplit_once("stat::number_of_executed_units:") {
+        return after.split_whitespace().next()?.parse().ok();
+    }
+    let progress = log.lines().rev().find_map(|line| line.strip_prefix('#'))?;
+    progress.split_whitespace().next()?.parse().ok()
+}
+
+/// The last lines of a log that are not progress.
+fn tail(log: &Path) -> String {
+    let text = fs::read_to_string(log).unwrap_or_default();
+    let mut lines: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
+    lines.split_off(lines.len().saturating_sub(30)).join("\n")
+}
+
+impl Report {
+    pub const HEADING: &str =
+        "target    CPU min  executions   per s    edges  features  corpus  crashes";
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, time, executions, edges, features, corpus, crashes } = self;
+        let (seconds, crashes) = (time.as_secs_f64().max(0.01), crashes.len());
+        let (minutes, rate) = (seconds / 60.0, *executions as f64 / seconds);
+        write!(
+            f,
+            "{name:8} {minutes:8.1} {executions:11} {rate:7.0} {edges:8} {features:9} {corpus:7} {crashes:8}"
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LOG: &str = "INFO: seed corpus: files: 2\n#3 INITED cov: 12 ft: 34 corp: 2/9b\n\
+        #4096 pulse  cov: 15 ft: 40 corp: 3/12b lim: 4096 exec/s: 2048 rss: 31Mb\n";
+
+    #[test]
+    fn progress_is_read_from_the_log() {
+        assert_eq!((last_number(LOG, "cov:"), last_number(LOG, "ft:")), (Some(15), Some(40)));
+        assert_eq!(executions(LOG), Some(4096));
+        let ended = format!("{LOG}stat::number_of_executed_units: 5000\nstat::peak_rss_mb: 1\n");
+        assert_eq!(executions(&ended), Some(5000));
+        assert_eq!((last_number("", "cov:"), executions("")), (None, None));
+    }
+
+    #[test]
+    fn this_process_has_run_for_less_than_an_hour() {
+        let time = processor_time(std::process::id());
+        assert!(time.is_none_or(|time| time < Duration::from_secs(3600)), "{time:?}");
+    }
+}
