@@ -1,7 +1,10 @@
 //! The program as a process: what it prints, what it leaves on the disk, and with which code it ends.
 
+mod animation;
 mod bench;
+mod document;
 mod files;
 mod info;
 mod messages;
 mod pictures;
+mod variants;

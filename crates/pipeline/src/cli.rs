@@ -3,6 +3,7 @@
 mod args;
 mod failure;
 mod info;
+mod pick;
 mod progress;
 mod render;
 

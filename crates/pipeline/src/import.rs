@@ -50,6 +50,7 @@ mod warnings;
 pub use check::{Problem, Report, Severity, check, check_bytes};
 pub use choice::Choice;
 pub use error::{Fault, FaultKind, ImportError};
+pub use extensions::{ExtensionUse, extension_use};
 pub use limits::Limits;
 
 use crate::model::Model;

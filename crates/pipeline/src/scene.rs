@@ -19,7 +19,7 @@ pub use error::SceneError;
 pub use file::SceneFile;
 pub use origin::Origin;
 pub use parse::parse;
-pub use resolve::ResolveOptions;
+pub use resolve::{ResolveOptions, chosen_animation};
 
 use crate::import::ImportError;
 use crate::model::Model;

@@ -1,9 +1,9 @@
 //! Flags and arguments.
 
+use super::pick::PickArgs;
 use camera::NamedView;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand, ValueEnum};
-use pipeline::scene::file::Finite;
 use std::path::PathBuf;
 
 /// Pictures of glTF models, without a GPU, a display or a browser.
@@ -49,12 +49,8 @@ pub(crate) struct RenderArgs {
     /// A camera of the model, by name or by number from 0
     #[arg(long, value_name = "NAME|INDEX", conflicts_with = "view")]
     pub(crate) camera: Option<String>,
-    /// An animation of the model that poses it, by name or by number from 0 [default: the first, with --time]
-    #[arg(long, value_name = "NAME|INDEX")]
-    pub(crate) animation: Option<String>,
-    /// The time of the animation in seconds [default: 0, with --animation]
-    #[arg(long, value_name = "SECONDS", value_parser = parse_time, allow_negative_numbers = true)]
-    pub(crate) time: Option<Finite>,
+    #[command(flatten)]
+    pub(crate) pick: PickArgs,
     /// Frame everything from this side
     #[arg(long, value_parser = named_view())]
     pub(crate) view: Option<NamedView>,
@@ -79,6 +75,11 @@ pub(crate) struct RenderArgs {
 pub(crate) struct InfoArgs {
     /// A model (.gltf, .glb)
     pub(crate) file: PathBuf,
+    #[command(flatten)]
+    pub(crate) pick: PickArgs,
+    /// Everything there is to know, for programs
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -106,11 +107,6 @@ fn named_view() -> impl TypedValueParser<Value = NamedView> {
         _ => PossibleValue::new(view.name()),
     };
     PossibleValuesParser::new(NamedView::ALL.map(value)).try_map(|name| name.parse::<NamedView>())
-}
-
-fn parse_time(text: &str) -> Result<Finite, String> {
-    let seconds = text.parse().ok().and_then(Finite::new);
-    seconds.ok_or_else(|| "expected a number of seconds, such as 1.5".to_owned())
 }
 
 fn parse_size(text: &str) -> Result<(u32, u32), String> {

@@ -1,17 +1,47 @@
 //! `alberti info`: what is in a model.
 
+mod json;
+mod materials;
+mod scenes;
+
 use super::Failure;
 use super::args::InfoArgs;
-use pipeline::import::{ImportOptions, load};
-use pipeline::model::{AlphaMode, LensKind, Model, Topology};
+use super::pick::PickArgs;
+use pipeline::import::{ExtensionUse, Images, ImportOptions, extension_use, load};
+use pipeline::model::{
+    AlphaMode, LensKind, LightKind, Model, PunctualLight, SceneRoots, Topology, Warning,
+};
+use pipeline::scene::chosen_animation;
+use pipeline::scene::file::Finite;
 use std::fmt::Write as _;
 use std::io::Write as _;
 
 pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
-    let model = load(&args.file, &ImportOptions::default())?;
-    let text = describe(&model);
+    let model = picked(args)?;
+    let text = if args.json { json::document(args, &model) } else { describe(&model) };
     std::io::stdout().write_all(text.as_bytes())?;
     Ok(())
+}
+
+/// The model as the flags pick it. Its images are not decoded.
+fn picked(args: &InfoArgs) -> Result<Model, Failure> {
+    let PickArgs { scene, variant, animation, time } = &args.pick;
+    let options = ImportOptions {
+        scene: scene.clone().map(Into::into),
+        variant: variant.clone().map(Into::into),
+        images: Images::Headers,
+        ..ImportOptions::default()
+    };
+    let mut model = load(&args.file, &options)?;
+    if animation.is_some() || time.is_some() {
+        let animation =
+            chosen_animation(&model, animation.as_ref()).map_err(|(problem, help)| {
+                let help = help.map_or(String::new(), |help| format!("\n  = help: {help}"));
+                Failure::Usage(format!("{}: {problem}{help}", args.file.display()))
+            })?;
+        model.pose(animation, time.map_or(0.0, Finite::value));
+    }
+    Ok(model)
 }
 
 /// The report, a line for each subject. Writing to a `String` cannot fail.
@@ -20,6 +50,9 @@ fn describe(model: &Model) -> String {
     let mut line = |name: &str, value: String| {
         let _ = writeln!(text, "  {name:<12}{value}");
     };
+    if model.scenes.len() > 1 {
+        line("scenes", scenes(model));
+    }
     line("nodes", model.nodes.len().to_string());
     line("meshes", meshes(model));
     line("shown", shown(model));
@@ -27,10 +60,18 @@ fn describe(model: &Model) -> String {
     line("materials", materials(model));
     line("textures", format!("{}, images {}", model.textures.len(), model.images.len()));
     line("cameras", cameras(model));
+    if !model.lights.is_empty() {
+        line("lights", lights(model));
+    }
     line("skins", model.skins.len().to_string());
     line("animations", animations(model));
-    line("extensions", or_none(&model.extensions_used));
-    for warning in &model.warnings {
+    if !model.variants.is_empty() {
+        line("variants", or_none(&model.variants));
+    }
+    line("extensions", extensions(model));
+    // Those about extensions are marked in the line of the extensions.
+    let of_file = |warning: &&Warning| !warning.pointer.starts_with("/extensions");
+    for warning in model.warnings.iter().filter(of_file) {
         line("warning", format!("{}: {}", warning.pointer, warning.message));
     }
     text
@@ -99,6 +140,34 @@ fn animations(model: &Model) -> String {
         format!("{name}: {channels} channels, {seconds:.3} s")
     };
     or_none(&model.animations.iter().map(describe).collect::<Vec<_>>())
+}
+
+/// The scenes by name, the shown one marked.
+fn scenes(model: &Model) -> String {
+    let describe = |(number, scene): (usize, &SceneRoots)| {
+        let shown = if model.scene == Some(number) { " (shown)" } else { "" };
+        format!("{number} {}{shown}", scene.name.as_deref().unwrap_or("unnamed"))
+    };
+    or_none(&model.scenes.iter().enumerate().map(describe).collect::<Vec<_>>())
+}
+
+fn lights(model: &Model) -> String {
+    let describe = |light: &PunctualLight| {
+        let unit = if light.kind == LightKind::Directional { "lx" } else { "cd" };
+        let name = light.name.as_deref().unwrap_or("unnamed");
+        format!("{name}: {}, {} {unit}", light.kind.name(), light.intensity)
+    };
+    or_none(&model.lights.iter().map(describe).collect::<Vec<_>>())
+}
+
+/// The extensions; those that are not drawn are marked.
+fn extensions(model: &Model) -> String {
+    let describe = |name: &String| match extension_use(name) {
+        ExtensionUse::Drawn | ExtensionUse::Harmless => name.clone(),
+        ExtensionUse::Without(_) => format!("{name} (not drawn)"),
+        ExtensionUse::Refused(_) | ExtensionUse::Unknown => format!("{name} (not read)"),
+    };
+    or_none(&model.extensions_used.iter().map(describe).collect::<Vec<_>>())
 }
 
 fn or_none(items: &[String]) -> String {

@@ -5,7 +5,7 @@ use super::progress::Progress;
 use super::{Failure, complain};
 use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::{
-    AnimationChoice, BackgroundFile, CameraChoice, ProjectionFile, SceneFile, StyleFile, ViewFile,
+    BackgroundFile, CameraChoice, ProjectionFile, SceneFile, StyleFile, ViewFile,
 };
 use pipeline::{Origin, Scene, render};
 use std::path::{Path, PathBuf};
@@ -72,14 +72,7 @@ fn override_with(file: &mut SceneFile, args: &RenderArgs) {
             StyleArg::Wireframe => StyleFile::Wireframe,
         };
     }
-    let animation = args.animation.as_ref().map(|animation| {
-        let by_name = |_| AnimationChoice::Name(animation.clone());
-        animation.parse().map_or_else(by_name, AnimationChoice::Index)
-    });
-    for model in &mut file.models {
-        model.animation = animation.clone().or(model.animation.take());
-        model.time = args.time.or(model.time);
-    }
+    file.models.iter_mut().for_each(|model| args.pick.override_in(model));
     if let Some(camera) = &args.camera {
         let by_name = || CameraChoice::Name(camera.clone());
         let choice = camera.parse().map_or_else(|_| by_name(), CameraChoice::Index);

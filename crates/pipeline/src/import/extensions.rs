@@ -100,6 +100,33 @@ pub(super) fn check(root: &Root, warnings: &mut Warnings) -> Result<(), Fault> {
     Ok(())
 }
 
+/// What becomes of an extension in pictures.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ExtensionUse {
+    /// It is drawn.
+    Drawn,
+    /// It changes nothing that is drawn.
+    Harmless,
+    /// Files are shown without it; the text says what is then missing.
+    Without(&'static str),
+    /// A file that requires it is refused; the text says why.
+    Refused(&'static str),
+    /// Its name is not known: as for refused ones.
+    Unknown,
+}
+
+/// What becomes of the extension with this name.
+#[must_use]
+pub fn extension_use(name: &str) -> ExtensionUse {
+    match support(name) {
+        Some(Full) => ExtensionUse::Drawn,
+        Some(Harmless) => ExtensionUse::Harmless,
+        Some(Without(what)) => ExtensionUse::Without(what),
+        Some(Never(why)) => ExtensionUse::Refused(why),
+        None => ExtensionUse::Unknown,
+    }
+}
+
 fn support(name: &str) -> Option<&'static Support> {
     KNOWN.iter().find(|known| known.0 == name).map(|known| &known.1)
 }

@@ -139,6 +139,19 @@ impl Field {
         LENS.iter().position(|row| *row == path).map(Self::Lens)
     }
 
+    /// The JSON pointer to the field of the material, light or camera with this number.
+    #[must_use]
+    pub fn pointer(self, of: usize) -> String {
+        let (list, path) = match self {
+            Self::Material(at) => ("materials", MATERIAL.get(at).map(|row| row.path)),
+            Self::Light(at) => {
+                ("extensions/KHR_lights_punctual/lights", LIGHT.get(at).map(|row| row.path))
+            }
+            Self::Lens(at) => ("cameras", LENS.get(at).copied()),
+        };
+        format!("/{list}/{of}/{}", path.unwrap_or_default())
+    }
+
     /// How many numbers it has.
     #[must_use]
     pub fn width(self) -> usize {

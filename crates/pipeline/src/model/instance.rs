@@ -18,9 +18,14 @@ impl Model {
     /// The walk keeps its own stack, so that no depth of the tree can exhaust the program's.
     #[must_use]
     pub fn instances(&self) -> Vec<Instance> {
+        self.instances_below(&self.roots)
+    }
+
+    /// These nodes and all below them.
+    pub(super) fn instances_below(&self, roots: &[usize]) -> Vec<Instance> {
         let mut found = Vec::new();
         let mut open: Vec<Instance> =
-            self.roots.iter().rev().map(|&node| self.instance(node, Affine::IDENTITY)).collect();
+            roots.iter().rev().map(|&node| self.instance(node, Affine::IDENTITY)).collect();
         while let Some(instance) = open.pop() {
             let children = &self.nodes[instance.node].children;
             open.extend(children.iter().rev().map(|&n| self.instance(n, instance.node_to_model)));
@@ -31,7 +36,13 @@ impl Model {
 
     /// The instances of nodes with meshes, one for each time that a mesh is shown.
     pub fn shown_meshes(&self) -> impl Iterator<Item = Instance> {
-        let meshes = self.instances().into_iter().filter(|at| self.nodes[at.node].mesh.is_some());
+        self.meshes_below(&self.roots)
+    }
+
+    /// The instances of nodes with meshes among these nodes and those below them, one for each time that a mesh is shown.
+    pub(super) fn meshes_below(&self, roots: &[usize]) -> impl Iterator<Item = Instance> {
+        let instances = self.instances_below(roots).into_iter();
+        let meshes = instances.filter(|at| self.nodes[at.node].mesh.is_some());
         meshes.flat_map(|here| {
             let places = self.nodes[here.node].places.as_deref();
             let once = places.is_none().then_some(here);

@@ -5,6 +5,7 @@
 
 pub use super::number::Finite;
 use super::number::{FieldOfView, NonNegative, Positive, Scale, Triple};
+use crate::import;
 use camera::NamedView;
 use serde::Deserialize;
 
@@ -42,19 +43,32 @@ pub struct ModelFile {
     /// One factor for all axes, or one for each.
     #[serde(default)]
     pub scale: Scale,
+    /// The scene of the model that is shown. Default: its default scene, else its first.
+    pub scene: Option<Choice>,
+    /// The variant of the model's materials. Default: none.
+    pub variant: Option<Choice>,
     /// The animation that poses the model. Default: the first, if there is a `time`; else none.
-    pub animation: Option<AnimationChoice>,
+    pub animation: Option<Choice>,
     /// The time of the animation in seconds. Default: 0, if there is an `animation`.
     pub time: Option<Finite>,
 }
 
-/// Which animation of a model.
+/// Which scene, variant or animation of a model.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug, Deserialize)]
-pub enum AnimationChoice {
+pub enum Choice {
     /// By its place in the file, from 0.
     Index(usize),
     /// By its name.
     Name(String),
+}
+
+impl From<Choice> for import::Choice {
+    fn from(choice: Choice) -> Self {
+        match choice {
+            Choice::Index(at) => Self::Index(at),
+            Choice::Name(name) => Self::Name(name),
+        }
+    }
 }
 
 /// The camera: where it is, and how it projects.
@@ -305,6 +319,8 @@ impl SceneFile {
             translate: Triple::default(),
             rotate_degrees: Triple::default(),
             scale: Scale::default(),
+            scene: None,
+            variant: None,
             animation: None,
             time: None,
         };

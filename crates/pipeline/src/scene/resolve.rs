@@ -1,12 +1,12 @@
 //! From what a person wrote to what drawing needs, or to an error that points.
 
-use super::file::{AnimationChoice, BackgroundFile, Finite, LightFile, ModelFile, StyleFile};
+use super::file::{BackgroundFile, Choice, Finite, LightFile, ModelFile, StyleFile};
 use super::locate::Step::{Field, Index};
 use super::parse::suggestion;
 use super::viewpoint::resolve_shot;
 use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile, Style};
 use crate::color::parse_hex;
-use crate::import::{ImportOptions, load};
+use crate::import::{FaultKind, ImportError, ImportOptions, load};
 use crate::model::Model;
 use crate::render::Shot;
 use crate::shade::Light;
@@ -99,13 +99,14 @@ fn load_models(
         return Err(origin.fault(&[Field("models")], "a scene needs a model", help).into());
     }
     // Models in one pose are shared; a model in two poses is two models.
-    type Pose = (PathBuf, Option<AnimationChoice>, Option<u64>);
+    type Pose = (PathBuf, [Option<Choice>; 3], Option<u64>);
     let mut loaded: BTreeMap<Pose, Arc<Model>> = BTreeMap::new();
     let mut models = Vec::new();
     for (number, entry) in file.models.iter().enumerate() {
         let path = origin.folder.join(&entry.path);
         let time = entry.time.map(|time| time.value().to_bits());
-        let pose = (path, entry.animation.clone(), time);
+        let choices = [&entry.scene, &entry.variant, &entry.animation].map(Clone::clone);
+        let pose = (path, choices, time);
         let model = if let Some(model) = loaded.get(&pose) {
             Arc::clone(model)
         } else {
@@ -131,11 +132,13 @@ fn load_model(
         let message = format!("the path \"{}\" leads out of the scene's folder", entry.path);
         return Err(origin.fault(&at("path"), message, Some(help.to_owned())).into());
     }
-    let loaded = load(&origin.folder.join(&entry.path), &options.import);
-    let mut model = loaded.map_err(|error| match origin.text.as_str() {
-        "" => ResolveError::from(error),
-        _ => origin.fault(&at("path"), error.to_string(), None).into(),
-    })?;
+    let import = ImportOptions {
+        scene: entry.scene.clone().map(Into::into).or(options.import.scene.clone()),
+        variant: entry.variant.clone().map(Into::into).or(options.import.variant.clone()),
+        ..options.import.clone()
+    };
+    let loaded = load(&origin.folder.join(&entry.path), &import);
+    let mut model = loaded.map_err(|error| load_fault(origin, number, entry, error))?;
     if entry.animation.is_some() || entry.time.is_some() {
         let field = if entry.animation.is_some() { "animation" } else { "time" };
         let fault = |(message, help)| origin.fault(&at(field), message, help);
@@ -145,10 +148,33 @@ fn load_model(
     Ok(model)
 }
 
-/// The number of the animation that is wanted, or the first; else what is wrong and what to do.
-fn chosen_animation(
+/// A model that cannot be loaded, told where the scene file asks for it, if there is one.
+fn load_fault(
+    origin: &Origin,
+    number: usize,
+    entry: &ModelFile,
+    error: ImportError,
+) -> ResolveError {
+    let at = |field| [Field("models"), Index(number), Field(field)];
+    if origin.text.is_empty() {
+        return error.into();
+    }
+    if error.fault.kind != FaultKind::Choice {
+        return origin.fault(&at("path"), error.to_string(), None).into();
+    }
+    let scene = entry.scene.is_some() && error.fault.pointer == "/scenes";
+    let field = if scene { "scene" } else { "variant" };
+    let message = format!("{}: {}", entry.path, error.fault.problem);
+    origin.fault(&at(field), message, Some(error.fault.remedy)).into()
+}
+
+/// The number of the animation that is wanted, or the first.
+///
+/// # Errors
+/// If there is none: what is wrong, and what to do about it.
+pub fn chosen_animation(
     model: &Model,
-    choice: Option<&AnimationChoice>,
+    choice: Option<&Choice>,
 ) -> Result<usize, (String, Option<String>)> {
     let count = model.animations.len();
     if count == 0 {
@@ -159,10 +185,8 @@ fn chosen_animation(
     };
     let (found, wanted) = match choice {
         None => return Ok(0),
-        Some(AnimationChoice::Index(index)) => {
-            ((*index < count).then_some(*index), index.to_string())
-        }
-        Some(AnimationChoice::Name(name)) => (named(name), name.clone()),
+        Some(Choice::Index(index)) => ((*index < count).then_some(*index), index.to_string()),
+        Some(Choice::Name(name)) => (named(name), name.clone()),
     };
     found.ok_or_else(|| {
         let names = model.animations.iter().filter_map(|animation| animation.name.clone());
