@@ -187,6 +187,9 @@ impl<A: Space, B: Space> Affine<A, B> {
     /// The map that undoes this one; `None` if it flattens space or is not finite.
     #[must_use]
     pub fn inverse(self) -> Option<Affine<B, A>> {
+        if !self.is_finite() {
+            return None;
+        }
         // Columns near length 1 keep the determinant from over- or underflowing; powers of two cost
         // no digit.
         let columns = self.linear();
@@ -230,6 +233,14 @@ mod tests {
         assert_eq!(Map::scale(1.0, 0.0, 1.0).inverse(), None);
         let tiny = Map::scale(1e-150, 1e-300, 1.0).inverse().expect("small is not flat");
         assert!((tiny.vector(Vector::Y).y() / 1e300 - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn maps_that_are_not_finite_have_no_inverse() {
+        for odd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert_eq!(Map::scale(odd, 1.0, 1.0).inverse(), None);
+            assert_eq!(Map::translation(Vector::new(0.0, odd, 0.0)).inverse(), None);
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! A frame: the primitives of one picture, in the order in which they were given.
 
 use crate::grid::Part;
-use crate::primitive::{Piece, Source, clockwise, line_pieces, point_pieces};
+use crate::primitive::{Piece, Source, clockwise, line_pieces, point_pieces, with_usual_w};
 use crate::vertex::SUBPIXEL_BITS;
 use crate::{Cover, Cull, Instructions, RasterError, Samples, ScreenVertex, SourceWeights};
 
@@ -162,7 +162,7 @@ impl Frame {
                 Source::Weights(self.source_weights.len() as u32 - 1)
             }
         };
-        self.pieces.push(Piece { corners, id, source, cover });
+        self.pieces.push(Piece { corners: with_usual_w(corners), id, source, cover });
     }
 
     /// Whether the triangle's bounds may hold a sample: of meshes finer than the pixels most triangles hold none.

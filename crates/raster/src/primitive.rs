@@ -83,6 +83,32 @@ pub(crate) fn clockwise([p, q, r]: [ScreenVertex; 3]) -> Option<([ScreenVertex; 
     }
 }
 
+/// The sizes of 1/w with which no product on the way to weights and their derivatives over- or underflows.
+const USUAL: core::ops::RangeInclusive<f32> = 1.0 / LARGE..=LARGE;
+/// 2⁴⁰.
+const LARGE: f32 = 1_099_511_627_776.0;
+
+/// The corners, with 1/w near 1 if it was very large or very small: weights depend on its ratios alone.
+#[inline]
+pub(crate) fn with_usual_w(corners: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
+    if corners.iter().all(|corner| USUAL.contains(&corner.inv_w)) {
+        return corners;
+    }
+    with_largest_one(corners)
+}
+
+/// The corners with 1 as the largest 1/w. None becomes so small that a weight between the others has nothing to be divided by.
+#[cold]
+fn with_largest_one(corners: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
+    let [p, q, r] = corners.map(|corner| f64::from(corner.inv_w));
+    let largest = p.max(q).max(r);
+    let least = 1.0 / (LARGE * LARGE);
+    corners.map(|corner| {
+        let share = (f64::from(corner.inv_w) / largest) as f32;
+        ScreenVertex { inv_w: share.max(least), ..corner }
+    })
+}
+
 /// A rectangle of the screen around a line, as two triangles; none if the ends coincide or cannot be drawn.
 ///
 /// The ends are square and flush with the line's ends. Depth and 1/w are constant across the line.

@@ -199,3 +199,36 @@ fn a_mesh_keeps_the_side_that_is_asked_for() {
     assert_eq!([Cull::Nothing, Cull::CounterClockwise].map(seen), [Some(5); 2]);
     assert_eq!(seen(Cull::Clockwise), Some(6));
 }
+
+/// Found by the fuzzer: 1/w times the area of a triangle may be too large for an `f32`, and it may be 0.
+#[test]
+fn weights_are_finite_and_whole_for_every_w() {
+    let corners = [(0.25, 7.75), (7.5, 6.5), (3.0, 0.5)];
+    let weights = |ws: [f64; 3]| {
+        let mut frame = Frame::new(8, 8, Samples::One).expect("a small frame");
+        let at = |k: usize| homog::Point::new(corners[k].0, corners[k].1, 0.5);
+        let vertices = [0, 1, 2].map(|k| ScreenVertex::snap(at(k), ws[k]).expect("drawable"));
+        frame.triangle(vertices, 0, Cover::Solid);
+        let mut all = Vec::new();
+        frame.fragments(|seen| all.push([seen.weights, seen.weights_dx(), seen.weights_dy()]));
+        all
+    };
+    let usual = weights([1.0; 3]);
+    assert!(usual.len() > 16);
+    let sizes = [1e-38, 1e-30, 1e-12, 1.0, 1e12, 1e30, 1e44];
+    for ws in sizes.into_iter().flat_map(|a| sizes.map(|b| sizes.map(|c| [a, b, c]))).flatten() {
+        let all = weights(ws);
+        assert!(all.as_flattened().as_flattened().iter().all(|x| x.is_finite()), "{ws:?}");
+        for [[a, b, c], ..] in &all {
+            let whole = (a + b + c - 1.0).abs() < 1e-5 && a.min(*b).min(*c) >= 0.0;
+            assert!(whole, "{ws:?}: {a} {b} {c}");
+        }
+        let alike = ws[0] == ws[1] && ws[1] == ws[2];
+        let mut pairs = all.iter().zip(&usual);
+        let near = |(a, b): (&[[f32; 3]; 3], &[[f32; 3]; 3])| {
+            let differences = a.as_flattened().iter().zip(b.as_flattened());
+            differences.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max) < 1e-5
+        };
+        assert!(!alike || pairs.all(near), "{ws:?}");
+    }
+}
