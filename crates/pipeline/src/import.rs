@@ -46,6 +46,7 @@ mod texture;
 mod topology;
 mod untyped;
 mod warnings;
+mod webp;
 
 pub use check::{Problem, Report, Severity, check, check_bytes};
 pub use choice::Choice;

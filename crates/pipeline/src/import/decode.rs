@@ -2,6 +2,7 @@
 //!
 //! What an image is, its first bytes say; the file's name and the glTF `mimeType` are not asked.
 
+use super::webp::check_frames;
 use crate::model::Image;
 use image_webp::WebPDecoder;
 use png::{BitDepth, ColorType, Transformations};
@@ -172,6 +173,7 @@ fn webp_decoder(bytes: &[u8]) -> Result<WebPDecoder<Cursor<&[u8]>>, String> {
 fn decode_webp(bytes: &[u8]) -> Result<Image, String> {
     let mut decoder = webp_decoder(bytes)?;
     let (width, height) = decoder.dimensions();
+    check_frames(bytes, (width, height))?;
     if decoder.has_alpha() {
         let mut rgba = texels(width, height);
         decoder.read_image(rgba.as_flattened_mut()).map_err(|error| webp_problem(&error))?;
