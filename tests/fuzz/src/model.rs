@@ -47,18 +47,24 @@ fn load(bytes: &[u8], options: ImportOptions) -> Result<Model, ImportError> {
     load_bytes("model.glb", bytes, &ImportOptions { limits: limits(), ..options })
 }
 
+/// A file that is loaded and held to its promises, and not drawn: what comes of a decoder's bytes is known then.
+pub fn loaded(bytes: &[u8]) {
+    checked(load(bytes, ImportOptions::default()));
+}
+
+/// The model, if there is one; else an error that a person could read.
+fn checked(loaded: Result<Model, ImportError>) -> Option<Model> {
+    let problem = match &loaded {
+        Ok(model) => promises::check(model).err(),
+        Err(error) => error.to_string().is_empty().then(|| "an error says nothing".to_owned()),
+    };
+    assert!(problem.is_none(), "a promise is broken: {problem:?}");
+    loaded.ok()
+}
+
 /// What a person would do with the outcome: read the error, or look at the model.
 fn show(loaded: Result<Model, ImportError>) {
-    let mut model = match loaded {
-        Ok(model) => model,
-        Err(error) => {
-            assert!(!error.to_string().is_empty(), "an error has nothing to say");
-            return;
-        }
-    };
-    if let Err(broken) = promises::check(&model) {
-        panic!("a promise is broken: {broken}");
-    }
+    let Some(mut model) = checked(loaded) else { return };
     draw(&model, StyleFile::Shaded, ViewFile::default());
     if !model.cameras.is_empty() {
         draw(&model, StyleFile::Flat, ViewFile::FromModel(CameraChoice::Index(0)));

@@ -61,7 +61,7 @@ pub fn meshopt(bytes: &[u8]) {
             {"byteLength": count * stride, "extensions": {name: {"fallback": true}}}],
         "extensionsRequired": [name, "KHR_mesh_quantization"],
         "extensionsUsed": [name, "KHR_mesh_quantization"]});
-    show(document, stream);
+    model::loaded(&whole(document, stream));
 }
 
 /// A primitive compressed by Draco.
@@ -100,7 +100,7 @@ pub fn draco(bytes: &[u8]) {
         "buffers": [{"byteLength": stream.len()}],
         "extensionsRequired": ["KHR_draco_mesh_compression"],
         "extensionsUsed": ["KHR_draco_mesh_compression"]});
-    show(document, stream);
+    model::loaded(&whole(document, stream));
 }
 
 /// An image as the texture of a triangle; the first byte says what it claims to be.
@@ -137,18 +137,18 @@ pub fn image(bytes: &[u8]) {
         document["extensionsUsed"] = json!([extension]);
         document["extensionsRequired"] = json!([extension]);
     }
-    show(document, file);
+    model::file(&whole(document, file));
 }
 
 /// The numbers 0, 1 and 2 as bytes, one byte more, and the corners (0, 0, 0), (1, 0, 0), (0, 1, 0).
 const CORNERS: &str =
     "data:application/octet-stream;base64,AAECAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAA==";
 
-/// Loads and draws a document that lacks its commonplaces.
-fn show(mut document: Value, bytes: &[u8]) {
+/// The file of a document that lacks its commonplaces.
+fn whole(mut document: Value, bytes: &[u8]) -> Vec<u8> {
     document["asset"] = json!({"version": "2.0"});
     document["scene"] = json!(0);
     document["scenes"] = json!([{"nodes": [0]}]);
     document["nodes"] = json!([{"mesh": 0}]);
-    model::file(&glb::glb(document.to_string().as_bytes(), bytes));
+    glb::glb(document.to_string().as_bytes(), bytes)
 }
