@@ -65,7 +65,7 @@ impl Session {
         report.crashes.extend(new);
         if unexpected {
             for job in &jobs {
-                println!("{}", tail(&job.log));
+                println!("{}", ending(&fs::read_to_string(&job.log).unwrap_or_default()));
             }
             // A crash that was known is not written again, and is one all the same.
             if report.crashes.is_empty() {
@@ -172,12 +172,16 @@ fn executions(log: &str) -> Option<u64> {
     progress.split_whitespace().next()?.parse().ok()
 }
 
-/// The last lines of a log that are not progress.
-fn tail(log: &Path) -> String {
-    let text = fs::read_to_string(log).unwrap_or_default();
-    let mut lines: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
-    lines.split_off(lines.len().saturating_sub(30)).join("\n")
+/// What a log says of the end: from the panic on, if there was one, else its last lines. Progress is left out.
+fn ending(log: &str) -> String {
+    let lines: Vec<&str> = log.lines().filter(|line| !line.starts_with('#')).collect();
+    let last = lines.len().saturating_sub(SHOWN);
+    let start = lines.iter().position(|line| line.contains("panicked at")).unwrap_or(last);
+    lines[start..].iter().take(SHOWN).copied().collect::<Vec<_>>().join("\n")
 }
+
+/// So many lines are enough to see where it happened.
+const SHOWN: usize = 30;
 
 impl Report {
     pub const HEADING: &str =
@@ -210,6 +214,16 @@ mod tests {
         let ended = format!("{LOG}stat::number_of_executed_units: 5000\nstat::peak_rss_mb: 1\n");
         assert_eq!(executions(&ended), Some(5000));
         assert_eq!((last_number("", "cov:"), executions("")), (None, None));
+    }
+
+    #[test]
+    fn the_ending_begins_with_the_panic() {
+        let frames = "  at frame\n".repeat(90);
+        let log =
+            format!("INFO: x\n#1 INITED\nthread 't' panicked at a.rs:1:2:\n#2 NEW\nwhy\n{frames}");
+        let shown = ending(&log);
+        assert!(shown.starts_with("thread 't' panicked at a.rs:1:2:\nwhy\n"), "{shown}");
+        assert_eq!((shown.lines().count(), ending("#1\na\nb\n")), (SHOWN, "a\nb".to_owned()));
     }
 
     #[test]
