@@ -7,4 +7,5 @@ mod files;
 mod info;
 mod messages;
 mod pictures;
+mod real;
 mod variants;

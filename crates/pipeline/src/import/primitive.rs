@@ -176,7 +176,7 @@ impl<'a> Reader<'a, '_> {
 
     /// Drops the items that have a corner without a vertex: every index then has one.
     fn drop_lost_vertices(&mut self, primitive: &mut Primitive, vertices: usize) {
-        if primitive.indices.iter().all(|&i| (i as usize) < vertices) {
+        if used(&primitive.indices).end <= vertices {
             return;
         }
         let has_vertices = |item: &[u32]| item.iter().all(|&i| (i as usize) < vertices);
@@ -188,10 +188,12 @@ impl<'a> Reader<'a, '_> {
 
     /// Drops the items that have a corner at a position that is no place: every position then is finite.
     fn drop_lost_places(&mut self, primitive: &mut Primitive) {
-        let is_place = |p: &[f32; 3]| p.iter().all(|x| x.is_finite());
-        if primitive.positions.iter().all(is_place) {
+        // Without a way out of the loop the compiler takes many numbers at a time.
+        let all = primitive.positions.as_flattened();
+        if all.iter().fold(true, |finite, x| finite & x.is_finite()) {
             return;
         }
+        let is_place = |p: &[f32; 3]| p.iter().all(|x| x.is_finite());
         let mut positions = std::mem::take(&mut primitive.positions);
         let has_places = |item: &[u32]| item.iter().all(|&i| is_place(&positions[i as usize]));
         let dropped = retain_items(primitive, has_places);
@@ -289,13 +291,19 @@ impl<'a> Reader<'a, '_> {
 /// Counts the indices from the lowest one on; gives the range they came from. Parts of a model often share one long
 /// array of vertices, of which each uses a stretch.
 fn shift_to_zero(indices: &mut [u32]) -> Range<usize> {
-    let (Some(&low), Some(&high)) = (indices.iter().min(), indices.iter().max()) else {
-        return 0..0;
-    };
+    let used = used(indices);
+    let low = used.start as u32;
     if low > 0 {
         indices.iter_mut().for_each(|index| *index -= low);
     }
-    low as usize..high as usize + 1
+    used
+}
+
+/// From the lowest to the highest index.
+fn used(indices: &[u32]) -> Range<usize> {
+    let (low, high) =
+        indices.iter().fold((u32::MAX, 0), |(low, high), &i| (low.min(i), high.max(i)));
+    if indices.is_empty() { 0..0 } else { low as usize..high as usize + 1 }
 }
 
 /// Keeps the items that `keep` accepts; gives the number of the others.

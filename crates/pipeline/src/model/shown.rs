@@ -1,6 +1,7 @@
 //! What the shown scene of a model consists of, and how much room it takes.
 
 use super::{Instance, Model, Posed, Primitive, SceneRoots};
+use glam::DVec3;
 use homog::{Bounds, Model as ModelSpace, Point};
 
 impl Model {
@@ -20,22 +21,30 @@ impl Model {
     /// The places of all vertices that some shown point, line or triangle uses, as the nodes stand.
     #[must_use]
     pub fn shown_points(&self) -> Vec<Point<ModelSpace>> {
-        self.points_below(&self.roots).collect()
+        let mut points = Vec::new();
+        self.for_each_shown_point(|point| points.push(point));
+        points
     }
 
-    /// The places of the vertices below some nodes, one primitive after the other: never all of them at once.
-    fn points_below(&self, roots: &[usize]) -> impl Iterator<Item = Point<ModelSpace>> {
-        self.primitives_below(roots).flat_map(|(instance, primitive)| {
+    /// Calls `visit` with each of the [`shown_points`](Self::shown_points), in their order, without a list of them all.
+    pub fn for_each_shown_point(&self, visit: impl FnMut(Point<ModelSpace>)) {
+        self.for_each_point_below(&self.roots, visit);
+    }
+
+    fn for_each_point_below(&self, roots: &[usize], mut visit: impl FnMut(Point<ModelSpace>)) {
+        for (instance, primitive) in self.primitives_below(roots) {
             let Posed { positions, to_model, .. } = self.posed(instance, primitive);
-            let used = used_vertices(primitive).into_iter().enumerate().filter(|(_, used)| *used);
-            used.map(move |(vertex, _)| to_model.point(positions[vertex].map(f64::from).into()))
-        })
+            let used = used_vertices(primitive);
+            for (&position, _) in positions.iter().zip(used).filter(|(_, used)| *used) {
+                visit(to_model.point(position.map(f64::from).into()));
+            }
+        }
     }
 
     /// The box around everything that is shown, along the model's axes; `None` if nothing is.
     #[must_use]
     pub fn bounds(&self) -> Option<Bounds<ModelSpace>> {
-        Bounds::of(self.points_below(&self.roots))
+        self.bounds_below(&self.roots)
     }
 
     /// The box around a scene of the file, as the nodes stand.
@@ -43,7 +52,16 @@ impl Model {
     pub fn scene_bounds(&self, scene: &SceneRoots) -> Option<Bounds<ModelSpace>> {
         let exists = |node: &usize| *node < self.nodes.len();
         let roots: Vec<usize> = scene.nodes.iter().copied().filter(exists).collect();
-        Bounds::of(self.points_below(&roots))
+        self.bounds_below(&roots)
+    }
+
+    fn bounds_below(&self, roots: &[usize]) -> Option<Bounds<ModelSpace>> {
+        let mut extent: Option<[DVec3; 2]> = None;
+        self.for_each_point_below(roots, |point| {
+            let [min, max] = extent.get_or_insert([point.raw(); 2]);
+            (*min, *max) = (min.min(point.raw()), max.max(point.raw()));
+        });
+        Bounds::of(extent?.map(Point::from_raw))
     }
 }
 

@@ -6,11 +6,11 @@ use homog::{Point, World};
 
 /// Every vertex that some point, line or triangle of the scene uses, in the world.
 pub(super) fn world_points(models: &[Placed]) -> Vec<Point<World>> {
-    let in_world = |placed: &Placed| {
-        let to_world = placed.model_to_world;
-        placed.model.shown_points().into_iter().map(move |point| to_world.point(point))
-    };
-    models.iter().flat_map(in_world).collect()
+    let mut points = Vec::new();
+    for Placed { model, model_to_world } in models {
+        model.for_each_shown_point(|point| points.push(model_to_world.point(point)));
+    }
+    points
 }
 
 /// How far along the gaze the scene begins and ends.
