@@ -1,4 +1,4 @@
-//! Decoding PNG, JPEG and WebP into 8-bit RGBA.
+//! Decoding PNG, JPEG, WebP and, by the feature `basisu`, KTX2 into 8-bit RGBA.
 //!
 //! What an image is, its first bytes say; the file's name and the glTF `mimeType` are not asked.
 
@@ -28,6 +28,8 @@ pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), String> {
             Ok((u32::from(info.width), u32::from(info.height)))
         }
         Kind::WebP => Ok(webp_decoder(bytes)?.dimensions()),
+        #[cfg(feature = "basisu")]
+        Kind::Ktx2 => super::ktx2::size(bytes),
     })
     .and_then(|(width, height)| {
         let (texels, most) =
@@ -42,6 +44,8 @@ pub(super) fn format(bytes: &[u8]) -> &'static str {
         Ok(Kind::Png) => "png",
         Ok(Kind::Jpeg) => "jpeg",
         Ok(Kind::WebP) => "webp",
+        #[cfg(feature = "basisu")]
+        Ok(Kind::Ktx2) => "ktx2",
         Err(_) => "",
     }
 }
@@ -52,6 +56,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
         Kind::Png => decode_png(bytes),
         Kind::Jpeg => decode_jpeg(bytes),
         Kind::WebP => decode_webp(bytes),
+        #[cfg(feature = "basisu")]
+        Kind::Ktx2 => super::ktx2::decode(bytes),
     })
 }
 
@@ -68,6 +74,8 @@ enum Kind {
     Png,
     Jpeg,
     WebP,
+    #[cfg(feature = "basisu")]
+    Ktx2,
 }
 
 impl Kind {
@@ -80,6 +88,9 @@ impl Kind {
             Self::Png => bytes.saturating_mul(8 * 1032),
             Self::Jpeg => bytes.saturating_mul(8 * 64),
             Self::WebP => bytes.saturating_mul(1024).saturating_add(4096 * 4096),
+            // Blocks of one colour that are repeated need next to nothing as well.
+            #[cfg(feature = "basisu")]
+            Self::Ktx2 => bytes.saturating_mul(1024).saturating_add(4096 * 4096),
         }
     }
 
@@ -90,6 +101,8 @@ impl Kind {
             [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => {
                 return Ok(Self::WebP);
             }
+            #[cfg(feature = "basisu")]
+            [..] if bytes.starts_with(&super::ktx2::MAGIC) => return Ok(Self::Ktx2),
             [] => return Err("the image is empty".to_owned()),
             [0xAB, b'K', b'T', b'X', ..] => "a KTX image",
             [b'D', b'D', b'S', b' ', ..] => "a DDS image",

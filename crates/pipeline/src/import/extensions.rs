@@ -23,6 +23,10 @@ use Support::{Full, Harmless, None as Never, Without};
 const DRACO: Support =
     if cfg!(feature = "draco") { Full } else { Never("data compressed by Draco is not read") };
 
+/// Basis Universal is a feature that can be switched on.
+const BASIS: Support =
+    if cfg!(feature = "basisu") { Full } else { Never("KTX2 images are not read") };
+
 /// All extensions that are known, by name.
 const KNOWN: [(&str, Support); 36] = [
     ("CESIUM_primitive_outline", Without("the outlines are read but not drawn yet")),
@@ -59,7 +63,7 @@ const KNOWN: [(&str, Support); 36] = [
     ("KHR_mesh_quantization", Full),
     ("KHR_meshopt_compression", Full),
     ("KHR_node_visibility", Without("hidden nodes are shown")),
-    ("KHR_texture_basisu", Never("KTX2 images are not read")),
+    ("KHR_texture_basisu", BASIS),
     ("KHR_texture_transform", Full),
     ("KHR_xmp", Harmless),
     ("KHR_xmp_json_ld", Harmless),

@@ -32,12 +32,15 @@ pub(super) fn textures(root: &Root, warnings: &mut Warnings) -> Vec<Texture> {
     textures
 }
 
-/// The image of a texture; a WebP image comes before the one that stands beside it for those who cannot read WebP.
+/// The image of a texture; an image of an extension that is read comes before the one that stands beside it for those who
+/// cannot read it.
 fn source(root: &Root, at: usize, warnings: &mut Warnings) -> Option<usize> {
     let json = &root.textures[at];
     let extensions = json.extensions.as_ref().map(|extensions| &extensions.others);
-    let webp = extensions.and_then(|all| all.get("EXT_texture_webp")?.get("source")?.as_u64());
-    let image = webp.map_or(json.source.value(), |source| source as usize);
+    let of = |name: &str| extensions.and_then(|all| all.get(name)?.get("source")?.as_u64());
+    let basis = of("KHR_texture_basisu").filter(|_| cfg!(feature = "basisu"));
+    let other = basis.or_else(|| of("EXT_texture_webp"));
+    let image = other.map_or(json.source.value(), |source| source as usize);
     if image < root.images.len() {
         return Some(image);
     }
