@@ -175,13 +175,13 @@ fn zeros() -> Vec<Case> {
     let grown = |bytes: u64| {
         Expected::Says(format!(
             "/accessors/0/count: the arrays take {bytes} bytes up to here, more than 64 times the files; \
-             raise the limit `array_growth` if you trust the file"
+             raise the limit `array_growth` (--max-array-growth) if you trust the file"
         ))
     };
     let large = |bytes: u64| {
         Expected::Says(format!(
             "/accessors/0/count: the arrays take {bytes} bytes up to here, more than the limit of 4294967296; \
-             raise the limit `array_bytes` if you trust the file"
+             raise the limit `array_bytes` (--max-array-bytes) if you trust the file"
         ))
     };
     vec![

@@ -2,7 +2,7 @@
 
 use crate::document::Document;
 use crate::promises;
-use pipeline::import::{ImportError, ImportOptions, load};
+use pipeline::import::{ImportError, ImportOptions, check_bytes, load, load_bytes};
 use pipeline::model::Model;
 use std::path::Path;
 
@@ -46,6 +46,37 @@ impl Case {
         let path = folder.join("model.gltf");
         std::fs::write(&path, &self.file).map_err(|error| error.to_string())?;
         judge(&path, &self.options, &self.expected)
+    }
+
+    /// Checks the file: a report that says whether it loads, and why not.
+    pub fn check(&self) -> Result<(), String> {
+        let report = check_bytes("model.gltf", &self.file, &self.options);
+        let fault = load_bytes("model.gltf", &self.file, &self.options).err().map(|e| e.fault);
+        if report.refusal != fault {
+            return Err(format!("loading says {fault:?}, the report {:?}", report.refusal));
+        }
+        if fault.is_some() && report.errors == 0 {
+            return Err("it is refused, and there is no error in the report".to_owned());
+        }
+        let all = report.errors + report.warnings + report.notes;
+        let is_whole = report.problems.len() + report.left_out() == all;
+        let is_short = report.problems.len() < 2_000;
+        let is_sorted = report.problems.is_sorted_by_key(|problem| problem.severity);
+        if is_whole && is_short && is_sorted {
+            return Ok(());
+        }
+        Err(format!("{} problems of {all} are listed", report.problems.len()))
+    }
+
+    /// Loads the file leniently: what loads otherwise loads so too, and what is left keeps every promise.
+    pub fn load_leniently(&self) -> Result<(), String> {
+        let options = ImportOptions { lenient: true, ..self.options.clone() };
+        let loads = load_bytes("model.gltf", &self.file, &self.options).is_ok();
+        match load_bytes("model.gltf", &self.file, &options) {
+            Ok(model) => promises::check(&model),
+            Err(error) if loads => Err(format!("it loads, but not leniently: {}", error.fault)),
+            Err(_) => Ok(()),
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Files that wish the importer ill, built here, each loaded in this process.
 //!
-//! Whatever a file says, loading returns, does not panic, takes little time and little memory; and if there is a model, it
-//! keeps every promise of its documentation. What must come of a file is stated where it is certain, word by word where the
+//! Whatever a file says, loading and checking it return, do not panic, take little time and little memory; and if there is a
+//! model, read strictly or leniently, it keeps every promise of its documentation. What must come of a file is stated where it is certain, word by word where the
 //! message matters. Arguments that are not flags choose cases by a part of their name, as in `cargo test`; `--write DIR` writes
 //! all of them and loads none.
 
@@ -98,6 +98,8 @@ fn run(folder: &Path) -> Result<Tally, String> {
         let before = tally.passed + tally.failed;
         for case in cases().iter().filter(|case| is_chosen(&case.name)) {
             tally.note(&case.name, || case.run(folder));
+            tally.note(&format!("{}, checked", case.name), || case.check());
+            tally.note(&format!("{}, leniently", case.name), || case.load_leniently());
         }
         println!("{group}: {} cases", tally.passed + tally.failed - before);
     }

@@ -132,7 +132,7 @@ fn sizes() -> Vec<Case> {
     let doubled: Vec<Value> = (0..61)
         .map(|at| if at < 60 { json!({"children": [at + 1, at + 1]}) } else { json!({}) })
         .collect();
-    let deep = "raise the limit `node_depth` if you trust the file";
+    let deep = "raise the limit `node_depth` (--max-node-depth) if you trust the file";
     vec![
         nodes("2^60 paths", Value::Array(doubled), Expected::Refused),
         nodes("1,024 deep", chain(1024), Expected::LoadsClean),

@@ -46,7 +46,7 @@ pub fn cases() -> Vec<Case> {
             "20,000,000 values",
             plus(&format!(r#""extras": [{}0]"#, "0,".repeat(20_000_000))),
             says(
-                "the JSON has 20000023 values, more than the limit of 16000000; raise the limit `json_values` if you trust the file",
+                "the JSON has 20000023 values, more than the limit of 16000000; raise the limit `json_values` (--max-json-values) if you trust the file",
             ),
         ),
         text(
@@ -111,7 +111,7 @@ fn extensions() -> Vec<Case> {
     };
     let lacking = |name: &str, reason: &str| {
         says(&format!(
-            "/extensionsRequired/0: the file requires the extension {name}: {reason}; export the file without it"
+            "/extensionsRequired/0: the file requires the extension {name}: {reason}; export the file without it, or load what can be loaded with --lenient"
         ))
     };
     vec![

@@ -7,7 +7,8 @@ use serde_json::json;
 use std::fs;
 use std::path::Path;
 
-const OUTSIDE: &str = "copy the file beside the glTF file and name it by a relative path";
+const OUTSIDE: &str = "copy the file beside the glTF file and name it by a relative path, or allow its folder with \
+                       --allow-outside DIR";
 
 /// A case's name, and what was wrong.
 pub type Judged = (String, Result<(), String>);
@@ -44,6 +45,36 @@ pub fn run(folder: &Path) -> Result<Vec<Judged>, String> {
         let name = format!("root {:?}, uri {uri:?}", root.file_name().unwrap_or_default());
         results.push((name, judge(&file, &options, &expected)));
     }
+    for (allowed, uri, expected) in [
+        (folder.to_owned(), "../secret.bin", Expected::LoadsClean),
+        (folder.to_owned(), "out.bin", Expected::LoadsClean),
+        (folder.to_owned(), "../../secret.bin", Expected::Refused),
+        (folder.to_owned(), "../models/../models/data.bin", Expected::LoadsClean),
+        (folder.to_owned(), "zero.bin", Expected::Refused),
+        (folder.to_owned(), "folder.bin", Expected::Refused),
+        (folder.to_owned(), "http://example.com/a.bin", Expected::Refused),
+        (models.join("sub"), "../secret.bin", Expected::Refused),
+        (models.join("sub"), "sub/in.bin", Expected::LoadsClean),
+        (models.join("nowhere"), "data.bin", Expected::Refused),
+    ] {
+        if cfg!(not(unix)) && ["out.bin", "zero.bin"].contains(&uri) {
+            continue;
+        }
+        let document = Document::triangle().with("/buffers/0/uri", json!(uri));
+        let file = models.join("model.gltf");
+        fs::write(&file, document.json.to_string()).map_err(|error| error.to_string())?;
+        let name = format!("{:?} allowed, uri {uri:?}", allowed.file_name().unwrap_or_default());
+        let options = ImportOptions { allow_outside: vec![allowed], ..ImportOptions::default() };
+        results.push((name, judge(&file, &options, &expected)));
+    }
+    let secret = folder.join("secret.bin");
+    let document = Document::triangle().with("/buffers/0/uri", json!(secret));
+    let file = models.join("model.gltf");
+    fs::write(&file, document.json.to_string()).map_err(|error| error.to_string())?;
+    let allow_outside = vec![folder.to_owned()];
+    let options = ImportOptions { allow_outside, ..ImportOptions::default() };
+    let judged = judge(&file, &options, &Expected::Refused);
+    results.push(("an absolute path into an allowed folder".to_owned(), judged));
     Ok(results)
 }
 
@@ -174,7 +205,7 @@ fn strange_names() -> Vec<(String, Expected)> {
             "large.bin".to_owned(),
             at(
                 "the file has 5000 bytes, more than the limit of 4096",
-                "raise the limit `file_bytes` if you trust the file",
+                "raise the limit `file_bytes` (--max-file-bytes) if you trust the file",
             ),
         ),
         ("http://example.com/a.bin".to_owned(), scheme("http", "http://example.com/a.bin")),

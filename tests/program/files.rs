@@ -50,6 +50,6 @@ fn a_scene_may_not_lead_out_of_its_folder_unless_allowed() {
     let run = bench.run(&["render", "inner/scene.ron", "--size", "16x16"]);
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("--allow-outside"), "{}", run.stderr);
-    let run = bench.run(&["render", "inner/scene.ron", "--size", "16x16", "--allow-outside"]);
+    let run = bench.run(&["render", "inner/scene.ron", "--size", "16x16", "--allow-outside", "."]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
 }

@@ -2,6 +2,7 @@
 
 mod animation;
 mod bench;
+mod check;
 mod document;
 mod files;
 mod info;

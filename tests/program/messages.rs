@@ -7,7 +7,7 @@ fn help_and_version_are_worth_reading() {
     let bench = Bench::new("help");
     let help = bench.run(&["--help"]);
     assert_eq!(help.code, 0);
-    for word in ["render", "info", "Examples:", "Exit codes:"] {
+    for word in ["render", "info", "check", "Examples:", "Exit codes:"] {
         assert!(help.stdout.contains(word), "{word}");
     }
     let version = bench.run(&["--version"]);

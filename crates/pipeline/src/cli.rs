@@ -1,8 +1,10 @@
 //! The command line: what may be asked for, and who does it.
 
 mod args;
+mod check;
 mod failure;
 mod info;
+mod loading;
 mod pick;
 mod progress;
 mod render;
@@ -12,13 +14,16 @@ pub(crate) use failure::Failure;
 
 use args::Command;
 use std::io::Write;
+use std::process::ExitCode;
 
 /// Does what was asked for.
-pub(crate) fn run(args: Args) -> Result<(), Failure> {
+pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
     match args.command {
-        Command::Render(args) => render::run(&args),
-        Command::Info(args) => info::run(&args),
+        Command::Render(args) => render::run(&args)?,
+        Command::Info(args) => info::run(&args)?,
+        Command::Check(args) => return check::run(&args),
     }
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Tells the person something on the standard error stream. That the stream may be closed is no reason to fail.

@@ -30,8 +30,6 @@ mod extensions;
 mod image;
 mod instancing;
 mod json;
-#[cfg(feature = "basisu")]
-mod ktx2;
 mod lights;
 mod limits;
 mod material;
@@ -41,6 +39,7 @@ mod normals;
 mod placement;
 mod pointer;
 mod primitive;
+mod repair;
 mod resolver;
 mod scene;
 mod skin;
@@ -72,6 +71,11 @@ pub struct ImportOptions {
     pub limits: Limits,
     /// The folder that all files the glTF file refers to must be below. Default: the folder of the glTF file.
     pub root: Option<PathBuf>,
+    /// Other folders that files may be below: `..` and symbolic links may lead there. Default: none.
+    pub allow_outside: Vec<PathBuf>,
+    /// Whether what is broken, missing or unknown is left out with a warning wherever something else is left to load, in place
+    /// of an error. Limits hold all the same. Default: no.
+    pub lenient: bool,
     /// The scene of the file that is shown. Default: its default scene, else its first.
     pub scene: Option<Choice>,
     /// The variant of the file that is shown (KHR_materials_variants). Default: none.
@@ -109,8 +113,7 @@ pub enum Images {
 /// unknown extension; exceeds a limit; has no such scene or variant as the options ask for.
 pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> {
     let loaded = resolver::read_file(path, &options.limits, "").and_then(|bytes| {
-        let root = options.root.as_deref();
-        let resolver = Resolver::new(path, bytes.len(), root, &options.limits)?;
+        let resolver = Resolver::new(path, bytes.len(), options)?;
         read_model(path, &bytes, &resolver, options)
     });
     loaded.map_err(|fault| ImportError { file: path.to_owned(), fault })
@@ -124,8 +127,8 @@ pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> 
 /// # Errors
 /// As for [`load`].
 pub fn load_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<Model, ImportError> {
-    let (path, root) = (Path::new(name), options.root.as_deref());
-    let loaded = Resolver::in_memory(bytes.len(), root, &options.limits)
+    let path = Path::new(name);
+    let loaded = Resolver::in_memory(bytes.len(), options)
         .and_then(|resolver| read_model(path, bytes, &resolver, options));
     loaded.map_err(|fault| ImportError { file: path.to_owned(), fault })
 }
@@ -137,9 +140,9 @@ fn read_model(
     options: &ImportOptions,
 ) -> Result<Model, Fault> {
     let limits = resolver.limits;
-    let mut warnings = Warnings::default();
+    let mut warnings = Warnings::new(options.lenient);
     let container = Container::find(bytes, &mut warnings)?;
-    let document = Document::parse(&bytes[container.json], limits)?;
+    let document = Document::parse(&bytes[container.json], limits, &mut warnings)?;
     let chunk = container.binary.map(|range| &bytes[range]);
     extensions::check(&document.root, &mut warnings)?;
     let buffers = Buffers::new(&document.root, resolver, chunk, limits);

@@ -5,10 +5,10 @@ mod cli;
 use clap::Parser;
 use std::process::ExitCode;
 
-/// Exit codes: 0 done, 1 the input or the work failed, 2 wrong usage (by clap).
+/// Exit codes: 0 done, 1 the input or the work failed, or a check has found errors, 2 wrong usage (by clap).
 fn main() -> ExitCode {
     match cli::run(cli::Args::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(code) => code,
         Err(failure) => {
             cli::complain("error", &failure.to_string());
             ExitCode::FAILURE

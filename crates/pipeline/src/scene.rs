@@ -13,6 +13,7 @@ mod number;
 mod origin;
 mod parse;
 mod resolve;
+mod review;
 mod viewpoint;
 
 pub use error::SceneError;
@@ -20,6 +21,7 @@ pub use file::SceneFile;
 pub use origin::Origin;
 pub use parse::parse;
 pub use resolve::{ResolveOptions, chosen_animation};
+pub use review::review;
 
 use crate::import::ImportError;
 use crate::model::Model;

@@ -1,5 +1,6 @@
 //! Flags and arguments.
 
+use super::loading::LoadArgs;
 use super::pick::PickArgs;
 use camera::NamedView;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -22,8 +23,10 @@ Examples:
   alberti render model.glb --view front --size 512x512 -o thumb.png
   alberti render scene.ron                        a scene: models, camera, lights, style
   alberti info model.glb                          what is in the file
+  alberti check model.glb                         what is wrong with the file
 
-Exit codes: 0 done, 1 the input or the work failed (no output file is touched), 2 wrong usage.";
+Exit codes: 0 done, 1 the input or the work failed (no output file is touched), 2 wrong usage.
+`check` ends with 1 if there are errors, and with 0 if there are only warnings and notes.";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
@@ -31,6 +34,8 @@ pub(crate) enum Command {
     Render(RenderArgs),
     /// Tell what is in a model: meshes, bounds, cameras, materials, extensions
     Info(InfoArgs),
+    /// Tell everything that is wrong with a scene or a model, with its place and a remedy
+    Check(CheckArgs),
 }
 
 #[derive(Debug, clap::Args)]
@@ -66,9 +71,19 @@ pub(crate) struct RenderArgs {
     /// Threads to use; the picture does not depend on it [default: as many as there are cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) threads: Option<u16>,
-    /// Let the scene's paths lead out of its folder
+    #[command(flatten)]
+    pub(crate) load: LoadArgs,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct CheckArgs {
+    /// A scene (.ron) or a model (.gltf, .glb)
+    pub(crate) input: PathBuf,
+    /// The report for programs
     #[arg(long)]
-    pub(crate) allow_outside: bool,
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) load: LoadArgs,
 }
 
 #[derive(Debug, clap::Args)]
@@ -80,6 +95,8 @@ pub(crate) struct InfoArgs {
     /// Everything there is to know, for programs
     #[arg(long)]
     pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) load: LoadArgs,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -30,7 +30,7 @@ fn picked(args: &InfoArgs) -> Result<Model, Failure> {
         scene: scene.clone().map(Into::into),
         variant: variant.clone().map(Into::into),
         images: Images::Headers,
-        ..ImportOptions::default()
+        ..args.load.options()
     };
     let mut model = load(&args.file, &options)?;
     if animation.is_some() || time.is_some() {

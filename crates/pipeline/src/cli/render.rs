@@ -18,7 +18,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let progress = Progress::start("loading");
     let (origin, mut file) = open(&args.input)?;
     override_with(&mut file, args);
-    let options = ResolveOptions { allow_outside: args.allow_outside, ..ResolveOptions::default() };
+    let options = ResolveOptions { import: args.load.options() };
     let scene = Scene::resolve(&origin, &file, &options)?;
     progress.stage("rendering");
     let picture = render(&scene, threads(args))?;
@@ -29,9 +29,13 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Whether a file is a scene, by its name.
+pub(super) fn is_scene(input: &Path) -> bool {
+    input.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"))
+}
+
 fn open(input: &Path) -> Result<(Origin, SceneFile), Failure> {
-    let is_scene = input.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"));
-    if is_scene { Ok(Origin::read(input)?) } else { Ok(Origin::bare_model(input)) }
+    if is_scene(input) { Ok(Origin::read(input)?) } else { Ok(Origin::bare_model(input)) }
 }
 
 fn output_of(args: &RenderArgs) -> Result<PathBuf, Failure> {

@@ -31,8 +31,8 @@ impl<'a> Budget<'a> {
         }
         if made.saturating_sub(FREE_BYTES) > files.saturating_mul(array_growth) {
             let problem = format!("{what}, more than {array_growth} times the files");
-            let remedy = "raise the limit `array_growth` if you trust the file";
-            return Err(Fault::new(FaultKind::Limit, pointer, problem, remedy));
+            let remedy = Fault::raise("array_growth");
+            return Err(Fault::new(FaultKind::Limit, pointer, problem, &remedy));
         }
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! The bytes of the file's buffers and buffer views, each read, and decompressed, once and when it is first needed.
 
 use super::budget::Budget;
-use super::error::Fault;
+use super::error::{Fault, FaultKind};
 use super::limits::Limits;
 use super::meshopt::Packed;
 use super::resolver::Resolver;
@@ -94,13 +94,23 @@ impl<'a> Buffers<'a> {
             (Some(uri), _) => match read.get() {
                 Some(bytes) => bytes,
                 None => {
-                    let bytes = self.resolver.read(uri, &format!("/buffers/{buffer}/uri"))?;
+                    let bytes = self.resolver.read(uri, &format!("/buffers/{buffer}/uri"));
+                    let bytes = bytes.map_err(|fault| self.softened(fault))?;
                     read.get_or_init(|| bytes)
                 }
             },
         };
         let length = usize::try_from(json.byte_length.0).unwrap_or(usize::MAX);
         Ok(&all[..length.min(all.len())])
+    }
+}
+
+impl Buffers<'_> {
+    /// A file that is missing is no reason to stop for a reader who is lenient: its data is missing, and no more.
+    fn softened(&self, fault: Fault) -> Fault {
+        let is_file = matches!(fault.kind, FaultKind::Unreadable | FaultKind::Forbidden);
+        let kind = if self.resolver.lenient && is_file { FaultKind::NoData } else { fault.kind };
+        Fault { kind, ..fault }
     }
 }
 

@@ -20,7 +20,7 @@ pub(super) fn build(
 ) -> Result<Model, Fault> {
     let root = &document.root;
     let mut nodes = scene::nodes(document, source.limits, warnings)?;
-    let shown = choice::scene(root, options.scene.as_ref())?;
+    let shown = choice::scene(root, options.scene.as_ref(), warnings)?;
     let (cameras, usable) = camera::cameras(root, warnings);
     let mut model = Model {
         roots: scene::roots(root, shown, &nodes, warnings)?,

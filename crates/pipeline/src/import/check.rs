@@ -64,10 +64,9 @@ use usage::Usage;
 /// ```
 #[must_use]
 pub fn check(path: &Path, options: &ImportOptions) -> Report {
-    let limits = &options.limits;
     let findings = Findings::default();
-    let resolver = |length| Resolver::new(path, length, options.root.as_deref(), limits);
-    let result = resolver::read_file(path, limits, "").and_then(|bytes| {
+    let resolver = |length| Resolver::new(path, length, options);
+    let result = resolver::read_file(path, &options.limits, "").and_then(|bytes| {
         check_content(&bytes, &resolver(bytes.len())?, &findings);
         // A resolver of its own: what the check has read does not count against the loader's limits.
         read_model(path, &bytes, &resolver(bytes.len())?, options)
@@ -79,9 +78,9 @@ pub fn check(path: &Path, options: &ImportOptions) -> Report {
 /// [root](ImportOptions::root) are other files read.
 #[must_use]
 pub fn check_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Report {
-    let (path, limits) = (Path::new(name), &options.limits);
+    let path = Path::new(name);
     let findings = Findings::default();
-    let resolver = || Resolver::in_memory(bytes.len(), options.root.as_deref(), limits);
+    let resolver = || Resolver::in_memory(bytes.len(), options);
     let result = resolver().and_then(|own| {
         check_content(bytes, &own, &findings);
         read_model(path, bytes, &resolver()?, options)

@@ -42,14 +42,19 @@ impl Choice {
 }
 
 /// The scene that is shown: the chosen one, else the default scene, else the first.
-pub(super) fn scene(root: &Root, choice: Option<&Choice>) -> Result<usize, Fault> {
+pub(super) fn scene(
+    root: &Root,
+    choice: Option<&Choice>,
+    warnings: &mut Warnings,
+) -> Result<usize, Fault> {
     if let Some(choice) = choice {
         let names: Vec<_> = root.scenes.iter().map(|scene| scene.name.as_deref()).collect();
         return choice.among(&names, "scene", "/scenes");
     }
     match root.scene.map(|scene| scene.value()) {
         Some(scene) if scene >= root.scenes.len() => {
-            Err(Fault::unresolved("/scene", "scene", scene, root.scenes.len()))
+            let fault = Fault::unresolved("/scene", "scene", scene, root.scenes.len());
+            warnings.forgive(fault, "the first scene is shown").map(|()| 0)
         }
         scene => Ok(scene.unwrap_or(0)),
     }

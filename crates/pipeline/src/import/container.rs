@@ -47,16 +47,16 @@ impl Container {
     }
 
     fn binary(bytes: &[u8], warnings: &mut Warnings) -> Result<Self, Fault> {
-        let end = check_header(bytes)?;
+        let end = check_header(bytes, warnings)?;
         if end < bytes.len() {
             let more = bytes.len() - end;
             warnings.add("", format!("there is more after the end; it is ignored (bytes: {more})"));
         }
         let mut chunks = Chunks { bytes: &bytes[..end], at: HEADER };
-        let Some((b"JSON", json)) = chunks.next()? else {
+        let Some((b"JSON", json)) = chunks.next(warnings)? else {
             return Err(format("the first chunk is not JSON", "export the file again"));
         };
-        let binary = match chunks.next()? {
+        let binary = match chunks.next(warnings)? {
             Some((b"BIN\0", range)) => Some(range),
             _ => None,
         };
@@ -65,7 +65,7 @@ impl Container {
 }
 
 /// Checks magic, version and length; gives the end of the file as declared.
-fn check_header(bytes: &[u8]) -> Result<usize, Fault> {
+fn check_header(bytes: &[u8], warnings: &mut Warnings) -> Result<usize, Fault> {
     let (Some(version), Some(length)) = (number(bytes, 4), number(bytes, 8)) else {
         return Err(format(&format!("the file has only {} bytes", bytes.len()), TRUNCATED));
     };
@@ -79,7 +79,8 @@ fn check_header(bytes: &[u8]) -> Result<usize, Fault> {
     }
     if length > bytes.len() {
         let problem = format!("the header says {length} bytes, the file has {}", bytes.len());
-        return Err(format(&problem, TRUNCATED));
+        warnings.forgive(format(&problem, TRUNCATED), "what is there is read")?;
+        return Ok(bytes.len());
     }
     if length < HEADER + CHUNK_HEADER {
         let problem = format!("the header says {length} bytes, too few for any content");
@@ -98,21 +99,22 @@ struct Chunks<'a> {
 
 impl<'a> Chunks<'a> {
     /// The next chunk; `None` at the end.
-    fn next(&mut self) -> Result<Option<Chunk<'a>>, Fault> {
+    fn next(&mut self, warnings: &mut Warnings) -> Result<Option<Chunk<'a>>, Fault> {
         let rest = &self.bytes[self.at..];
         if rest.is_empty() {
             return Ok(None);
         }
         let Some((header, data)) = rest.split_first_chunk::<CHUNK_HEADER>() else {
-            return Err(format("a chunk header is incomplete", TRUNCATED));
+            warnings.forgive(format("a chunk header is incomplete", TRUNCATED), "it is ignored")?;
+            return Ok(None);
         };
         let (length, kind) = (number(header, 0).unwrap_or(usize::MAX), header.last_chunk());
         let (start, left) = (self.at + CHUNK_HEADER, data.len());
         if length > left {
             let problem = format!("a chunk says {length} bytes, {left} are left");
-            return Err(format(&problem, TRUNCATED));
+            warnings.forgive(format(&problem, TRUNCATED), "what is there is read")?;
         }
-        self.at = start + length;
+        self.at = start + length.min(left);
         Ok(kind.map(|kind| (kind, start..self.at)))
     }
 }

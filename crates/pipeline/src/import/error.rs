@@ -74,11 +74,17 @@ impl Fault {
         Self::invalid(pointer, problem)
     }
 
-    /// The file declares too much of something; `limit` is the name of the field of [`super::Limits`].
+    /// The file declares too much of something; `limit` is the name of the field of [`super::Limits`], which says the flag.
     pub(super) fn limit(pointer: &str, what: &str, limit: &str, allowed: u64) -> Self {
         let problem = format!("{what}, more than the limit of {allowed}");
-        let remedy = format!("raise the limit `{limit}` if you trust the file");
+        let remedy = Self::raise(limit);
         Self::new(FaultKind::Limit, pointer, problem, &remedy)
+    }
+
+    /// What to do about a limit that is exceeded.
+    pub(super) fn raise(limit: &str) -> String {
+        let flag = limit.replace('_', "-");
+        format!("raise the limit `{limit}` (--max-{flag}) if you trust the file")
     }
 
     /// Data is not there, or not in a form that is read.

@@ -73,7 +73,7 @@ const KNOWN: [(&str, Support); 36] = [
     ("MSFT_texture_dds", Never("DDS images are not read")),
 ];
 
-/// Refuses a file that requires what we lack, and warns of what will not be seen.
+/// Refuses a file that requires what we lack, unless it is to be read leniently, and warns of what will not be seen.
 pub(super) fn check(root: &Root, warnings: &mut Warnings) -> Result<(), Fault> {
     for (at, name) in root.extensions_required.iter().enumerate() {
         let reason = match support(name) {
@@ -81,12 +81,13 @@ pub(super) fn check(root: &Root, warnings: &mut Warnings) -> Result<(), Fault> {
             Some(_) => continue,
             None => "it is not known here",
         };
-        return Err(Fault::new(
+        let fault = Fault::new(
             FaultKind::Extension,
             &format!("/extensionsRequired/{at}"),
             format!("the file requires the extension {name}: {reason}"),
-            "export the file without it",
-        ));
+            "export the file without it, or load what can be loaded with --lenient",
+        );
+        warnings.forgive(fault, "it is ignored")?;
     }
     let mut told = BTreeSet::new();
     for (list, names) in [

@@ -7,7 +7,9 @@
 use super::error::{Fault, FaultKind};
 use super::limits::Limits;
 use super::placement::Placement;
+use super::repair;
 use super::untyped::Untyped;
+use super::warnings::Warnings;
 use gltf::json::Root;
 use serde_json::{Map, Number, Value};
 
@@ -23,16 +25,24 @@ pub(super) struct Document {
 }
 
 impl Document {
-    pub(super) fn parse(text: &[u8], limits: &Limits) -> Result<Self, Fault> {
+    pub(super) fn parse(
+        text: &[u8],
+        limits: &Limits,
+        warnings: &mut Warnings,
+    ) -> Result<Self, Fault> {
         count(text, limits)?;
         let mut value: Value = serde_json::from_slice(text).map_err(|error| syntax(&error))?;
-        check_version(&value)?;
+        check_version(&value, warnings)?;
         mend(&mut value);
         mend_scenes(&mut value);
         let untyped = Untyped::of(&value);
         mend_animations(&mut value);
-        let placements = Placement::take_all(&mut value)?;
-        let root = serde_path_to_error::deserialize(value).map_err(|error| mistyped(&error))?;
+        let placements = Placement::take_all(&mut value, warnings)?;
+        let root = if warnings.is_lenient() {
+            repair::typed(&mut value, text.len(), warnings)?
+        } else {
+            serde_path_to_error::deserialize(value).map_err(|error| mistyped(&error))?
+        };
         Ok(Self { root, placements, untyped })
     }
 }
@@ -84,7 +94,7 @@ fn end_of_string(text: &[u8], mut at: usize) -> usize {
     }
 }
 
-fn check_version(value: &Value) -> Result<(), Fault> {
+fn check_version(value: &Value, warnings: &mut Warnings) -> Result<(), Fault> {
     let asset = &value["asset"];
     let Some(version) = asset["version"].as_str() else {
         let problem = "the version of glTF is missing";
@@ -92,18 +102,20 @@ fn check_version(value: &Value) -> Result<(), Fault> {
         return Err(Fault::new(FaultKind::Version, "/asset/version", problem.to_owned(), remedy));
     };
     let unknown = |key: &str, version: &str| {
-        Err(Fault::new(
+        Fault::new(
             FaultKind::Version,
             &format!("/asset/{key}"),
             format!("the file is glTF {version} and only glTF 2.0 is read"),
             "convert it to glTF 2.0",
-        ))
+        )
     };
     if version.split('.').next() != Some("2") {
-        return unknown("version", version);
+        return Err(unknown("version", version));
     }
     match asset["minVersion"].as_str() {
-        Some(minimum) if minimum != "2.0" => unknown("minVersion", minimum),
+        Some(minimum) if minimum != "2.0" => {
+            warnings.forgive(unknown("minVersion", minimum), "it is read as glTF 2.0")
+        }
         _ => Ok(()),
     }
 }
@@ -175,7 +187,7 @@ fn syntax(error: &serde_json::Error) -> Fault {
     Fault::new(FaultKind::Format, "", problem, "correct it there or export the file again")
 }
 
-fn mistyped(error: &serde_path_to_error::Error<serde_json::Error>) -> Fault {
+pub(super) fn mistyped(error: &serde_path_to_error::Error<serde_json::Error>) -> Fault {
     use serde_path_to_error::Segment;
     let mut pointer = String::new();
     for segment in error.path() {
@@ -198,7 +210,7 @@ mod tests {
 
     fn parse(members: &str) -> Result<Document, Fault> {
         let text = format!(r#"{{"asset": {{"version": "2.0"}}{members}}}"#);
-        Document::parse(text.as_bytes(), &Limits::default())
+        Document::parse(text.as_bytes(), &Limits::default(), &mut Warnings::default())
     }
 
     #[test]
@@ -238,7 +250,9 @@ mod tests {
     fn versions() {
         let problem = |asset: &str| {
             let text = format!("{{{asset}}}");
-            Document::parse(text.as_bytes(), &Limits::default()).err().map(|fault| fault.problem)
+            let document =
+                Document::parse(text.as_bytes(), &Limits::default(), &mut Warnings::default());
+            document.err().map(|fault| fault.problem)
         };
         assert_eq!(problem(r#""asset": {"version": "2.1"}"#), None);
         assert_eq!(
@@ -260,8 +274,9 @@ mod tests {
         assert!(fault.remedy.contains("json_depth"), "{fault}");
         let text = br#"{"asset": {"version": "2.0"}, "extras": "[[[[[[[\"[[[["}"#;
         let limits = Limits { json_depth: 2, json_values: 24, ..Limits::default() };
-        assert!(Document::parse(text, &limits).is_ok(), "brackets in strings do not count");
-        let fault = Document::parse(b"[{},{},{}]", &limits).unwrap_err();
+        let parse = |text: &[u8]| Document::parse(text, &limits, &mut Warnings::default());
+        assert!(parse(text).is_ok(), "brackets in strings do not count");
+        let fault = parse(b"[{},{},{}]").unwrap_err();
         assert!(fault.remedy.contains("json_values"), "{fault}");
     }
 }

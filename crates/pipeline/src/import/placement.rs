@@ -1,6 +1,7 @@
 //! The transforms of nodes, in the double precision that JSON has.
 
 use super::error::Fault;
+use super::warnings::Warnings;
 use crate::model::Parts;
 use glam::{DMat4, DVec4};
 use homog::{Affine, Model};
@@ -17,13 +18,22 @@ pub(super) enum Placement {
 
 impl Placement {
     /// Takes the transforms out of the nodes of a document.
-    pub(super) fn take_all(document: &mut Value) -> Result<Vec<Self>, Fault> {
+    pub(super) fn take_all(
+        document: &mut Value,
+        warnings: &mut Warnings,
+    ) -> Result<Vec<Self>, Fault> {
         let nodes = document.get_mut("nodes").and_then(Value::as_array_mut);
         let take = |(at, node): (usize, &mut Value)| match node.as_object_mut() {
             Some(node) => Self::take(node, at),
             None => Err(Fault::invalid(&format!("/nodes/{at}"), "an object is due")),
         };
-        nodes.into_iter().flatten().enumerate().map(take).collect()
+        let forgiving = |taken: Result<Self, Fault>| match taken {
+            Err(fault) => warnings
+                .forgive(fault, "the node stays where its parent is")
+                .map(|()| Self::Parts(Parts::default())),
+            taken => taken,
+        };
+        nodes.into_iter().flatten().enumerate().map(take).map(forgiving).collect()
     }
 
     fn take(node: &mut Map<String, Value>, at: usize) -> Result<Self, Fault> {

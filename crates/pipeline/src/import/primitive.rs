@@ -49,7 +49,11 @@ pub(super) fn meshes(
                     warnings.soft(&fault, "the primitive is left out");
                     Primitive::default()
                 }
-                primitive => primitive?,
+                Err(fault) => {
+                    warnings.forgive(fault, "the primitive is left out")?;
+                    Primitive::default()
+                }
+                Ok(primitive) => primitive,
             });
         }
         let weights = json.weights.clone().unwrap_or_default();

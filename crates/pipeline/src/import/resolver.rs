@@ -3,8 +3,10 @@
 //! A model comes from a stranger, so its URIs are not trusted: they name files by a relative path below one folder,
 //! the root, and nothing else. No absolute path, no scheme but `data:`, no `..` above the root, no symbolic link that
 //! leads out of it, no device or pipe, no file larger than the limit. Everything is checked before a file is opened,
-//! and a path that would leave the root is refused without looking whether something is there.
+//! and a path that would leave the root is refused without looking whether something is there. The person who loads the
+//! model may name other folders: then `..` and symbolic links may lead there too, and nothing else changes.
 
+use super::ImportOptions;
 use super::error::{Fault, FaultKind};
 use super::limits::Limits;
 use base64::Engine;
@@ -21,6 +23,8 @@ pub(super) struct Resolver<'a> {
     /// The folder of the glTF file and the one that everything must stay below; `None` if no file may be read.
     place: Option<Place>,
     pub(super) limits: &'a Limits,
+    /// Whether a missing file stops loading; see [`ImportOptions::lenient`].
+    pub(super) lenient: bool,
     /// The bytes that have been read so far.
     total: Cell<u64>,
 }
@@ -30,38 +34,47 @@ pub(super) struct Resolver<'a> {
 struct Place {
     /// The folder that relative paths begin at.
     folder: PathBuf,
-    /// The folder that everything must stay below.
-    root: PathBuf,
+    /// The folders of which everything must stay below one.
+    roots: Vec<PathBuf>,
 }
 
 impl<'a> Resolver<'a> {
-    /// A resolver for the assets of `file`, which must be below `root`, or, without one, below the file's own folder. The file
-    /// itself has been read: its `length` counts.
+    /// A resolver for the assets of `file`, which must be below the folders that the options name, or below the file's own.
+    /// The file itself has been read: its `length` counts.
     pub(super) fn new(
         file: &Path,
         length: usize,
-        root: Option<&Path>,
-        limits: &'a Limits,
+        options: &'a ImportOptions,
     ) -> Result<Self, Fault> {
         let parent = match file.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
         };
         let folder = canonical(parent)?;
-        let root = root.map_or_else(|| Ok(folder.clone()), canonical)?;
-        let place = Some(Place { folder, root });
-        Ok(Self { place, limits, total: Cell::new(length as u64) })
+        let root = options.root.as_deref().map_or_else(|| Ok(folder.clone()), canonical)?;
+        Self::at(Some((folder, root)), length, options)
     }
 
-    /// A resolver for the assets of a glTF file in memory: they begin at `root`, or, without one, may not be files.
-    pub(super) fn in_memory(
+    /// A resolver for the assets of a glTF file in memory: they begin at the root, or, without one, may not be files.
+    pub(super) fn in_memory(length: usize, options: &'a ImportOptions) -> Result<Self, Fault> {
+        let root = options.root.as_deref().map(canonical).transpose()?;
+        Self::at(root.map(|root| (root.clone(), root)), length, options)
+    }
+
+    /// A resolver for assets that begin at a folder and stay below a root.
+    fn at(
+        place: Option<(PathBuf, PathBuf)>,
         length: usize,
-        root: Option<&Path>,
-        limits: &'a Limits,
+        options: &'a ImportOptions,
     ) -> Result<Self, Fault> {
-        let root = root.map(canonical).transpose()?;
-        let place = root.map(|root| Place { folder: root.clone(), root });
-        Ok(Self { place, limits, total: Cell::new(length as u64) })
+        let ImportOptions { limits, lenient, allow_outside, .. } = options;
+        let others = allow_outside.iter().map(|folder| allowed(folder));
+        let others: Vec<PathBuf> = others.collect::<Result<_, _>>()?;
+        let place = place.map(|(folder, root)| {
+            let roots = std::iter::once(root).chain(others).collect();
+            Place { folder, roots }
+        });
+        Ok(Self { place, limits, lenient: *lenient, total: Cell::new(length as u64) })
     }
 
     /// The bytes that a URI stands for; `pointer` is where the URI is.
@@ -116,7 +129,13 @@ impl<'a> Resolver<'a> {
 }
 
 impl Place {
-    /// The path of a relative name, if it stays below the root by its letters alone.
+    /// Whether a path is below one of the roots.
+    fn holds(&self, path: &Path) -> bool {
+        self.roots.iter().any(|root| path.starts_with(root))
+    }
+
+    /// The path of a relative name, if it stays below a root by its letters alone. With only one root it never leaves it; on
+    /// its way from one of several to another it must.
     fn below_root(&self, name: &str, pointer: &str) -> Result<PathBuf, Fault> {
         let outside =
             || Err(forbidden(pointer, &format!("{name:?} is outside of the model's folder")));
@@ -124,21 +143,21 @@ impl Place {
         if name.starts_with(['/', '\\']) || name.contains('\0') || drive {
             return outside();
         }
-        let mut path = self.folder.clone();
+        let (mut path, several) = (self.folder.clone(), self.roots.len() > 1);
         for part in Path::new(name).components() {
             match part {
                 Component::Normal(part) => path.push(part),
                 Component::CurDir => {}
-                Component::ParentDir if path != self.root && path.pop() => {}
+                Component::ParentDir if (several || path != self.roots[0]) && path.pop() => {}
                 _ => return outside(),
             }
         }
-        if path.starts_with(&self.root) { Ok(path) } else { outside() }
+        if self.holds(&path) { Ok(path) } else { outside() }
     }
 
-    /// A path that exists, if neither symbolic links lead it out of the root nor it is something else than a file.
+    /// A path that exists, if neither symbolic links lead it out of the roots nor it is something else than a file.
     fn checked(&self, path: PathBuf, uri: &str, pointer: &str) -> Result<PathBuf, Fault> {
-        if !path.starts_with(&self.root) {
+        if !self.holds(&path) {
             return Err(forbidden(pointer, &format!("{uri:?} leads out of the model's folder")));
         }
         if !path.is_file() {
@@ -173,6 +192,15 @@ pub(super) fn read_file(path: &Path, limits: &Limits, pointer: &str) -> Result<V
     Ok(bytes)
 }
 
+/// A folder that the person who loads the model allows files to be in.
+fn allowed(folder: &Path) -> Result<PathBuf, Fault> {
+    folder.canonicalize().map_err(|error| {
+        let problem =
+            format!("the folder {}, allowed for files, cannot be used: {error}", folder.display());
+        Fault::new(FaultKind::Unreadable, "", problem, "name a folder that exists")
+    })
+}
+
 fn canonical(folder: &Path) -> Result<PathBuf, Fault> {
     folder.canonicalize().map_err(|error| unreadable("", folder, &error))
 }
@@ -191,7 +219,8 @@ fn unreadable(pointer: &str, path: &Path, error: &std::io::Error) -> Fault {
 }
 
 fn forbidden(pointer: &str, problem: &str) -> Fault {
-    let remedy = "copy the file beside the glTF file and name it by a relative path";
+    let remedy = "copy the file beside the glTF file and name it by a relative path, or allow its folder \
+                  with --allow-outside DIR";
     Fault::new(FaultKind::Forbidden, pointer, problem.to_owned(), remedy)
 }
 

@@ -22,8 +22,8 @@ pub(super) fn nodes(
     }
     let mut nodes =
         (0..count).map(|at| node(document, at, warnings)).collect::<Result<Vec<_>, _>>()?;
-    connect(&mut nodes)?;
-    place(&mut nodes, limits)?;
+    connect(&mut nodes, warnings)?;
+    place(&mut nodes, limits, warnings)?;
     Ok(nodes)
 }
 
@@ -31,16 +31,23 @@ fn node(document: &Document, at: usize, warnings: &mut Warnings) -> Result<Node,
     let root = &document.root;
     let json = &root.nodes[at];
     let pointer = format!("/nodes/{at}");
-    let placement = document.placements.get(at);
-    let to_parent = placement.map_or(Ok(Affine::IDENTITY), |p| p.to_parent(&pointer))?;
+    let mut placement = document.placements.get(at);
+    let to_parent = match placement.map_or(Ok(Affine::IDENTITY), |p| p.to_parent(&pointer)) {
+        Err(fault) => {
+            warnings.forgive(fault, "the node stays where its parent is")?;
+            placement = None;
+            Affine::IDENTITY
+        }
+        Ok(to_parent) => to_parent,
+    };
     let children = json.children.iter().flatten().map(Index::value).collect();
-    let mesh = existing(json.mesh, "mesh", root.meshes.len(), &pointer)?;
-    let mut skin = existing(json.skin, "skin", root.skins.len(), &pointer)?;
+    let mesh = existing(json.mesh, "mesh", root.meshes.len(), &pointer, warnings)?;
+    let mut skin = existing(json.skin, "skin", root.skins.len(), &pointer, warnings)?;
     if skin.is_some() && mesh.is_none() {
         warnings.add(&format!("{pointer}/skin"), "there is no mesh that the skin could bend");
         skin = None;
     }
-    let camera = existing(json.camera, "camera", root.cameras.len(), &pointer)?;
+    let camera = existing(json.camera, "camera", root.cameras.len(), &pointer, warnings)?;
     Ok(Node {
         name: json.name.clone(),
         to_parent,
@@ -62,40 +69,77 @@ fn existing<T>(
     what: &str,
     count: usize,
     node: &str,
+    warnings: &mut Warnings,
 ) -> Result<Option<usize>, Fault> {
     match index.map(|index| index.value()) {
         Some(index) if index >= count => {
-            Err(Fault::unresolved(&format!("{node}/{what}"), what, index, count))
+            let fault = Fault::unresolved(&format!("{node}/{what}"), what, index, count);
+            warnings.forgive(fault, "the node is without it").map(|()| None)
         }
         index => Ok(index),
     }
 }
 
 /// Tells every node its parent; each may have one only.
-fn connect(nodes: &mut [Node]) -> Result<(), Fault> {
-    for parent in 0..nodes.len() {
-        for place in 0..nodes[parent].children.len() {
-            let child = nodes[parent].children[place];
+fn connect(nodes: &mut [Node], warnings: &mut Warnings) -> Result<(), Fault> {
+    let count = nodes.len();
+    for parent in 0..count {
+        let children = std::mem::take(&mut nodes[parent].children);
+        let mut kept = Vec::with_capacity(children.len());
+        for (place, child) in children.into_iter().enumerate() {
             let pointer = format!("/nodes/{parent}/children/{place}");
-            let count = nodes.len();
-            let Some(node) = nodes.get_mut(child) else {
-                return Err(Fault::unresolved(&pointer, "node", child, count));
+            let fault = match nodes.get(child).map(|node| node.parent) {
+                Some(None) => {
+                    nodes[child].parent = Some(parent);
+                    kept.push(child);
+                    continue;
+                }
+                None => Fault::unresolved(&pointer, "node", child, count),
+                Some(Some(other)) => {
+                    let problem = format!("node {child} is a child of node {other} already");
+                    Fault::invalid(&pointer, problem)
+                }
             };
-            if let Some(other) = node.parent.replace(parent) {
-                let problem = format!("node {child} is a child of node {other} already");
-                return Err(Fault::invalid(&pointer, problem));
-            }
+            warnings.forgive(fault, "it is no child here")?;
         }
+        nodes[parent].children = kept;
     }
     Ok(())
 }
 
 /// Tells every node its place in the model. With one parent each, the nodes form a forest if a walk from the roots meets
 /// them all; what it misses are cycles.
-fn place(nodes: &mut [Node], limits: &Limits) -> Result<(), Fault> {
+fn place(nodes: &mut [Node], limits: &Limits, warnings: &mut Warnings) -> Result<(), Fault> {
     let mut met = vec![false; nodes.len()];
-    let roots = (0..nodes.len()).filter(|&at| nodes[at].parent.is_none());
-    let mut open: Vec<(usize, usize)> = roots.map(|root| (root, 1)).collect();
+    for at in 0..nodes.len() {
+        if nodes[at].parent.is_none() {
+            place_below(nodes, at, &mut met, limits, warnings)?;
+        }
+    }
+    for at in 0..nodes.len() {
+        if met[at] {
+            continue;
+        }
+        let problem = format!("node {at} is below itself");
+        let fault = Fault::invalid(&format!("/nodes/{at}/children"), problem);
+        warnings.forgive(fault, "it is taken for a root")?;
+        if let Some(parent) = nodes[at].parent.take() {
+            nodes[parent].children.retain(|&child| child != at);
+        }
+        place_below(nodes, at, &mut met, limits, warnings)?;
+    }
+    Ok(())
+}
+
+/// Tells a root, and all nodes below it, their places.
+fn place_below(
+    nodes: &mut [Node],
+    root: usize,
+    met: &mut [bool],
+    limits: &Limits,
+    warnings: &mut Warnings,
+) -> Result<(), Fault> {
+    let mut open = vec![(root, 1)];
     while let Some((at, depth)) = open.pop() {
         met[at] = true;
         if depth > limits.node_depth {
@@ -107,17 +151,14 @@ fn place(nodes: &mut [Node], limits: &Limits) -> Result<(), Fault> {
         nodes[at].to_model = nodes[at].to_parent.then(above);
         if !nodes[at].to_model.is_finite() {
             let problem = "the product of the transforms down to here is too large for numbers";
-            return Err(Fault::invalid(&format!("/nodes/{at}"), problem));
+            let fault = Fault::invalid(&format!("/nodes/{at}"), problem);
+            warnings.forgive(fault, "it is shown where its parent is")?;
+            (nodes[at].to_parent, nodes[at].to_model) = (Affine::IDENTITY, above);
+            nodes[at].parts = Some(Parts::default());
         }
         open.extend(nodes[at].children.iter().map(|&child| (child, depth + 1)));
     }
-    match met.iter().position(|met| !met) {
-        None => Ok(()),
-        Some(at) => {
-            let problem = format!("node {at} is below itself");
-            Err(Fault::invalid(&format!("/nodes/{at}/children"), problem))
-        }
-    }
+    Ok(())
 }
 
 /// The scenes of a file.
@@ -144,7 +185,10 @@ pub(super) fn roots(
     for (place, node) in json.nodes.iter().enumerate() {
         let pointer = format!("/scenes/{scene}/nodes/{place}");
         match listed.get_mut(node.value()) {
-            None => return Err(Fault::unresolved(&pointer, "node", node.value(), nodes.len())),
+            None => {
+                let fault = Fault::unresolved(&pointer, "node", node.value(), nodes.len());
+                warnings.forgive(fault, "it is not shown")?;
+            }
             Some(true) => warnings.add(&pointer, "the node is listed twice; it is shown once"),
             Some(seen) => {
                 *seen = true;

@@ -2,7 +2,7 @@
 
 use super::locate::{Step, locate};
 use super::{ResolveError, SceneError, SceneFile, parse};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// The longest scene file that is read, in bytes: more is no text that a person wrote.
 const LONGEST_SCENE: u64 = 16 << 20;
@@ -47,6 +47,24 @@ impl Origin {
         (Self { file, text: String::new(), folder }, SceneFile::showing(name))
     }
 
+    /// Whether a model of a scene file may be read: it must be below the file's folder, or below one of those that are
+    /// `allowed`, by its path and by where symbolic links lead. A path that leads elsewhere is refused without looking whether
+    /// something is there. A bare model may be anywhere: a person has named it.
+    #[must_use]
+    pub fn may_read(&self, path: &Path, allowed: &[PathBuf]) -> bool {
+        if self.text.is_empty() {
+            return true;
+        }
+        let here = if self.folder.as_os_str().is_empty() { Path::new(".") } else { &self.folder };
+        let Ok(folder) = here.canonicalize() else { return false };
+        let wanted = plain(&folder, path);
+        let others = allowed.iter().filter_map(|other| other.canonicalize().ok());
+        let roots: Vec<PathBuf> = std::iter::once(folder).chain(others).collect();
+        let holds = |path: &Path| roots.iter().any(|root| path.starts_with(root));
+        // What does not exist does no harm; loading will tell.
+        holds(&wanted) && wanted.canonicalize().map_or(true, |path| holds(&path))
+    }
+
     /// An error that points at the value at the end of `path`.
     pub(super) fn fault(
         &self,
@@ -62,4 +80,19 @@ impl Origin {
             help,
         }
     }
+}
+
+/// A path from a folder on, without `.` and `..`.
+fn plain(folder: &Path, path: &Path) -> PathBuf {
+    let mut plain = folder.to_owned();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir => {
+                plain.pop();
+            }
+            part => plain.push(part),
+        }
+    }
+    plain
 }

@@ -13,16 +13,14 @@ use crate::shade::Light;
 use homog::{Affine, Model as ModelSpace, Vector, World};
 use raster::Samples;
 use std::collections::BTreeMap;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// How a scene is resolved.
 #[derive(Clone, Debug, Default)]
 pub struct ResolveOptions {
-    /// How models are loaded.
+    /// How models are loaded. The paths of a scene file may lead out of its folder into those that `allow_outside` names.
     pub import: ImportOptions,
-    /// Whether paths of a scene file may lead out of its folder.
-    pub allow_outside: bool,
 }
 
 impl Scene {
@@ -62,7 +60,7 @@ impl Scene {
     }
 }
 
-fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSpec, SceneError> {
+pub(super) fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSpec, SceneError> {
     let (width, height) = file.image.size;
     let fits = |side: u32| (1..=raster::MAX_SIDE).contains(&side);
     if !fits(width) || !fits(height) {
@@ -89,14 +87,18 @@ fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSpec, SceneEr
     Ok(ImageSpec { width, height, background, samples })
 }
 
+pub(super) fn no_model(origin: &Origin) -> SceneError {
+    let help = Some("add one: models: [(path: \"…\")]".to_owned());
+    origin.fault(&[Field("models")], "a scene needs a model", help)
+}
+
 fn load_models(
     origin: &Origin,
     file: &SceneFile,
     options: &ResolveOptions,
 ) -> Result<Vec<Placed>, ResolveError> {
     if file.models.is_empty() {
-        let help = Some("add one: models: [(path: \"…\")]".to_owned());
-        return Err(origin.fault(&[Field("models")], "a scene needs a model", help).into());
+        return Err(no_model(origin).into());
     }
     // Models in one pose are shared; a model in two poses is two models.
     type Pose = (PathBuf, [Option<Choice>; 3], Option<u64>);
@@ -110,7 +112,9 @@ fn load_models(
         let model = if let Some(model) = loaded.get(&pose) {
             Arc::clone(model)
         } else {
-            let model = Arc::new(load_model(origin, number, entry, options)?);
+            let model = load_model(origin, number, entry, options);
+            let model = model.map_err(|fault| fault.in_scene(origin, number, entry))?;
+            let model = Arc::new(model);
             loaded.insert(pose, Arc::clone(&model));
             model
         };
@@ -119,16 +123,43 @@ fn load_models(
     Ok(models)
 }
 
+/// Why there is no model: the scene asks for something that makes no sense, or the model's file is at fault.
+pub(super) enum ModelFault {
+    Scene(SceneError),
+    File(ImportError),
+}
+
+impl From<SceneError> for ModelFault {
+    fn from(error: SceneError) -> Self {
+        Self::Scene(error)
+    }
+}
+
+impl ModelFault {
+    /// The fault, told where the scene file asks for the model, if there is such a file.
+    fn in_scene(self, origin: &Origin, number: usize, entry: &ModelFile) -> ResolveError {
+        match self {
+            Self::File(error) if origin.text.is_empty() => error.into(),
+            Self::File(error) => {
+                let at = [Field("models"), Index(number), Field("path")];
+                origin.fault(&at, format!("{}: {}", entry.path, error.fault), None).into()
+            }
+            Self::Scene(error) => error.into(),
+        }
+    }
+}
+
 /// Loads a model and poses it.
-fn load_model(
+pub(super) fn load_model(
     origin: &Origin,
     number: usize,
     entry: &ModelFile,
     options: &ResolveOptions,
-) -> Result<Model, ResolveError> {
+) -> Result<Model, ModelFault> {
     let at = |field| [Field("models"), Index(number), Field(field)];
-    if !options.allow_outside && leaves_folder(Path::new(&entry.path)) {
-        let help = "keep models below the scene's folder, or allow others with --allow-outside";
+    if !origin.may_read(Path::new(&entry.path), &options.import.allow_outside) {
+        let help =
+            "keep models below the scene's folder, or allow another with --allow-outside DIR";
         let message = format!("the path \"{}\" leads out of the scene's folder", entry.path);
         return Err(origin.fault(&at("path"), message, Some(help.to_owned())).into());
     }
@@ -138,7 +169,7 @@ fn load_model(
         ..options.import.clone()
     };
     let loaded = load(&origin.folder.join(&entry.path), &import);
-    let mut model = loaded.map_err(|error| load_fault(origin, number, entry, error))?;
+    let mut model = loaded.map_err(|error| choice_fault(origin, number, entry, error))?;
     if entry.animation.is_some() || entry.time.is_some() {
         let field = if entry.animation.is_some() { "animation" } else { "time" };
         let fault = |(message, help)| origin.fault(&at(field), message, help);
@@ -148,24 +179,21 @@ fn load_model(
     Ok(model)
 }
 
-/// A model that cannot be loaded, told where the scene file asks for it, if there is one.
-fn load_fault(
+/// A scene or a variant that the model does not have is a mistake of the scene file, if there is one.
+fn choice_fault(
     origin: &Origin,
     number: usize,
     entry: &ModelFile,
     error: ImportError,
-) -> ResolveError {
-    let at = |field| [Field("models"), Index(number), Field(field)];
-    if origin.text.is_empty() {
-        return error.into();
-    }
-    if error.fault.kind != FaultKind::Choice {
-        return origin.fault(&at("path"), error.to_string(), None).into();
+) -> ModelFault {
+    if origin.text.is_empty() || error.fault.kind != FaultKind::Choice {
+        return ModelFault::File(error);
     }
     let scene = entry.scene.is_some() && error.fault.pointer == "/scenes";
     let field = if scene { "scene" } else { "variant" };
     let message = format!("{}: {}", entry.path, error.fault.problem);
-    origin.fault(&at(field), message, Some(error.fault.remedy)).into()
+    let at = [Field("models"), Index(number), Field(field)];
+    origin.fault(&at, message, Some(error.fault.remedy)).into()
 }
 
 /// The number of the animation that is wanted, or the first.
@@ -196,13 +224,8 @@ pub fn chosen_animation(
     })
 }
 
-fn leaves_folder(path: &Path) -> bool {
-    let stays = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
-    !path.components().all(stays)
-}
-
 /// Scale, then turns about x, y and z, then translation.
-fn placement(entry: &ModelFile) -> Affine<ModelSpace, World> {
+pub(super) fn placement(entry: &ModelFile) -> Affine<ModelSpace, World> {
     let [sx, sy, sz] = entry.scale.0;
     let [rx, ry, rz] = entry.rotate_degrees.0.map(f64::to_radians);
     Affine::<ModelSpace, ModelSpace>::scale(sx, sy, sz)
@@ -233,7 +256,11 @@ fn default_lights(shot: &Shot) -> Vec<Light> {
     ]
 }
 
-fn resolve_light(origin: &Origin, number: usize, light: &LightFile) -> Result<Light, SceneError> {
+pub(super) fn resolve_light(
+    origin: &Origin,
+    number: usize,
+    light: &LightFile,
+) -> Result<Light, SceneError> {
     let times = |strength: f64, color: [f64; 3]| color.map(|channel| (channel * strength) as f32);
     Ok(match *light {
         LightFile::Sun { direction, lux, color } => {

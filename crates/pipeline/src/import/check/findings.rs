@@ -57,14 +57,14 @@ impl Findings {
         }
     }
 
-    /// Whether something worse than a note is known of this very place, or of a place in it.
-    pub(super) fn knows(&self, pointer: &str) -> bool {
+    /// Whether something at least so bad is known of this very place, or of a place in it.
+    pub(super) fn knows(&self, worst: Severity, pointer: &str) -> bool {
         let lists = self.lists.borrow();
         let concerns = |problem: &Problem| {
             let rest = problem.pointer.strip_prefix(pointer);
             rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
         };
-        let worse = &lists[..Severity::Note as usize];
+        let worse = &lists[..=worst as usize];
         !pointer.is_empty() && worse.iter().any(|list| list.kept.iter().any(concerns))
     }
 
@@ -112,8 +112,10 @@ mod tests {
             findings.add(&codes::NON_RELATIVE_URI, format_args!("/images/{at}/uri"), "absolute");
         }
         findings.add(&codes::EMPTY_ENTITY, "é".repeat(10_000), "empty");
-        assert!(findings.knows("/accessors/1") && !findings.knows("/accessors/11"));
-        assert!(findings.knows("/accessors") && !findings.knows("/nodes/0") && !findings.knows(""));
+        let knows = |pointer| findings.knows(Severity::Warning, pointer);
+        assert!(knows("/accessors/1") && knows("/accessors") && knows("/images/7"));
+        assert!(!knows("/accessors/11") && !knows("/nodes/0") && !knows(""));
+        assert!(!findings.knows(Severity::Error, "/images/7"));
         let (problems, counts) = findings.into_parts();
         assert_eq!(counts, [3, 1_000_000, 1]);
         assert_eq!(problems.len(), 3 + KEPT + 1);

@@ -2,6 +2,7 @@
 
 use super::codes;
 use super::findings::Findings;
+use super::report::Severity;
 use crate::import::error::{Fault, FaultKind};
 use crate::model::Model;
 
@@ -15,7 +16,7 @@ pub(super) fn tell(loaded: Result<Model, Fault>, findings: &Findings) -> Option<
         }
     };
     for warning in &model.warnings {
-        if findings.knows(&warning.pointer) {
+        if findings.knows(Severity::Warning, &warning.pointer) {
             continue;
         }
         let is_extension = warning.pointer.starts_with("/extensions");
@@ -26,7 +27,7 @@ pub(super) fn tell(loaded: Result<Model, Fault>, findings: &Findings) -> Option<
 }
 
 fn tell_refusal(fault: &Fault, findings: &Findings) {
-    let is_told = findings.knows(&fault.pointer);
+    let is_told = findings.knows(Severity::Error, &fault.pointer);
     let has_errors = findings.has_errors();
     let code = match fault.kind {
         FaultKind::Extension => &codes::UNSUPPORTED_REQUIRED_EXTENSION,

@@ -182,12 +182,7 @@ impl Influences<'_> {
         Some(all)
     }
 
-    fn vertex(
-        &self,
-        sets: &[Set],
-        vertex: usize,
-        faults: &mut [[u64; 4]; MOST_SETS],
-    ) {
+    fn vertex(&self, sets: &[Set], vertex: usize, faults: &mut [[u64; 4]; MOST_SETS]) {
         let mut known = [0.0_f32; 4 * MOST_SETS];
         let (mut number, mut sum) = (0, 0.0_f64);
         for (set, (joints, weights)) in sets.iter().enumerate() {

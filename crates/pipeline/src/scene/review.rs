@@ -1,0 +1,41 @@
+//! All mistakes of a scene file, and not only the first.
+
+use super::error::SceneError;
+use super::file::SceneFile;
+use super::origin::Origin;
+use super::resolve::{ModelFault, load_model, placement, resolve_image, resolve_light};
+use super::viewpoint::resolve_shot;
+use super::{Placed, ResolveOptions};
+use std::sync::Arc;
+
+/// Everything that makes no sense in a scene file that has been parsed. Faults of the models' own files are not among
+/// it: [`check`](crate::import::check) tells those. With a model that cannot be loaded the camera is not looked at, for it may
+/// depend on it.
+#[must_use]
+pub fn review(origin: &Origin, file: &SceneFile, options: &ResolveOptions) -> Vec<SceneError> {
+    let mut mistakes = Vec::new();
+    let mut models = Vec::new();
+    for (number, entry) in file.models.iter().enumerate() {
+        match load_model(origin, number, entry, options) {
+            Ok(model) => {
+                models.push(Placed { model: Arc::new(model), model_to_world: placement(entry) })
+            }
+            Err(ModelFault::Scene(mistake)) => mistakes.push(mistake),
+            Err(ModelFault::File(_)) => {}
+        }
+    }
+    if file.models.is_empty() {
+        mistakes.push(super::resolve::no_model(origin));
+    }
+    match resolve_image(origin, file) {
+        Err(mistake) => mistakes.push(mistake),
+        Ok(image) if !models.is_empty() && models.len() == file.models.len() => {
+            mistakes.extend(resolve_shot(origin, &file.camera, &models, image).err());
+        }
+        Ok(_) => {}
+    }
+    let lights = file.lights.iter().flatten().enumerate();
+    mistakes.extend(lights.filter_map(|(at, light)| resolve_light(origin, at, light).err()));
+    mistakes.sort_by_key(|mistake| mistake.span.start);
+    mistakes
+}
