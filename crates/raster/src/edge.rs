@@ -53,7 +53,7 @@ mod tests {
     use super::*;
 
     fn v(x: i32, y: i32) -> ScreenVertex {
-        ScreenVertex { x, y, depth: 0.5, inv_w: 1.0 }
+        ScreenVertex::new(x, y, 0.5, 1.0).expect("on the grid")
     }
 
     #[test]

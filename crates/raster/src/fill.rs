@@ -4,7 +4,7 @@
 //! hides. Only where an edge runs through a block are its pixels asked for their coverage.
 
 use crate::plane::{BLOCKS, LANES, Plane};
-use crate::setup::{Setup, Start};
+use crate::setup::{Functions, Start};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, i32x8, mask32x8, u32x8};
 
@@ -15,7 +15,7 @@ impl Plane {
     /// Draws a solid triangle: where it is nearer than what is there, its depth and number take the place.
     #[inline(always)]
     pub(crate) fn fill<S: Simd>(&mut self, simd: S, lanes: &Lanes<S>, start: &Start, piece: u32) {
-        let Setup { x0, y0, x1, y1, .. } = lanes.setup;
+        let Functions { x0, y0, x1, y1, .. } = lanes.functions;
         let (columns, rows) = (x0 / 8..(x1 - 1) / 8 + 1, y0 / 8..(y1 - 1) / 8 + 1);
         if (columns.end - columns.start) * (rows.end - rows.start) > FEW {
             for row in rows {
@@ -26,11 +26,11 @@ impl Plane {
         for row in rows {
             for column in columns.clone() {
                 let block = Block::at(column, row);
-                let hidden = lanes.setup.greatest <= self.farthest[block.number];
+                let hidden = lanes.functions.greatest <= self.farthest[block.number];
                 if !hidden && !lanes.misses(start, block) {
                     self.fill_part(simd, lanes, start, block, piece);
                     let nearest = &mut self.nearest[block.number];
-                    *nearest = larger(*nearest, lanes.setup.greatest);
+                    *nearest = larger(*nearest, lanes.functions.greatest);
                 }
             }
         }
@@ -133,7 +133,7 @@ impl Plane {
             let inside = (edges[0] | edges[1] | edges[2]).simd_ge(i32x8::splat(simd, 0));
             let depth = along + lanes.depth_at_row(simd, start, block, row);
             self.keep_nearer(simd, block, row, lanes.clamp(depth), Some(inside), piece);
-            for (edge, step) in edges.iter_mut().zip(lanes.setup.b) {
+            for (edge, step) in edges.iter_mut().zip(lanes.functions.b) {
                 *edge += i32x8::splat(simd, step);
             }
         }
@@ -173,9 +173,9 @@ impl Plane {
         or_equal: bool,
         mut each: impl FnMut(&mut Self, usize, usize, usize, f32),
     ) {
-        let setup = &lanes.setup;
-        for block in blocks(setup) {
-            if setup.greatest < self.farthest[block.number] || lanes.misses(start, block) {
+        let functions = &lanes.functions;
+        for block in blocks(functions) {
+            if functions.greatest < self.farthest[block.number] || lanes.misses(start, block) {
                 continue;
             }
             let along = lanes.depth_along(simd, block);
@@ -191,7 +191,7 @@ impl Plane {
                     let lane = seen.trailing_zeros() as usize;
                     seen &= seen - 1;
                     let (x, y) = (block.x as usize + lane, block.y as usize + row);
-                    if (x as i32) < setup.x1 {
+                    if (x as i32) < functions.x1 {
                         each(self, first + lane, x, y, depth[lane]);
                     }
                 }
@@ -241,9 +241,11 @@ impl Block {
 
 /// The blocks that a triangle's bounds touch.
 #[inline(always)]
-fn blocks(setup: &Setup) -> impl Iterator<Item = Block> + use<> {
-    let (columns, rows) =
-        (setup.x0 / 8..(setup.x1 - 1) / 8 + 1, setup.y0 / 8..(setup.y1 - 1) / 8 + 1);
+fn blocks(functions: &Functions) -> impl Iterator<Item = Block> + use<> {
+    let (columns, rows) = (
+        functions.x0 / 8..(functions.x1 - 1) / 8 + 1,
+        functions.y0 / 8..(functions.y1 - 1) / 8 + 1,
+    );
     rows.flat_map(move |row| columns.clone().map(move |column| Block::at(column, row)))
 }
 
@@ -263,7 +265,7 @@ struct DepthOfBlocks<S: Simd> {
 
 /// A triangle's edges and depth for eight pixels of a row at once.
 pub(crate) struct Lanes<S: Simd> {
-    setup: Setup,
+    functions: Functions,
     /// 0 … 7.
     steps: i32x8<S>,
     /// 0 … 7.
@@ -275,10 +277,10 @@ pub(crate) struct Lanes<S: Simd> {
 
 impl<S: Simd> Lanes<S> {
     #[inline(always)]
-    pub(crate) fn new(simd: S, setup: &Setup) -> Self {
-        let Setup { dx, least, greatest, .. } = *setup;
+    pub(crate) fn new(simd: S, functions: &Functions) -> Self {
+        let Functions { dx, least, greatest, .. } = *functions;
         Self {
-            setup: *setup,
+            functions: *functions,
             steps: [0, 1, 2, 3, 4, 5, 6, 7].simd_into(simd),
             iota: [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0].simd_into(simd),
             dx: f32x8::splat(simd, dx),
@@ -290,7 +292,7 @@ impl<S: Simd> Lanes<S> {
     /// Edge k at a pixel.
     #[inline(always)]
     fn edge(&self, k: usize, start: &Start, x: i32, y: i32) -> i32 {
-        start.e[k] + self.setup.a[k] * x + self.setup.b[k] * y
+        start.e[k] + self.functions.a[k] * x + self.functions.b[k] * y
     }
 
     /// The edges at the eight pixels of a row of a block.
@@ -298,7 +300,7 @@ impl<S: Simd> Lanes<S> {
     fn edges(&self, simd: S, start: &Start, block: Block, row: usize) -> [i32x8<S>; 3] {
         let edge = |k: usize| {
             let first = self.edge(k, start, block.x, block.y + row as i32);
-            self.steps * i32x8::splat(simd, self.setup.a[k]) + i32x8::splat(simd, first)
+            self.steps * i32x8::splat(simd, self.functions.a[k]) + i32x8::splat(simd, first)
         };
         [edge(0), edge(1), edge(2)]
     }
@@ -307,7 +309,7 @@ impl<S: Simd> Lanes<S> {
     #[inline(always)]
     fn misses(&self, start: &Start, block: Block) -> bool {
         (0..3).any(|k| {
-            let innermost = 7 * (self.setup.a[k].max(0) + self.setup.b[k].max(0));
+            let innermost = 7 * (self.functions.a[k].max(0) + self.functions.b[k].max(0));
             self.edge(k, start, block.x, block.y) + innermost < 0
         })
     }
@@ -315,8 +317,8 @@ impl<S: Simd> Lanes<S> {
     /// The rows of a block that the bounds touch.
     #[inline(always)]
     fn rows(&self, block: Block) -> core::ops::Range<usize> {
-        let first = (self.setup.y0 - block.y).max(0) as usize;
-        let end = (self.setup.y1 - block.y).min(LANES as i32) as usize;
+        let first = (self.functions.y0 - block.y).max(0) as usize;
+        let end = (self.functions.y1 - block.y).min(LANES as i32) as usize;
         first..end
     }
 
@@ -324,7 +326,7 @@ impl<S: Simd> Lanes<S> {
     /// no edge excludes the corner that is farthest outside.
     #[inline(always)]
     fn cover_blocks(&self, simd: S, start: &Start, row: i32) -> BlockCoverage<S> {
-        let Setup { a, b, x0, x1, .. } = self.setup;
+        let Functions { a, b, x0, x1, .. } = self.functions;
         let mut innermost = i32x8::splat(simd, 0);
         let mut outermost = i32x8::splat(simd, 0);
         for k in 0..3 {
@@ -344,7 +346,7 @@ impl<S: Simd> Lanes<S> {
     /// no sample between them is beyond.
     #[inline(always)]
     fn depth_of_blocks(&self, simd: S, start: &Start, row: i32) -> DepthOfBlocks<S> {
-        let Setup { x0, y0, dx, dy, .. } = self.setup;
+        let Functions { x0, y0, dx, dy, .. } = self.functions;
         let at_row = |y: i32| start.z + dy * (row * 8 + y - y0) as f32;
         let (lower, upper) = if dy < 0.0 { (7, 0) } else { (0, 7) };
         let (left, right) = if dx < 0.0 { (7, 0) } else { (0, 7) };
@@ -361,13 +363,13 @@ impl<S: Simd> Lanes<S> {
     /// The depth's first share, that of the columns of a block; the other is that of the row.
     #[inline(always)]
     fn depth_along(&self, simd: S, block: Block) -> f32x8<S> {
-        self.dx * (self.iota + f32x8::splat(simd, (block.x - self.setup.x0) as f32))
+        self.dx * (self.iota + f32x8::splat(simd, (block.x - self.functions.x0) as f32))
     }
 
     #[inline(always)]
     fn depth_at_row(&self, simd: S, start: &Start, block: Block, row: usize) -> f32x8<S> {
-        let y = block.y + row as i32 - self.setup.y0;
-        f32x8::splat(simd, start.z + self.setup.dy * y as f32)
+        let y = block.y + row as i32 - self.functions.y0;
+        f32x8::splat(simd, start.z + self.functions.dy * y as f32)
     }
 
     /// Depth cut off at the depths of the corners.
@@ -380,7 +382,7 @@ impl<S: Simd> Lanes<S> {
     /// Whether the bounds hold the whole block, so that its farthest sample may have come nearer.
     #[inline(always)]
     fn bounds_hold(&self, block: Block) -> bool {
-        let Setup { x0, y0, x1, y1, .. } = self.setup;
+        let Functions { x0, y0, x1, y1, .. } = self.functions;
         x0 <= block.x && y0 <= block.y && x1 >= block.x + 8 && y1 >= block.y + 8
     }
 }

@@ -39,7 +39,7 @@ impl<'a> Fragment<'a> {
     ) -> Self {
         // With the centre outside, the nearest place is near enough: its share of a corner just does not go below 0.
         let areas = areas(piece.corners, center(x), center(y)).map(|area| area.max(0.0));
-        let parts = [0, 1, 2].map(|k| areas[k] * piece.corners[k].inv_w);
+        let parts = [0, 1, 2].map(|k| areas[k] * piece.corners[k].inv_w());
         let per_sum = 1.0 / (parts[0] + parts[1] + parts[2]);
         let shares = parts.map(|part| part * per_sum);
         let weights = in_source(piece, source_weights, shares);
@@ -72,7 +72,7 @@ impl<'a> Fragment<'a> {
 pub(crate) fn steps_right(piece: &Piece) -> [f32; 3] {
     let [p, q, r] = &piece.corners;
     let step = |a: i32, b: i32, inv_w: f32| (a - b) as f32 * SUBPIXELS as f32 * inv_w;
-    [step(q.y, r.y, p.inv_w), step(r.y, p.y, q.inv_w), step(p.y, q.y, r.inv_w)]
+    [step(q.y, r.y, p.inv_w()), step(r.y, p.y, q.inv_w()), step(p.y, q.y, r.inv_w())]
 }
 
 /// The same from pixel to pixel downwards.
@@ -80,7 +80,7 @@ pub(crate) fn steps_right(piece: &Piece) -> [f32; 3] {
 pub(crate) fn steps_down(piece: &Piece) -> [f32; 3] {
     let [p, q, r] = &piece.corners;
     let step = |a: i32, b: i32, inv_w: f32| (a - b) as f32 * SUBPIXELS as f32 * inv_w;
-    [step(r.x, q.x, p.inv_w), step(p.x, r.x, q.inv_w), step(q.x, p.x, r.inv_w)]
+    [step(r.x, q.x, p.inv_w()), step(p.x, r.x, q.inv_w()), step(q.x, p.x, r.inv_w())]
 }
 
 /// The grid position of a pixel's centre, in a row or in a column.

@@ -140,8 +140,8 @@ impl Weights<'_> {
                 *steps = [step; WIDE];
             }
         } else {
-            for lane in 0..WIDE {
-                let [p, q, r] = steps_of(self.pieces[lane]);
+            for (lane, piece) in self.pieces.iter().enumerate() {
+                let [p, q, r] = steps_of(piece);
                 steps[0][lane] = p;
                 steps[1][lane] = q;
                 steps[2][lane] = r;
@@ -230,7 +230,7 @@ impl Corners {
                 *dx = first - f64::from(lane as i32 * SUBPIXELS);
             }
             corners.dy[k] = [f64::from(corner.y - cy); WIDE];
-            corners.inv_w[k] = [corner.inv_w; WIDE];
+            corners.inv_w[k] = [corner.inv_w(); WIDE];
         }
         corners
     }
@@ -244,7 +244,7 @@ impl Corners {
             for (k, corner) in piece.corners.iter().enumerate() {
                 corners.dx[k][lane] = f64::from(corner.x - cx);
                 corners.dy[k][lane] = f64::from(corner.y - cy);
-                corners.inv_w[k][lane] = corner.inv_w;
+                corners.inv_w[k][lane] = corner.inv_w();
             }
         }
         corners

@@ -1,7 +1,8 @@
 //! A frame: the primitives of one picture, in the order in which they were given.
 
+use crate::edge::signed_area;
 use crate::grid::Part;
-use crate::primitive::{Piece, Source, clockwise, line_pieces, point_pieces, with_usual_w};
+use crate::primitive::{Piece, Source, line_pieces, point_pieces, with_usual_w};
 use crate::vertex::SUBPIXEL_BITS;
 use crate::{Cover, Cull, Instructions, RasterError, Samples, ScreenVertex, SourceWeights};
 
@@ -56,6 +57,12 @@ impl Frame {
         Self { instructions, ..self }
     }
 
+    /// The instructions that it is drawn with.
+    #[must_use]
+    pub const fn instructions(&self) -> Instructions {
+        self.instructions
+    }
+
     /// Takes all primitives out again and keeps the memory for the next picture.
     pub fn clear(&mut self) {
         self.pieces.clear();
@@ -77,7 +84,7 @@ impl Frame {
     /// Adds a whole triangle; its corners may run either way. Leave out those that face away, if they are to be
     /// invisible: see [`signed_area`](crate::signed_area).
     pub fn triangle(&mut self, corners: [ScreenVertex; 3], id: u32, cover: Cover) {
-        self.push(corners, None, id, cover);
+        self.push_whole(corners, signed_area(corners), id, cover);
     }
 
     /// Adds the triangles of a mesh, named `first_id` and so on in their order. Triangles with a vertex that is missing, or
@@ -91,11 +98,12 @@ impl Frame {
         cover: Cover,
         cull: Cull,
     ) {
-        for (id, corners) in (first_id..).zip(triangles) {
-            let [p, q, r] = corners.map(|n| vertices.get(n as usize).copied().flatten());
-            let (Some(p), Some(q), Some(r)) = (p, q, r) else { continue };
-            if cull.keeps([p, q, r]) {
-                self.triangle([p, q, r], id, cover);
+        let vertex = |n: u32| vertices.get(n as usize).copied().flatten();
+        for (id, &[p, q, r]) in (first_id..).zip(triangles) {
+            let (Some(p), Some(q), Some(r)) = (vertex(p), vertex(q), vertex(r)) else { continue };
+            let area = signed_area([p, q, r]);
+            if cull.keeps(area) {
+                self.push_whole([p, q, r], area, id, cover);
             }
         }
     }
@@ -108,13 +116,13 @@ impl Frame {
         id: u32,
         cover: Cover,
     ) {
-        self.push(corners, Some(weights), id, cover);
+        self.push_piece(corners, weights, id, cover);
     }
 
     /// Adds a line `width` pixels wide. Its fragments have weights of the two ends, and 0 for the third corner.
     pub fn line(&mut self, ends: [ScreenVertex; 2], width: f64, id: u32, cover: Cover) {
         for (corners, weights) in line_pieces(ends, width).into_iter().flatten() {
-            self.push(corners, Some(weights), id, cover);
+            self.push_piece(corners, weights, id, cover);
         }
     }
 
@@ -131,41 +139,49 @@ impl Frame {
         let source = places.map(|t| [1.0 - t, t, 0.0]);
         for (corners, weights) in line_pieces(ends, width).into_iter().flatten() {
             let at_end = |weight: [f32; 3]| if weight[0] > 0.0 { source[0] } else { source[1] };
-            self.push(corners, Some(weights.map(at_end)), id, cover);
+            self.push_piece(corners, weights.map(at_end), id, cover);
         }
     }
 
     /// Adds a point as a square of `size` pixels. Its fragments have the weights (1, 0, 0).
     pub fn point(&mut self, center: ScreenVertex, size: f64, id: u32, cover: Cover) {
-        let pieces = center.is_drawable().then(|| point_pieces(center, size));
-        for (corners, weights) in pieces.into_iter().flatten() {
-            self.push(corners, Some(weights), id, cover);
+        for (corners, weights) in point_pieces(center, size) {
+            self.push_piece(corners, weights, id, cover);
         }
     }
 
-    fn push(
-        &mut self,
-        corners: [ScreenVertex; 3],
-        weights: Option<SourceWeights>,
-        id: u32,
-        cover: Cover,
-    ) {
-        if !corners.iter().all(ScreenVertex::is_drawable) || !self.may_touch_a_sample(corners) {
+    #[inline(always)]
+    fn push_whole(&mut self, [p, q, r]: [ScreenVertex; 3], area: i64, id: u32, cover: Cover) {
+        if area == 0 || !self.may_touch_a_sample([p, q, r]) {
             return;
         }
-        let Some((corners, turned)) = clockwise(corners) else { return };
-        let source = match (weights, turned) {
-            (None, false) => Source::Whole,
-            (None, true) => Source::Turned,
-            (Some([p, q, r]), turned) => {
-                self.source_weights.push(if turned { [p, r, q] } else { [p, q, r] });
-                Source::Weights(self.source_weights.len() as u32 - 1)
-            }
-        };
+        let (corners, source) =
+            if area > 0 { ([p, q, r], Source::Whole) } else { ([p, r, q], Source::Turned) };
         self.pieces.push(Piece { corners: with_usual_w(corners), id, source, cover });
     }
 
+    fn push_piece(
+        &mut self,
+        corners: [ScreenVertex; 3],
+        [at_p, at_q, at_r]: SourceWeights,
+        id: u32,
+        cover: Cover,
+    ) {
+        let [p, q, r] = corners;
+        let (corners, weights) = match signed_area(corners) {
+            0 => return,
+            1.. => (corners, [at_p, at_q, at_r]),
+            _ => ([p, r, q], [at_p, at_r, at_q]),
+        };
+        if self.may_touch_a_sample(corners) {
+            let source = Source::Weights(self.source_weights.len() as u32);
+            self.source_weights.push(weights);
+            self.pieces.push(Piece { corners: with_usual_w(corners), id, source, cover });
+        }
+    }
+
     /// Whether the triangle's bounds may hold a sample: of meshes finer than the pixels most triangles hold none.
+    #[inline(always)]
     fn may_touch_a_sample(&self, [p, q, r]: [ScreenVertex; 3]) -> bool {
         let (least, greatest) = self.samples.reach();
         let holds = |a: i32, b: i32, c: i32| {

@@ -40,6 +40,7 @@
 //! # Ok::<(), raster::RasterError>(())
 //! ```
 
+mod batch;
 mod bins;
 mod draw;
 mod edge;
@@ -55,6 +56,7 @@ mod primitive;
 mod resolve;
 mod samples;
 mod setup;
+mod snap;
 mod tile;
 mod vertex;
 mod visibility;

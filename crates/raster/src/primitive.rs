@@ -1,7 +1,6 @@
 //! What a frame is made of: triangles, and lines and points turned into triangles.
 
 use crate::ScreenVertex;
-use crate::edge::signed_area;
 use crate::vertex::{GRID, SUBPIXELS};
 
 /// How a primitive takes part in visibility.
@@ -29,11 +28,13 @@ pub enum Cull {
 }
 
 impl Cull {
-    pub(crate) fn keeps(self, corners: [ScreenVertex; 3]) -> bool {
+    /// Whether a triangle with this signed area is kept.
+    #[inline(always)]
+    pub(crate) const fn keeps(self, area: i64) -> bool {
         match self {
             Self::Nothing => true,
-            Self::Clockwise => signed_area(corners) < 0,
-            Self::CounterClockwise => signed_area(corners) > 0,
+            Self::Clockwise => area < 0,
+            Self::CounterClockwise => area > 0,
         }
     }
 }
@@ -73,25 +74,16 @@ pub(crate) enum Source {
     Weights(u32),
 }
 
-/// A triangle with its corners clockwise on the screen, and whether the second and the third had to be exchanged for
-/// that; `None` if it covers nothing.
-pub(crate) fn clockwise([p, q, r]: [ScreenVertex; 3]) -> Option<([ScreenVertex; 3], bool)> {
-    match signed_area([p, q, r]) {
-        0 => None,
-        1.. => Some(([p, q, r], false)),
-        _ => Some(([p, r, q], true)),
-    }
-}
-
 /// The sizes of 1/w with which no product on the way to weights and their derivatives over- or underflows.
 const USUAL: core::ops::RangeInclusive<f32> = 1.0 / LARGE..=LARGE;
 /// 2⁴⁰.
 const LARGE: f32 = 1_099_511_627_776.0;
 
 /// The corners, with 1/w near 1 if it was very large or very small: weights depend on its ratios alone.
-#[inline]
+#[inline(always)]
 pub(crate) fn with_usual_w(corners: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
-    if corners.iter().all(|corner| USUAL.contains(&corner.inv_w)) {
+    let is_usual = |corner: &ScreenVertex| USUAL.contains(&corner.inv_w());
+    if is_usual(&corners[0]) & is_usual(&corners[1]) & is_usual(&corners[2]) {
         return corners;
     }
     with_largest_one(corners)
@@ -100,12 +92,12 @@ pub(crate) fn with_usual_w(corners: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
 /// The corners with 1 as the largest 1/w. None becomes so small that a weight between the others has nothing to be divided by.
 #[cold]
 fn with_largest_one(corners: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
-    let [p, q, r] = corners.map(|corner| f64::from(corner.inv_w));
+    let [p, q, r] = corners.map(|corner| f64::from(corner.inv_w()));
     let largest = p.max(q).max(r);
     let least = 1.0 / (LARGE * LARGE);
     corners.map(|corner| {
-        let share = (f64::from(corner.inv_w) / largest) as f32;
-        ScreenVertex { inv_w: share.max(least), ..corner }
+        let share = (f64::from(corner.inv_w()) / largest) as f32;
+        ScreenVertex::new(corner.x, corner.y, corner.depth, share.max(least)).unwrap_or(corner)
     })
 }
 
@@ -118,7 +110,7 @@ pub(crate) fn line_pieces(
 ) -> [Option<([ScreenVertex; 3], SourceWeights)>; 2] {
     let (dx, dy) = (f64::from(b.x) - f64::from(a.x), f64::from(b.y) - f64::from(a.y));
     let length = (dx * dx + dy * dy).sqrt();
-    if length == 0.0 || !a.is_drawable() || !b.is_drawable() {
+    if length == 0.0 {
         return [None, None];
     }
     let reach = 0.5 * width * f64::from(SUBPIXELS) / length;
@@ -147,5 +139,7 @@ fn moved(vertex: ScreenVertex, dx: f64, dy: f64) -> ScreenVertex {
     let shift = |from: i32, by: f64| {
         from.saturating_add((by + 0.5).floor() as i32).clamp(*GRID.start(), *GRID.end())
     };
-    ScreenVertex { x: shift(vertex.x, dx), y: shift(vertex.y, dy), ..vertex }
+    let mut moved = vertex;
+    (moved.x, moved.y) = (shift(vertex.x, dx), shift(vertex.y, dy));
+    moved
 }

@@ -65,10 +65,15 @@ impl<S: Surface> Resolve<'_, S> {
         let TileRect { x, left, top, right, bottom, .. } = self.rect;
         let Part { x: from, width, .. } = self.frame.part;
         let empty = encode.pixel(self.background);
+        let is_empty = self.tile.is_empty();
         let mut layers = self.tile.layers.as_slice();
         for y in top..bottom {
             let start = (y - top) as usize * width as usize + (x + left - from) as usize;
             let Some(row) = band.get_mut(start..start + (right - left) as usize) else { return };
+            if is_empty {
+                row.fill(empty);
+                continue;
+            }
             let over;
             (over, layers) = split_before(layers, ((y + 1) * TILE) as usize);
             self.write_row(y, over, row, empty, encode, scratch);
@@ -133,31 +138,42 @@ impl<S: Surface> Resolve<'_, S> {
         empty: P,
         encode: &impl Encode<P>,
     ) {
-        let Some(&any) = pieces.iter().find(|piece| **piece != NOTHING) else {
+        let mut differs = 0;
+        for piece in pieces {
+            differs |= piece ^ pieces[0];
+        }
+        if differs == 0 && pieces[0] == NOTHING {
             targets.fill(empty);
             return;
-        };
-        let [r, g, b, _] = self.shade_row(run, pieces, any);
-        let mut pixels = encode.eight(&[r, g, b, [1.0; WIDE]]);
-        for (pixel, piece) in pixels.iter_mut().zip(pieces) {
-            *pixel = if piece == NOTHING { empty } else { *pixel };
         }
-        let first = (run.lanes.start - run.block()) as usize;
-        targets.copy_from_slice(&pixels[first..first + targets.len()]);
+        let (x, y) = (self.rect.x + run.block(), self.rect.y + run.y);
+        let [r, g, b, _] = if differs == 0 {
+            let piece = self.piece(pieces[0]);
+            self.surface.shade_eight(&Fragments::of_one(piece, &self.frame.source_weights, x, y))
+        } else {
+            self.shade_several(pieces, x, y)
+        };
+        let mut pixels = encode.eight(&[r, g, b, [1.0; WIDE]]);
+        if differs != 0 {
+            for (pixel, piece) in pixels.iter_mut().zip(pieces) {
+                *pixel = if piece == NOTHING { empty } else { *pixel };
+            }
+        }
+        if let Ok(targets) = <&mut [P; WIDE]>::try_from(&mut *targets) {
+            *targets = pixels;
+        } else {
+            let first = (run.lanes.start - run.block()) as usize;
+            targets.copy_from_slice(&pixels[first..first + targets.len()]);
+        }
     }
 
-    /// Shades a row of a block; `any` stands in for the pieces that are not there.
+    /// Shades eight pixels from (x, y) to the right, not all of which show the same; those that show nothing get any colour.
     #[inline(always)]
-    fn shade_row(&self, run: &Run<'_>, pieces: [u32; WIDE], any: u32) -> [Eight; 4] {
-        let (x, y) = (self.rect.x + run.block(), self.rect.y + run.y);
-        let weights = &self.frame.source_weights;
-        let mut is_one = true;
+    fn shade_several(&self, pieces: [u32; WIDE], x: u32, y: u32) -> [Eight; 4] {
+        // Nothing is the largest number: the least is a piece.
+        let mut any = NOTHING;
         for piece in pieces {
-            is_one &= piece == any || piece == NOTHING;
-        }
-        if is_one {
-            let piece = self.piece(any);
-            return self.surface.shade_eight(&Fragments::of_one(piece, weights, x, y));
+            any = any.min(piece);
         }
         let mut seen = [self.piece(any); WIDE];
         let mut columns = [0; WIDE];
@@ -167,7 +183,8 @@ impl<S: Surface> Resolve<'_, S> {
                 seen[lane] = self.piece(pieces[lane]);
             }
         }
-        self.surface.shade_eight(&Fragments::of_each(seen, weights, columns, y))
+        let fragments = Fragments::of_each(seen, &self.frame.source_weights, columns, y);
+        self.surface.shade_eight(&fragments)
     }
 
     #[inline(always)]

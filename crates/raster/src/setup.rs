@@ -10,11 +10,9 @@ use crate::grid::TileRect;
 use crate::primitive::Piece;
 use crate::vertex::{SUBPIXEL_BITS, SUBPIXELS};
 
-/// A triangle as one tile sees it. Pixels are counted from the tile's corner.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Setup {
-    /// The edge functions.
-    edges: [Edge; 3],
+/// A triangle as one tile sees it, whatever the sample. Pixels are counted from the tile's corner.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Functions {
     /// The step of E/256 per pixel to the right, for each edge.
     pub(crate) a: [i32; 3],
     /// The step of E/256 per pixel down.
@@ -31,13 +29,21 @@ pub(crate) struct Setup {
     /// The depth of the corner that is farthest and of the one that is nearest.
     pub(crate) least: f32,
     pub(crate) greatest: f32,
+}
+
+/// A triangle prepared for a tile.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Setup {
+    pub(crate) functions: Functions,
+    /// The edge functions.
+    edges: [Edge; 3],
     /// The grid position of the tile's corner.
     origin: (i64, i64),
     depth: DepthPlane,
 }
 
 /// What differs from sample plane to sample plane: where a triangle's functions start.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Start {
     /// ⌊E/256⌋ at the sample of pixel (0, 0), for each edge.
     pub(crate) e: [i32; 3],
@@ -78,8 +84,7 @@ impl Setup {
         }
         let edges = [Edge::new(p, q), Edge::new(q, r), Edge::new(r, p)];
         let depth = DepthPlane::new(piece);
-        Some(Self {
-            edges,
+        let functions = Functions {
             a: edges.map(|edge| edge.a as i32),
             b: edges.map(|edge| edge.b as i32),
             x0,
@@ -90,9 +95,9 @@ impl Setup {
             dy: (depth.dy * f64::from(SUBPIXELS)) as f32,
             least: p.depth.min(q.depth).min(r.depth),
             greatest: p.depth.max(q.depth).max(r.depth),
-            origin: (i64::from(origin.0), i64::from(origin.1)),
-            depth,
-        })
+        };
+        let origin = (i64::from(origin.0), i64::from(origin.1));
+        Some(Self { functions, edges, origin, depth })
     }
 
     /// Where the functions start for the samples at `offset` (grid steps) from the upper left corners of their pixels.
@@ -101,7 +106,7 @@ impl Setup {
         let (x, y) = (self.origin.0 + offset.0, self.origin.1 + offset.1);
         let quotient = |edge: Edge| (edge.at(x, y) >> SUBPIXEL_BITS).clamp(-limit, limit) as i32;
         let pixels = |count: i32| i64::from(count) * i64::from(SUBPIXELS);
-        let corner = (x + pixels(self.x0), y + pixels(self.y0));
+        let corner = (x + pixels(self.functions.x0), y + pixels(self.functions.y0));
         Start { e: self.edges.map(quotient), z: self.depth.at(corner) as f32 }
     }
 }

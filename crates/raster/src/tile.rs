@@ -1,5 +1,6 @@
 //! Visibility in one tile: for each sample, how near the nearest solid surface is and which it is.
 
+use crate::batch::{self, Batch, Starts};
 use crate::fill::Lanes;
 use crate::grid::{TILE, TileRect};
 use crate::plane::{LANES, NOTHING, Plane};
@@ -25,9 +26,18 @@ pub(crate) struct Tile {
     pub(crate) layers: Vec<Layer>,
     /// A depth that no sample of any plane is farther than: what lies behind it is hidden.
     hidden: f32,
+    /// Whether nothing was drawn; the planes are then not to be read.
+    is_empty: bool,
+    /// Where the functions of eight triangles start, for each plane.
+    starts: Vec<Starts>,
 }
 
 impl Tile {
+    /// Whether nothing was drawn; there is then nothing else to ask for.
+    pub(crate) const fn is_empty(&self) -> bool {
+        self.is_empty
+    }
+
     /// The piece seen by a sample of a pixel ([`index_of`](crate::plane::index_of) says where it is); [`NOTHING`](crate::plane::NOTHING) for the background.
     pub(crate) fn piece(&self, sample: usize, at: usize) -> u32 {
         self.planes[sample].piece[at]
@@ -54,6 +64,11 @@ impl Tile {
         bin: &[u32],
         surface: &impl Surface,
     ) {
+        self.is_empty = bin.is_empty();
+        if self.is_empty {
+            self.layers.clear();
+            return;
+        }
         self.planes.resize_with(frame.samples.count(), Plane::new);
         self.planes.iter_mut().for_each(|plane| plane.clear(rect));
         self.hidden = f32::NEG_INFINITY;
@@ -72,11 +87,21 @@ impl Tile {
         surface: &impl Surface,
     ) {
         let mut translucent = false;
-        for &index in bin {
-            match frame.pieces[index as usize].cover {
-                Cover::Solid => self.solid(simd, frame, rect, index),
-                Cover::Masked => self.masked(simd, frame, rect, index, surface),
-                Cover::Translucent => translucent = true,
+        for some in bin.chunks(batch::COUNT) {
+            let mut pieces = [&frame.pieces[some[0] as usize]; batch::COUNT];
+            for (piece, &index) in pieces.iter_mut().zip(some) {
+                *piece = &frame.pieces[index as usize];
+            }
+            let batch = Batch::new(pieces, rect, frame.samples.reach());
+            self.starts.clear();
+            self.starts.extend(frame.samples.offsets().map(|offset| batch.starts(offset)));
+            for (lane, &index) in some.iter().enumerate() {
+                match pieces[lane].cover {
+                    Cover::Solid if batch.has(lane) => self.small(simd, &batch, lane, index),
+                    Cover::Solid => self.solid(simd, frame, rect, index),
+                    Cover::Masked => self.masked(simd, frame, rect, index, surface),
+                    Cover::Translucent => translucent = true,
+                }
             }
         }
         if translucent {
@@ -88,6 +113,19 @@ impl Tile {
         }
     }
 
+    /// One of eight small triangles that were prepared at once.
+    #[inline(always)]
+    fn small<S: Simd>(&mut self, simd: S, batch: &Batch, lane: usize, index: u32) {
+        let functions = batch.functions(lane);
+        if batch.is_outside(lane) || functions.greatest <= self.hidden {
+            return;
+        }
+        let lanes = Lanes::new(simd, &functions);
+        for (plane, starts) in self.planes.iter_mut().zip(&self.starts) {
+            plane.fill(simd, &lanes, &starts.of(lane), index);
+        }
+    }
+
     #[inline(always)]
     fn solid<S: Simd>(&mut self, simd: S, frame: &Frame, rect: TileRect, index: u32) {
         let piece = &frame.pieces[index as usize];
@@ -95,7 +133,7 @@ impl Tile {
             return;
         }
         let Some(setup) = Setup::new(piece, rect, frame.samples.reach()) else { return };
-        let lanes = Lanes::new(simd, &setup);
+        let lanes = Lanes::new(simd, &setup.functions);
         let mut hidden = f32::INFINITY;
         for (plane, offset) in self.planes.iter_mut().zip(frame.samples.offsets()) {
             plane.fill(simd, &lanes, &setup.start(offset), index);
@@ -115,7 +153,7 @@ impl Tile {
     ) {
         let piece = &frame.pieces[index as usize];
         let Some(setup) = Setup::new(piece, rect, frame.samples.reach()) else { return };
-        let lanes = Lanes::new(simd, &setup);
+        let lanes = Lanes::new(simd, &setup.functions);
         for (plane, offset) in self.planes.iter_mut().zip(frame.samples.offsets()) {
             plane.visit(simd, &lanes, &setup.start(offset), false, |plane, at, x, y, depth| {
                 let (px, py) = (rect.x + x as u32, rect.y + y as u32);
@@ -132,7 +170,7 @@ impl Tile {
     fn translucent<S: Simd>(&mut self, simd: S, frame: &Frame, rect: TileRect, index: u32) {
         let piece = &frame.pieces[index as usize];
         let Some(setup) = Setup::new(piece, rect, frame.samples.reach()) else { return };
-        let lanes = Lanes::new(simd, &setup);
+        let lanes = Lanes::new(simd, &setup.functions);
         let first = self.layers.len();
         let Self { planes, layers, .. } = self;
         let samples = planes.iter_mut().zip(frame.samples.offsets()).enumerate();

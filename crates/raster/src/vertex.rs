@@ -3,6 +3,7 @@
 //! Coverage is decided by integers: a vertex is moved to the nearest multiple of 1/256 pixel once, and from there on
 //! every edge function is exact. Vertices that triangles share are snapped alike, so no gap can open between them.
 
+use core::num::NonZeroU32;
 use homog::{Point, Screen};
 
 /// The bits of a coordinate behind the binary point: the grid is 1/256 pixel.
@@ -21,41 +22,61 @@ pub(crate) const GRID: core::ops::RangeInclusive<i32> = -8192 * SUBPIXELS..=2457
 /// The greatest size of a depth. With it no step in the evaluation of a depth plane overflows.
 const MAX_DEPTH: f32 = 1_048_576.0;
 
-/// A vertex after the viewport: x to the right and y down in 1/256 pixel, depth, and 1/w.
+/// A vertex after the viewport: x to the right and y down in 1/256 pixel, depth, and 1/w. Always one that can be drawn.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ScreenVertex {
-    /// Grid steps from the left border of the picture.
-    pub x: i32,
-    /// Grid steps from the top border of the picture.
-    pub y: i32,
-    /// The depth: 1 at the near plane, 0 at the far plane; larger is nearer.
-    pub depth: f32,
-    /// One over the clip-space w: makes weights perspective-correct (IN-2). Always 1 in parallel projections.
-    pub inv_w: f32,
+    pub(crate) x: i32,
+    pub(crate) y: i32,
+    pub(crate) depth: f32,
+    /// The bits of 1/w: it is positive, so they are not all 0, and `None` needs no room of its own.
+    inv_w: NonZeroU32,
 }
 
 impl ScreenVertex {
+    /// A vertex on the grid; `None` if it cannot be drawn: it lies outside of [`GUARD_BAND`], its depth is beyond ±2²⁰, or
+    /// 1/w is not positive and finite.
+    #[inline]
+    #[must_use]
+    pub fn new(x: i32, y: i32, depth: f32, inv_w: f32) -> Option<Self> {
+        let on_grid = GRID.contains(&x) & GRID.contains(&y);
+        let is_drawable = on_grid & (depth.abs() <= MAX_DEPTH) & (inv_w > 0.0) & inv_w.is_finite();
+        let inv_w = NonZeroU32::new(inv_w.to_bits())?;
+        is_drawable.then_some(Self { x, y, depth, inv_w })
+    }
+
     /// Snaps a point of the screen (pixels, y down; z is the depth) with the clip-space w it was divided by.
     ///
     /// `None` if the point cannot be drawn: a coordinate is not finite, lies outside of [`GUARD_BAND`], the depth is beyond
     /// ±2²⁰, or w is not positive. Geometry that was clipped to the view volume and a guard band always can.
     #[must_use]
     pub fn snap(point: Point<Screen>, w: f64) -> Option<Self> {
-        let vertex = Self {
-            x: to_grid(point.x())?,
-            y: to_grid(point.y())?,
-            depth: point.z() as f32,
-            inv_w: (1.0 / w) as f32,
-        };
-        vertex.is_drawable().then_some(vertex)
+        let (x, y) = (to_grid(point.x())?, to_grid(point.y())?);
+        Self::new(x, y, point.z() as f32, (1.0 / w) as f32)
     }
 
-    /// Whether the vertex is one that [`snap`](Self::snap) might have made. Primitives with others are not drawn.
+    /// Grid steps from the left border of the picture.
     #[must_use]
-    pub fn is_drawable(&self) -> bool {
-        let on_grid = GRID.contains(&self.x) && GRID.contains(&self.y);
-        let measured = self.depth.abs() <= MAX_DEPTH;
-        on_grid && measured && self.inv_w > 0.0 && self.inv_w.is_finite()
+    pub const fn x(&self) -> i32 {
+        self.x
+    }
+
+    /// Grid steps from the top border of the picture.
+    #[must_use]
+    pub const fn y(&self) -> i32 {
+        self.y
+    }
+
+    /// The depth: 1 at the near plane, 0 at the far plane; larger is nearer.
+    #[must_use]
+    pub const fn depth(&self) -> f32 {
+        self.depth
+    }
+
+    /// One over the clip-space w: makes weights perspective-correct (IN-2). Always 1 in parallel projections.
+    #[inline(always)]
+    #[must_use]
+    pub const fn inv_w(&self) -> f32 {
+        f32::from_bits(self.inv_w.get())
     }
 }
 

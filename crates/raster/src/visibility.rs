@@ -58,6 +58,9 @@ impl Frame {
         for (column, row) in (top..bottom).flat_map(|row| (left..right).map(move |c| (c, row))) {
             let rect = self.part.tile(column, row);
             tile.fill(self, rect, bins.of(column, row), &Whole);
+            if tile.is_empty() {
+                continue;
+            }
             for (x, y) in
                 (rect.top..rect.bottom).flat_map(|y| (rect.left..rect.right).map(move |x| (x, y)))
             {

@@ -8,14 +8,14 @@ const SIDE: u32 = 24;
 
 /// A vertex on the grid of 1/256 pixel.
 fn vertex(x: i32, y: i32) -> ScreenVertex {
-    ScreenVertex { x, y, depth: 0.5, inv_w: 1.0 }
+    ScreenVertex::new(x, y, 0.5, 1.0).expect("on the grid")
 }
 
 /// Whether the triangle covers a sample, straight from RA-1: inside, or on the border and still inside after a step to the
 /// right and an infinitely smaller one down (y down). The step is made finite by scaling the grid.
 fn covers(triangle: [ScreenVertex; 3], x: i64, y: i64) -> bool {
     const FINE: i128 = 1 << 40;
-    let point = |v: ScreenVertex| (i128::from(v.x) * FINE, i128::from(v.y) * FINE);
+    let point = |v: ScreenVertex| (i128::from(v.x()) * FINE, i128::from(v.y()) * FINE);
     let sample = (i128::from(x) * FINE + (1 << 20), i128::from(y) * FINE + 1);
     let side = |a: (i128, i128), b: (i128, i128)| {
         ((b.0 - a.0) * (sample.1 - a.1) - (b.1 - a.1) * (sample.0 - a.0)).signum()
@@ -66,9 +66,11 @@ proptest! {
         let mut rim: Vec<(i32, i32)> = rim.into_iter().flat_map(|(x, y)| [(x, y), (-x, -y)]).collect();
         let upper = |&(x, y): &(i32, i32)| y < 0 || (y == 0 && x < 0);
         let cross = |a: &(i32, i32), b: &(i32, i32)| i64::from(a.0) * i64::from(b.1) - i64::from(a.1) * i64::from(b.0);
+        let is_there = |x: i32, y: i32| ScreenVertex::new(x, y, 0.5, 1.0).is_some();
+        rim.retain(|&(x, y)| is_there(center.x() + x, center.y() + y));
         rim.sort_by(|a, b| upper(a).cmp(&upper(b)).then(0.cmp(&cross(a, b))));
         rim.dedup_by(|a, b| upper(a) == upper(b) && cross(a, b) == 0);
-        let at = |(x, y): (i32, i32)| vertex(center.x + x, center.y + y);
+        let at = |(x, y): (i32, i32)| vertex(center.x() + x, center.y() + y);
         let mut hits = vec![0; (SIDE * SIDE) as usize];
         for k in 0..rim.len() {
             let triangle = [center, at(rim[k]), at(rim[(k + 1) % rim.len()])];
@@ -85,7 +87,7 @@ proptest! {
         }).fold(f64::INFINITY, f64::min);
         for (n, hits) in hits.iter().enumerate() {
             let (x, y) = ((n as i32 % SIDE as i32) * 256 + 128, (n as i32 / SIDE as i32) * 256 + 128);
-            let distance = f64::from(x - center.x).hypot_exact(f64::from(y - center.y));
+            let distance = f64::from(x - center.x()).hypot_exact(f64::from(y - center.y()));
             prop_assert!(*hits == 1 || distance >= reach, "sample ({}, {}) in a gap", x, y);
         }
     }
@@ -124,7 +126,8 @@ fn a_strip_across_a_picture_of_16384_pixels_has_no_gaps_and_no_overlaps() {
 #[test]
 fn the_nearer_wins_and_at_equal_depth_the_first() {
     let square = |depth: f32| {
-        [(0, 0), (8, 0), (0, 8)].map(|(x, y)| ScreenVertex { depth, ..vertex(x * 256, y * 256) })
+        let corner = |(x, y)| ScreenVertex::new(x * 256, y * 256, depth, 1.0);
+        [(0, 0), (8, 0), (0, 8)].map(corner).map(|corner| corner.expect("on the grid"))
     };
     let seen = |depths: &[f32]| {
         let mut frame = Frame::new(8, 8, Samples::One).expect("a small frame");

@@ -162,24 +162,24 @@ fn sizes_out_of_range_are_refused() {
 }
 
 #[test]
-fn vertices_that_no_snap_would_make_are_never_drawn() {
-    let good = vertex(2.0, 2.0, 0.5);
+fn what_cannot_be_drawn_is_no_vertex_and_what_has_none_is_not_drawn() {
     let wrong = [
-        ScreenVertex { x: i32::MIN, ..good },
-        ScreenVertex { y: i32::MAX, ..good },
-        ScreenVertex { depth: f32::NAN, ..good },
-        ScreenVertex { depth: f32::INFINITY, ..good },
-        ScreenVertex { inv_w: f32::NAN, ..good },
-        ScreenVertex { inv_w: 0.0, ..good },
-        ScreenVertex { inv_w: -1.0, ..good },
+        ScreenVertex::new(i32::MIN, 0, 0.5, 1.0),
+        ScreenVertex::new(0, i32::MAX, 0.5, 1.0),
+        ScreenVertex::new(0, 0, f32::NAN, 1.0),
+        ScreenVertex::new(0, 0, f32::INFINITY, 1.0),
+        ScreenVertex::new(0, 0, 2e6, 1.0),
+        ScreenVertex::new(0, 0, 0.5, f32::NAN),
+        ScreenVertex::new(0, 0, 0.5, f32::INFINITY),
+        ScreenVertex::new(0, 0, 0.5, 0.0),
+        ScreenVertex::new(0, 0, 0.5, -1.0),
     ];
+    assert_eq!(wrong, [None; 9]);
     let mut frame = Frame::new(8, 8, Samples::Four).expect("a small frame");
-    for (id, bad) in (0..).zip(wrong) {
-        frame.triangle([bad, vertex(8.0, 0.0, 0.5), vertex(0.0, 8.0, 0.5)], id, Cover::Solid);
-        frame.line([bad, good], 2.0, id, Cover::Solid);
-        frame.point(bad, 5.0, id, Cover::Translucent);
-        frame.mesh(&[Some(bad), None], &[[0, 0, 0], [0, 1, 7]], id, Cover::Solid, Cull::Nothing);
-    }
+    let good = vertex(2.0, 2.0, 0.5);
+    let vertices = [Some(good), None, Some(vertex(8.0, 0.0, 0.5))];
+    let triangles = [[0, 2, 1], [0, 2, 7], [u32::MAX, 0, 2]];
+    frame.mesh(&vertices, &triangles, 0, Cover::Solid, Cull::Nothing);
     assert!(draw(&frame, &[RED; 7], CLEAR, 1).iter().all(|&color| color == CLEAR));
     // However wide, a line is drawn within the grid.
     for width in [1e12, f64::INFINITY, f64::NAN, -3.0] {

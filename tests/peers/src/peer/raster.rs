@@ -20,6 +20,7 @@ pub struct Raster<'a> {
     volume: Volume,
     frame: Frame,
     clip: Vec<HPoint<Clip>>,
+    codes: Vec<Outcode>,
     screen: Vec<Option<ScreenVertex>>,
     /// Whether all vertices are on the screen, so that nothing needs to be cut.
     whole: bool,
@@ -42,6 +43,7 @@ impl<'a> Raster<'a> {
             volume: volume.map_err(|error| error.to_string())?,
             frame: Frame::new(SIZE.0, SIZE.1, samples).map_err(|error| error.to_string())?,
             clip: Vec::new(),
+            codes: Vec::new(),
             screen: Vec::new(),
             whole: true,
             pixels: vec![[0; 4]; AREA],
@@ -56,15 +58,23 @@ impl<'a> Raster<'a> {
 
     /// The vertices in clip space and, where nothing needs to be cut, on the screen.
     fn vertices(&mut self) {
-        let (map, volume, ndc_to_screen) = (self.world_to_clip, self.volume, self.ndc_to_screen);
-        let vertices = self.look.scene.vertices.iter();
+        let vertices = &self.look.scene.vertices;
         self.clip.clear();
-        self.clip.extend(vertices.map(|v| map.point(Point::from(v.position.map(f64::from)))));
-        self.screen.clear();
-        self.screen.extend(self.clip.iter().map(|&point| {
-            volume.outcode(point).is_inside().then(|| snap(ndc_to_screen, point)).flatten()
-        }));
-        self.whole = self.screen.iter().all(Option::is_some);
+        self.clip.extend(
+            vertices
+                .iter()
+                .map(|v| self.world_to_clip.point(Point::from(v.position.map(f64::from)))),
+        );
+        self.codes.resize(vertices.len(), Outcode::INSIDE);
+        let extent = self.volume.outcodes(&self.clip, &mut self.codes);
+        let instructions = self.frame.instructions();
+        ScreenVertex::snap_all(&self.clip, self.ndc_to_screen, instructions, &mut self.screen);
+        self.whole = extent.is_inside();
+        if !self.whole {
+            for (vertex, code) in self.screen.iter_mut().zip(&self.codes) {
+                *vertex = vertex.filter(|_| code.is_inside());
+            }
+        }
     }
 
     fn submit(&mut self) {
