@@ -30,6 +30,8 @@ mod extensions;
 mod image;
 mod instancing;
 mod json;
+#[cfg(feature = "basisu")]
+mod ktx2;
 mod lights;
 mod limits;
 mod material;
