@@ -1,7 +1,7 @@
 //! Where the check and the validator differ, and why.
 
 use crate::manifest::Row;
-use pipeline::import::Report;
+use pipeline::import::{Report, Severity};
 use std::collections::BTreeSet;
 
 const KTX: &str = "KHR_texture_ktx, for images of several layers, is not read";
@@ -80,6 +80,14 @@ pub fn differs(row: &Row, report: &Report, found: &BTreeSet<&'static str>) -> Op
     }
     if !listed.is_empty() && report.errors == 0 {
         return Some(format!("no error is found, and there are {listed:?}"));
+    }
+    // What is wrong with the file as a whole has no place in the JSON; everything else has.
+    let whole = |code: &str| {
+        code.starts_with("GLB_") || ["INVALID_JSON", "NOT_GLTF", "TYPE_MISMATCH"].contains(&code)
+    };
+    let lost = report.problems.iter().find(|p| p.pointer.is_empty() && !whole(p.code));
+    if let Some(problem) = lost.filter(|problem| problem.severity == Severity::Error) {
+        return Some(format!("an error without a place: {problem}"));
     }
     let missing: Vec<&str> = listed
         .iter()

@@ -10,6 +10,7 @@
 #![allow(missing_docs, unreachable_pub, reason = "the modules of a program have no other outside")]
 
 mod expected;
+#[allow(dead_code, reason = "the test of `check` needs the rest")]
 mod manifest;
 mod program;
 mod triangles;

@@ -90,6 +90,98 @@ impl Document {
         document
     }
 
+    /// What extensions add, and what few files have: tangents, a second set of joints, morph targets of all attributes,
+    /// lights, variants, edges, pointers of animations, every KHR_materials extension.
+    pub fn lavish() -> Self {
+        let mut document = Self::rich();
+        let vec4 = json!({"componentType": 5126, "type": "VEC4", "count": 3});
+        let tangents = document.accessor(&floats(&[1.0, 0.0, 0.0, 1.0].repeat(3)), vec4.clone());
+        let colors = document.accessor(&floats(&[0.25; 12]), vec4.clone());
+        let weights = document.accessor(&floats(&[0.5; 12]), vec4);
+        let bytes = |count: usize| json!({"componentType": 5121, "type": "SCALAR", "count": count});
+        let joint = json!({"componentType": 5121, "type": "VEC4", "count": 3});
+        let joints = document.accessor(&[0; 12], joint);
+        let bits = document.accessor(&[0b10_01_10], bytes(1));
+        let string = document.accessor(&[0, 1, 255, 1, 2], bytes(5));
+        let outline = document.accessor(&[2, 0], bytes(2));
+        let primitive = &mut document.json["meshes"][0]["primitives"][0];
+        primitive["attributes"]["TANGENT"] = json!(tangents);
+        primitive["attributes"]["JOINTS_1"] = json!(joints);
+        primitive["attributes"]["WEIGHTS_1"] = json!(weights);
+        let moved = primitive["targets"][0]["POSITION"].clone();
+        let uvs = primitive["attributes"]["TEXCOORD_0"].clone();
+        primitive["targets"][0]["TANGENT"] = moved;
+        primitive["targets"][0]["COLOR_0"] = json!(colors);
+        primitive["targets"][0]["TEXCOORD_0"] = uvs;
+        primitive["extensions"] = json!({
+            "KHR_materials_variants": {"mappings": [{"material": 0, "variants": [0, 1]}]},
+            "EXT_mesh_primitive_edge_visibility":
+                {"visibility": bits, "material": 0, "lineStrings": [{"indices": string, "material": 0}]},
+            "CESIUM_primitive_outline": {"indices": outline}});
+        document.json["extensions"] = json!({
+            "KHR_materials_variants": {"variants": [{"name": "a"}, {"name": "b"}]},
+            "KHR_lights_punctual": {"lights": [{"type": "spot", "color": [1, 1, 1], "intensity": 3, "range": 2,
+                "name": "lamp", "spot": {"innerConeAngle": 0.25, "outerConeAngle": 0.5}}]}});
+        document.json["nodes"][1]["extensions"] = json!({"KHR_lights_punctual": {"light": 0}});
+        document.paint();
+        document.point();
+        document
+    }
+
+    /// Gives the material every extension.
+    fn paint(&mut self) {
+        let texture = json!({"index": 0, "texCoord": 0});
+        let material = &mut self.json["materials"][0];
+        material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = texture.clone();
+        material["normalTexture"] = json!({"index": 0, "scale": 2,
+            "extensions": {"KHR_texture_transform": {"rotation": 0.5}}});
+        material["occlusionTexture"] = json!({"index": 0, "strength": 0.5});
+        let more = [
+            ("ior", json!({"ior": 1.25})),
+            ("dispersion", json!({"dispersion": 0.5})),
+            (
+                "specular",
+                json!({"specularFactor": 0.5, "specularColorFactor": [2, 1, 1],
+                "specularTexture": texture, "specularColorTexture": texture}),
+            ),
+            (
+                "clearcoat",
+                json!({"clearcoatFactor": 0.5, "clearcoatTexture": texture,
+                "clearcoatNormalTexture": {"index": 0, "scale": 0.5}}),
+            ),
+            ("sheen", json!({"sheenColorFactor": [1, 0, 0], "sheenRoughnessFactor": 0.5})),
+            ("transmission", json!({"transmissionFactor": 0.5})),
+            ("volume", json!({"thicknessFactor": 1, "attenuationDistance": 2})),
+            ("iridescence", json!({"iridescenceFactor": 1, "iridescenceIor": 1.5})),
+            ("anisotropy", json!({"anisotropyStrength": 0.5, "anisotropyRotation": 1})),
+        ];
+        for (name, json) in more {
+            material["extensions"][format!("KHR_materials_{name}")] = json;
+        }
+    }
+
+    /// Animates a number of the material, of the light, of a texture and a weight by their pointers.
+    fn point(&mut self) {
+        let one = json!({"componentType": 5126, "type": "SCALAR", "count": 2});
+        let output = self.accessor(&floats(&[0.0, 1.0]), one);
+        let animation = &mut self.json["animations"][0];
+        let input = animation["samplers"][0]["input"].clone();
+        let samplers = animation["samplers"].as_array_mut().expect("the animation has samplers");
+        samplers.push(json!({"input": input, "output": output}));
+        for pointer in [
+            "/materials/0/extensions/KHR_materials_ior/ior",
+            "/extensions/KHR_lights_punctual/lights/0/spot/outerConeAngle",
+            "/materials/0/normalTexture/extensions/KHR_texture_transform/rotation",
+            "/nodes/0/weights/0",
+        ] {
+            let extensions = json!({"KHR_animation_pointer": {"pointer": pointer}});
+            let target = json!({"path": "pointer", "extensions": extensions});
+            let channels =
+                animation["channels"].as_array_mut().expect("the animation has channels");
+            channels.push(json!({"sampler": 1, "target": target}));
+        }
+    }
+
     /// Adds a buffer view with these bytes; gives its number.
     pub fn view(&mut self, bytes: &[u8]) -> usize {
         let start = self.bytes.len();

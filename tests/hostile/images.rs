@@ -58,6 +58,19 @@ fn warns(problem: &str) -> Expected {
     Expected::Warns(format!("/images/0 {problem}; the surface is shown without it"))
 }
 
+/// WebP files whose sizes lie.
+fn webps() -> [Case; 2] {
+    [
+        textured(
+            "WebP with a frame far larger than the image",
+            b"RIFF\x28\0\0\0WEBPVP8X\x0A\0\0\0\0\0\0\0\xFF\0\0\x7F\0\0\
+              VP8 \x0A\0\0\0\x90\x0B\0\x9D\x01\x2A\xFF\x3F\xFF\x3F",
+            warns("the WebP has a frame of 16383 x 16383 texels in an image of 256 x 128"),
+        ),
+        textured("WebP header", b"RIFF\xFF\xFF\xFF\xFFWEBPVP8 \xFF\xFF\xFF\xFF", Expected::Loads),
+    ]
+}
+
 pub fn cases() -> Vec<Case> {
     let mut cases = vec![
         textured(
@@ -92,14 +105,8 @@ pub fn cases() -> Vec<Case> {
         textured("JPEG for printing", &jpeg_header(8, 8, 4), Expected::Loads),
         textured("JPEG, 65,500 squared", &jpeg_header(65_500, 65_500, 3), Expected::Loads),
         textured("JPEG without data", &jpeg_header(64, 64, 3), Expected::Loads),
-        textured(
-            "WebP with a frame far larger than the image",
-            b"RIFF\x28\0\0\0WEBPVP8X\x0A\0\0\0\0\0\0\0\xFF\0\0\x7F\0\0\
-              VP8 \x0A\0\0\0\x90\x0B\0\x9D\x01\x2A\xFF\x3F\xFF\x3F",
-            warns("the WebP has a frame of 16383 x 16383 texels in an image of 256 x 128"),
-        ),
-        textured("WebP header", b"RIFF\xFF\xFF\xFF\xFFWEBPVP8 \xFF\xFF\xFF\xFF", Expected::Loads),
     ];
+    cases.extend(webps());
     for depth in [0, 1, 2, 3, 4, 8, 16, 32] {
         for color in 0..8 {
             let name = format!("PNG of {depth} bits, colour type {color}");

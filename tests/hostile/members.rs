@@ -5,9 +5,19 @@ use crate::document::Document;
 use serde_json::{Value, json};
 
 pub fn cases() -> Vec<Case> {
-    let document = Document::rich();
+    let (rich, lavish) = (Document::rich(), Document::lavish());
     let mut pointers = Vec::new();
-    collect(&document.json, &mut String::new(), &mut pointers);
+    collect(&rich.json, &mut String::new(), &mut pointers);
+    let mut cases = spoilt(&rich, &pointers);
+    let mut more = Vec::new();
+    collect(&lavish.json, &mut String::new(), &mut more);
+    more.retain(|pointer| !pointers.contains(pointer));
+    cases.extend(spoilt(&lavish, &more));
+    cases
+}
+
+/// A document as it is, and with each of the members spoilt in each way.
+fn spoilt(document: &Document, pointers: &[String]) -> Vec<Case> {
     let values = [
         json!(null),
         json!(true),
@@ -26,8 +36,8 @@ pub fn cases() -> Vec<Case> {
         json!({}),
         json!({"x": 0}),
     ];
-    let mut cases = vec![Case::of("everything right", &document, Expected::LoadsClean)];
-    for pointer in &pointers {
+    let mut cases = vec![Case::of("everything right", document, Expected::LoadsClean)];
+    for pointer in pointers {
         for value in &values {
             let spoilt = document.clone().with(pointer, value.clone());
             cases.push(Case::of(format!("{pointer} is {value}"), &spoilt, Expected::Anything));

@@ -66,13 +66,11 @@ fn json_tells_counts_and_places() {
     assert_eq!(status(2), (&json!("KHR_materials_unlit"), &json!("drawn")));
 }
 
-#[test]
-fn json_tells_what_materials_have() {
-    let bench = Bench::new("info_materials");
-    let mut document = Document::square();
+/// A material with all that a material can have, some of it out of bounds.
+fn lavish() -> Value {
     let transform = json!({"KHR_texture_transform": {"offset": [0.5, 0], "texCoord": 1}});
     let texture = |index: usize| json!({"index": index, "texCoord": 0});
-    document.json["materials"][0] = json!({
+    json!({
         "pbrMetallicRoughness": {"metallicFactor": 0.25, "roughnessFactor": 1.5, "metallicRoughnessTexture": texture(0)},
         "normalTexture": {"index": 1, "scale": -2, "extensions": transform},
         "occlusionTexture": {"index": 0, "strength": 0.5},
@@ -89,7 +87,14 @@ fn json_tells_what_materials_have() {
             "KHR_materials_iridescence": {"iridescenceFactor": 1, "iridescenceThicknessMaximum": 500},
             "KHR_materials_anisotropy": {"anisotropyStrength": 0.6, "anisotropyRotation": "x"},
         }
-    });
+    })
+}
+
+#[test]
+fn json_tells_what_materials_have() {
+    let bench = Bench::new("info_materials");
+    let mut document = Document::square();
+    document.json["materials"][0] = lavish();
     document.json["textures"] = json!([{"source": 0}, {}]);
     document.json["images"] = json!([{"uri": "missing.png", "name": "look"}]);
     let info = info(&bench, &mut document);

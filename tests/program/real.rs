@@ -48,12 +48,8 @@ impl Gltf {
         let view = &self.json["bufferViews"][json["bufferView"].as_u64().expect("a view") as usize];
         assert_eq!(json["componentType"], 5126, "floats");
         let offset = |of: &Value| of["byteOffset"].as_u64().unwrap_or(0) as usize;
-        let width = match json["type"].as_str() {
-            Some("SCALAR") => 1,
-            Some("VEC3") => 3,
-            Some("VEC4") => 4,
-            other => panic!("{other:?}"),
-        };
+        let widths = [("SCALAR", 1), ("VEC3", 3), ("VEC4", 4)];
+        let width = widths.iter().find(|(shape, _)| json["type"] == *shape).expect("a shape").1;
         let count = json["count"].as_u64().expect("a number") as usize * width;
         let words = self.bytes[offset(view) + offset(json)..].as_chunks::<4>().0;
         words[..count].iter().map(|word| f64::from(f32::from_le_bytes(*word))).collect()

@@ -10,6 +10,7 @@
 //! file a URI names. Here every index, length and size is checked before it is used, URIs name files below one folder
 //! only, everything a file can declare has a [limit](Limits), and a fault says where it is, what is wrong and what to
 //! do. What makes the shape unreadable refuses the file; what only spoils the look is a [`Warning`](crate::model::Warning).
+//! A lenient reader has warnings of both, as long as something is left to load. [`check`] tells all that is wrong.
 
 mod accessor;
 mod animation;
@@ -30,6 +31,8 @@ mod extensions;
 mod image;
 mod instancing;
 mod json;
+#[cfg(feature = "basisu")]
+mod ktx2;
 mod lights;
 mod limits;
 mod material;

@@ -2,7 +2,9 @@
 
 use crate::{glb, promises};
 use homog::Affine;
-use pipeline::import::{Choice, Images, ImportError, ImportOptions, Limits, load_bytes};
+use pipeline::import::{
+    Choice, Images, ImportError, ImportOptions, Limits, check_bytes, load_bytes,
+};
 use pipeline::model::Model;
 use pipeline::scene::Placed;
 use pipeline::scene::file::{
@@ -25,11 +27,21 @@ fn limits() -> Limits {
     }
 }
 
-/// A file, as it is and with its lengths mended.
+/// A file, as it is, leniently, and with its lengths mended; what is wrong with it is told as well.
 pub fn file(bytes: &[u8]) {
     let loaded = load(bytes, ImportOptions::default());
     let has_variants = loaded.as_ref().is_ok_and(|model| !model.variants.is_empty());
+    let is_loaded = loaded.is_ok();
     show(loaded);
+    let report = check_bytes(
+        "model.glb",
+        bytes,
+        &ImportOptions { limits: limits(), ..ImportOptions::default() },
+    );
+    assert!(is_loaded || report.errors > 0, "a file that does not load has no error");
+    if !is_loaded {
+        show(load(bytes, ImportOptions { lenient: true, ..ImportOptions::default() }));
+    }
     if has_variants {
         let (variant, images) = (Some(Choice::Index(0)), Images::Headers);
         show(load(bytes, ImportOptions { variant, images, ..ImportOptions::default() }));

@@ -139,11 +139,10 @@ impl Reader<'_> {
         let (accessor, pointer) = (json.output.value(), format!("{pointer}/output"));
         let values = match kind {
             Kind::Place => self.values::<3>(accessor, &PLACE, &pointer)?,
-            Kind::Rotation => self.values::<4>(accessor, &TURN, &pointer)?,
             Kind::Weights | Kind::Numbers(1) => self.values::<1>(accessor, &KEYS, &pointer)?,
             Kind::Numbers(2) => self.values::<2>(accessor, &PAIRS, &pointer)?,
             Kind::Numbers(3) => self.values::<3>(accessor, &TRIPLES, &pointer)?,
-            Kind::Numbers(_) => self.values::<4>(accessor, &TURN, &pointer)?,
+            Kind::Rotation | Kind::Numbers(_) => self.values::<4>(accessor, &TURN, &pointer)?,
         };
         let rows = if interpolation == Interpolation::CubicSpline { 3 } else { 1 } * times.len();
         let width = match kind {

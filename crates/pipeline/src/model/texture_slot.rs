@@ -85,21 +85,19 @@ impl TextureSlot {
 impl Material {
     /// All textures of the material, also those that nothing shows yet, each with its slot.
     pub fn all_textures(&self) -> impl Iterator<Item = (TextureSlot, TextureUse)> {
-        // The diffuse texture of the older model stands in the place of the base colour's.
-        let older = self.extensions.specular_glossiness.is_some();
-        let hidden = if older { TextureSlot::BaseColor } else { TextureSlot::Diffuse };
         let mut copy = self.clone();
         let slots = TextureSlot::PATHS.iter().map(|(slot, _)| *slot);
-        slots
-            .filter(move |slot| *slot != hidden)
-            .filter_map(move |slot| Some((slot, *copy.texture_mut(slot)?)))
+        slots.filter_map(move |slot| Some((slot, *copy.texture_mut(slot)?)))
     }
 
     /// The texture in a slot.
     pub fn texture_mut(&mut self, slot: TextureSlot) -> Option<&mut TextureUse> {
         let more = &mut self.extensions;
+        // The diffuse texture of the older model stands in the place of the base colour's.
+        let older = more.specular_glossiness.is_some();
         match slot {
-            TextureSlot::BaseColor | TextureSlot::Diffuse => self.base_color_texture.as_mut(),
+            TextureSlot::BaseColor => self.base_color_texture.as_mut().filter(|_| !older),
+            TextureSlot::Diffuse => self.base_color_texture.as_mut().filter(|_| older),
             TextureSlot::MetallicRoughness => self.metallic_roughness_texture.as_mut(),
             TextureSlot::Normal => self.normal_texture.as_mut().map(|normal| &mut normal.texture),
             TextureSlot::Occlusion => self.occlusion_texture.as_mut().map(|used| &mut used.texture),

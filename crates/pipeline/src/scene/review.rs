@@ -18,7 +18,7 @@ pub fn review(origin: &Origin, file: &SceneFile, options: &ResolveOptions) -> Ve
     for (number, entry) in file.models.iter().enumerate() {
         match load_model(origin, number, entry, options) {
             Ok(model) => {
-                models.push(Placed { model: Arc::new(model), model_to_world: placement(entry) })
+                models.push(Placed { model: Arc::new(model), model_to_world: placement(entry) });
             }
             Err(ModelFault::Scene(mistake)) => mistakes.push(mistake),
             Err(ModelFault::File(_)) => {}

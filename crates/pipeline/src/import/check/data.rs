@@ -57,7 +57,8 @@ pub(super) fn check(document: &Document<'_>, store: &Store<'_>, demands: &Demand
         let Some(elements) = store.elements(accessor, layout) else { continue };
         let own = demands.by_accessor.get(&at).map_or(&[][..], Vec::as_slice);
         let pointer = format!("/accessors/{at}");
-        let cost = layout.count.saturating_mul(layout.size() as u64);
+        // Bytes take as long to look at as floats: the work is counted as if all numbers were floats.
+        let cost = layout.count.saturating_mul(4 * layout.shape.numbers() as u64);
         // Without any data the numbers are zeros, or in a stream that an extension knows of: there is nothing to read.
         if !elements.is_hollow() && store.may_spend(&format!("{pointer}/count"), cost) {
             Reader::new(document, &elements, pointer, own).read(accessor);

@@ -148,7 +148,10 @@ impl Reader<'_> {
 mod tests {
     use super::*;
 
-    fn glb(length: Option<u32>, chunks: &[(&[u8; 4], &[u8])]) -> Vec<u8> {
+    /// A chunk's type and data.
+    type Chunk<'a> = (&'a [u8; 4], &'a [u8]);
+
+    fn glb(length: Option<u32>, chunks: &[Chunk<'_>]) -> Vec<u8> {
         let mut bytes = b"glTF\x02\0\0\0\0\0\0\0".to_vec();
         for (kind, data) in chunks {
             bytes.extend((data.len() as u32).to_le_bytes());
@@ -169,8 +172,7 @@ mod tests {
 
     #[test]
     fn every_rule_of_the_container() {
-        let (json, bin): ((&[u8; 4], &[u8]), (&[u8; 4], &[u8])) =
-            ((b"JSON", b"{}  "), (b"BIN\0", b"1234"));
+        let (json, bin): (Chunk<'_>, Chunk<'_>) = ((b"JSON", b"{}  "), (b"BIN\0", b"1234"));
         let good = glb(None, &[json, bin]);
         let (parts, found) = codes(&good);
         assert_eq!((parts.json, parts.binary, found), (Some(20..24), Some(32..36), vec![]));
