@@ -169,7 +169,7 @@ mod tests {
             let mut uvs = [[[0.0_f32; 8]; 2]; 3];
             for lane in 0..8 {
                 let number = (round * 8 + lane) as f32;
-                let size = 0.002 * (1 << (round * 5 + lane * 3) % 10) as f32;
+                let size = 0.002 * (1 << ((round * 5 + lane * 3) % 10)) as f32;
                 uvs[0][0][lane] = number * 0.37 - 20.0;
                 uvs[0][1][lane] = 9.0 - number * 0.19;
                 uvs[1][0][lane] = size;
