@@ -2,6 +2,7 @@
 //!
 //! Both directions go by tables that are computed once with `libm`, so the bits are the same everywhere.
 
+use raster::{Eight, Encode, WIDE};
 use std::sync::OnceLock;
 
 /// Linear light of an sRGB value between 0 and 1.
@@ -16,13 +17,17 @@ pub(crate) fn linear_table() -> &'static [f32; 256] {
     TABLE.get_or_init(|| std::array::from_fn(|code| linear_of(code as f64 / 255.0) as f32))
 }
 
+/// The bits of the least light that the encoder tells from 0: 2⁻¹³, which is less than half of the value 1.
+const LEAST: u32 = 0x3900_0000;
+
 /// Finds the nearest 8-bit sRGB value of linear light.
+///
+/// A float's upper 16 bits, exponent and seven bits of the mantissa, name one of 128 steps of each octave. Values are farther
+/// apart than that, so a step holds at most one border between two values. Its entry is the value at its beginning in the
+/// upper half, and what the float's lower bits must be added to so that they carry into the upper half from the border on.
 #[derive(Debug)]
 pub(crate) struct SrgbEncoder {
-    /// The least linear light whose nearest value is the index; the first is never reached.
-    thresholds: [f32; 256],
-    /// For each of 4096 equal steps of linear light, the value at its beginning: where the search starts.
-    starts: [u8; 4096],
+    steps: Box<[u32; 2048]>,
 }
 
 impl SrgbEncoder {
@@ -34,37 +39,83 @@ impl SrgbEncoder {
     }
 
     fn new() -> Self {
-        let threshold = |code: usize| linear_of((code as f64 - 0.5) / 255.0) as f32;
-        let thresholds: [f32; 256] =
-            std::array::from_fn(|code| if code == 0 { f32::MIN } else { threshold(code) });
-        let starts = std::array::from_fn(|step| {
-            let light = step as f32 / 4095.0;
-            (thresholds.partition_point(|&least| least <= light) - 1) as u8
-        });
-        Self { thresholds, starts }
+        let thresholds = thresholds();
+        let entry = |step: usize| {
+            let start = LEAST + ((step as u32) << 16);
+            let next = thresholds.partition_point(|&least| least <= f32::from_bits(start));
+            let code = (next as u32 - 1) << 16;
+            let border = thresholds.get(next).map_or(u32::MAX, |least| least.to_bits()) - start;
+            code + 0x1_0000_u32.saturating_sub(border)
+        };
+        Self { steps: Box::new(std::array::from_fn(entry)) }
     }
 
     /// The nearest 8-bit sRGB value; light beyond [0, 1] (and NaN, as 0) is cut off.
     #[must_use]
     pub(crate) fn encode(&self, light: f32) -> u8 {
-        let light = if light > 0.0 { light.min(1.0) } else { 0.0 };
-        let mut code = self.starts[(light * 4095.0) as usize];
-        while code < 255 && self.thresholds[usize::from(code) + 1] <= light {
-            code += 1;
+        self.code(light) as u8
+    }
+
+    #[inline(always)]
+    fn code(&self, light: f32) -> u32 {
+        let least = f32::from_bits(LEAST);
+        let bits = if light > least { light.min(1.0) } else { least }.to_bits();
+        let step = self.steps[((bits - LEAST) >> 16 & 2047) as usize];
+        (step + (bits & 0xffff)) >> 16
+    }
+
+    /// Pixels for a file: sRGB with straight alpha, from linear light multiplied by alpha. Red is in the lowest byte.
+    #[inline(always)]
+    fn pixels<const N: usize>(&self, [r, g, b, alpha]: &[[f32; N]; 4]) -> [u32; N] {
+        let mut is_solid = true;
+        for alpha in alpha {
+            is_solid &= *alpha >= 1.0;
         }
-        code
+        let mut pixels = [0; N];
+        for (shift, channel) in [(0, r), (8, g), (16, b)] {
+            let mut straight = *channel;
+            if !is_solid {
+                for lane in 0..N {
+                    let divided = channel[lane] / alpha[lane];
+                    straight[lane] = if alpha[lane] < 1.0 { divided } else { channel[lane] };
+                }
+            }
+            for lane in 0..N {
+                pixels[lane] |= self.code(straight[lane]) << shift;
+            }
+        }
+        for lane in 0..N {
+            let solid = (alpha[lane].min(1.0) * 255.0 + 0.5) as u32;
+            let pixel = pixels[lane] | solid << 24;
+            pixels[lane] = if alpha[lane] <= 0.0 { 0 } else { pixel };
+        }
+        pixels
     }
 
     /// A pixel for a file: sRGB with straight alpha, from linear light multiplied by alpha.
     #[must_use]
-    pub(crate) fn pixel(&self, [r, g, b, alpha]: [f32; 4]) -> [u8; 4] {
-        if alpha <= 0.0 {
-            return [0; 4];
-        }
-        let straight =
-            |channel: f32| self.encode(if alpha < 1.0 { channel / alpha } else { channel });
-        [straight(r), straight(g), straight(b), (alpha.min(1.0) * 255.0 + 0.5) as u8]
+    pub(crate) fn pixel(&self, color: [f32; 4]) -> [u8; 4] {
+        let [pixel] = self.pixels(&color.map(|channel| [channel]));
+        pixel.to_le_bytes()
     }
+}
+
+impl Encode<[u8; 4]> for &SrgbEncoder {
+    #[inline(always)]
+    fn pixel(&self, color: [f32; 4]) -> [u8; 4] {
+        SrgbEncoder::pixel(self, color)
+    }
+
+    #[inline(always)]
+    fn eight(&self, colors: &[Eight; 4]) -> [[u8; 4]; WIDE] {
+        self.pixels(colors).map(u32::to_le_bytes)
+    }
+}
+
+/// The least linear light whose nearest value is the index; the first is never reached.
+fn thresholds() -> [f32; 256] {
+    let threshold = |code: usize| linear_of((code as f64 - 0.5) / 255.0) as f32;
+    std::array::from_fn(|code| if code == 0 { f32::MIN } else { threshold(code) })
 }
 
 /// Linear red, green and blue of a colour written `#rgb` or `#rrggbb`; `None` if it is written otherwise.
@@ -104,6 +155,34 @@ mod tests {
             assert!(found == nearest || (exact - found).abs() < 0.50001, "{light}: {found}");
         }
         assert_eq!([f32::NAN, -1.0, 2.0].map(|light| encoder.encode(light)), [0, 0, 255]);
+    }
+
+    #[test]
+    fn codes_change_at_their_borders_and_nowhere_else() {
+        let (encoder, thresholds) = (SrgbEncoder::shared(), thresholds());
+        let right = |light: f32| thresholds.partition_point(|&least| least <= light) - 1;
+        let agrees = |bits: u32| {
+            let light = f32::from_bits(bits);
+            assert_eq!(usize::from(encoder.encode(light)), right(light), "{light}");
+        };
+        for threshold in &thresholds[1..] {
+            (threshold.to_bits() - 2..threshold.to_bits() + 2).for_each(agrees);
+        }
+        (0..=1.0_f32.to_bits()).step_by(211).for_each(agrees);
+    }
+
+    #[test]
+    fn eight_pixels_at_once_are_those_of_one_by_one() {
+        let encoder = SrgbEncoder::shared();
+        let alphas = [1.0, 0.5, 0.0, -1.0, f32::NAN, 2.0, 1e-30, 0.999];
+        for light in [0.0, -0.5, 0.2, 0.499, 1.0, 7.0, f32::NAN, f32::INFINITY] {
+            let lane = |k: usize| [light, light * 0.5, light * 0.25, alphas[k]];
+            let channel = |n: usize| std::array::from_fn(|k| lane(k)[n]);
+            let eight = [0, 1, 2, 3].map(channel);
+            let one_by_one: [_; 8] = std::array::from_fn(|k| encoder.pixel(lane(k)));
+            assert_eq!((&encoder).eight(&eight), one_by_one);
+        }
+        assert_eq!(encoder.pixel([0.5, 0.25, 0.0, 0.5]), [255, 188, 0, 128]);
     }
 
     fn srgb_of(light: f64) -> f64 {

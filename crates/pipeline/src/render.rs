@@ -8,7 +8,11 @@
 
 mod assemble;
 mod shot;
+mod stage;
+#[cfg(test)]
+mod tests;
 mod textures;
+mod vertices;
 mod wireframe;
 
 pub use shot::Shot;
@@ -51,15 +55,10 @@ fn surfaces(scene: &Scene, threads: usize) -> Result<Picture, RenderError> {
     let image = scene.image;
     let textures = Textures::of(scene);
     let Assembly { frame, draws } = Assembly::of(scene, &textures)?;
-    let shading = Shading {
-        draws: &draws,
-        lights: &scene.lights,
-        viewer: scene.shot.viewer(),
-        flat: scene.style == Style::Flat,
-    };
+    let shading = Shading { draws: &draws, lights: &scene.lights, viewer: scene.shot.viewer() };
     let mut pixels = vec![[0; 4]; image.width as usize * image.height as usize];
     let encoder = SrgbEncoder::shared();
-    frame.draw(&shading, image.background, threads, &mut pixels, |color| encoder.pixel(color));
+    frame.draw(&shading, image.background, threads, &mut pixels, encoder);
     Ok(Picture { width: image.width, height: image.height, pixels })
 }
 

@@ -1,15 +1,16 @@
 //! The geometry half of the pipeline: from the meshes of a scene to the primitives of a frame.
 
 use super::RenderError;
+use super::stage::{Stage, Whereabouts, all, to_point};
 use super::textures::Textures;
+use super::vertices::{Parts, uv_set};
 use crate::model::{AlphaMode, Instance, Material, Posed, Primitive, Topology};
-use crate::scene::{Placed, Scene};
-use crate::shade::{Draw, DrawList};
-use clip::{Outcode, Volume, clip_segment, clip_triangle};
+use crate::scene::{Placed, Scene, Style};
+use crate::shade::{Draw, DrawList, MipChain};
+use clip::{Outcode, clip_triangle};
 use glam::DVec3;
-use homog::{Affine, Clip, HPoint, Model, Ndc, Normal, Point, Screen, World};
-use raster::{Cover, Frame, GUARD_BAND, ScreenVertex};
-use viewport::Viewport;
+use homog::{Clip, HPoint, Model, Projective};
+use raster::{Cover, Cull, Frame, ScreenVertex, signed_area};
 
 /// The width of lines that a file draws, in pixels: glTF gives none.
 const LINE_WIDTH: f64 = 1.5;
@@ -28,105 +29,70 @@ impl<'a> Assembly<'a> {
         let image = scene.image;
         let mut assembler = Assembler {
             stage: Stage::of(scene)?,
+            is_flat: scene.style == Style::Flat,
             frame: Frame::new(image.width, image.height, image.samples)?,
             draws: DrawList::default(),
+            images: Images::default(),
             next_id: 0,
         };
         for (number, placed) in scene.models.iter().enumerate() {
             for (instance, primitive) in placed.model.shown_primitives() {
                 let texture = |n: usize| textures.chain(number, n);
-                let draw = assembler.draw(placed, instance, primitive, texture)?;
-                assembler.submit(&draw);
-                assembler.draws.draws.push(draw.draw);
+                assembler.draw(placed, instance, primitive, texture)?;
             }
         }
         Ok(Self { frame: assembler.frame, draws: assembler.draws })
     }
 }
 
-/// The way from the world to the screen.
-#[derive(Debug)]
-pub(super) struct Stage {
-    world_to_clip: homog::Projective<World, Clip>,
-    volume: Volume,
-    ndc_to_screen: Affine<Ndc, Screen>,
-    mirrors: bool,
-}
-
-impl Stage {
-    pub(super) fn of(scene: &Scene) -> Result<Self, RenderError> {
-        let (width, height) = (scene.image.width, scene.image.height);
-        let viewport = Viewport::image(width, height)?;
-        // Clip only what would leave the rasteriser's grid, with a pixel to spare: its tiles cut the rest (CL-4).
-        let band = |side: u32| {
-            let half = 0.5 * f64::from(side);
-            (1.0 - (GUARD_BAND.start() + 1.0) / half).clamp(1.0, Volume::MAX_GUARD_BAND)
-        };
-        let volume = Volume::CHAPTER;
-        let volume = volume.with_guard_band(band(width), band(height)).unwrap_or(volume);
-        Ok(Self {
-            world_to_clip: scene.shot.world_to_clip(),
-            volume,
-            ndc_to_screen: viewport.ndc_to_screen(),
-            mirrors: scene.shot.mirrors(),
-        })
-    }
-
-    /// Clip-space images of a primitive's vertices.
-    pub(super) fn to_clip(
-        &self,
-        positions: &[[f32; 3]],
-        model_to_world: Affine<Model, World>,
-    ) -> Vec<HPoint<Clip>> {
-        let model_to_clip = model_to_world.then_project(self.world_to_clip);
-        positions.iter().map(|&p| model_to_clip.point(to_point(p))).collect()
-    }
-
-    /// The visible part of a line; `None` if there is none.
-    pub(super) fn visible_segment(&self, ends: [HPoint<Clip>; 2]) -> Option<clip::ClippedSegment> {
-        clip_segment(ends[0], ends[1], &self.volume)
-    }
-
-    /// The divide and the viewport.
-    pub(super) fn to_screen(&self, point: HPoint<Clip>) -> Option<Point<Screen>> {
-        Some(self.ndc_to_screen.point(point.divide()?))
-    }
-
-    fn snap(&self, point: HPoint<Clip>) -> Option<ScreenVertex> {
-        ScreenVertex::snap(self.to_screen(point)?, point.w())
-    }
-
-    fn snap_all<const N: usize>(&self, points: [HPoint<Clip>; N]) -> Option<[ScreenVertex; N]> {
-        all(points.map(|point| self.snap(point)))
-    }
-}
-
-/// All vertices of a primitive, if none is missing.
-fn all<const N: usize>(vertices: [Option<ScreenVertex>; N]) -> Option<[ScreenVertex; N]> {
-    let mut found = [vertices[0]?; N];
-    for (place, vertex) in found.iter_mut().zip(vertices) {
-        *place = vertex?;
-    }
-    Some(found)
-}
-
-fn to_point(position: [f32; 3]) -> Point<Model> {
-    Point::from_raw(DVec3::from_array(position.map(f64::from)))
-}
-
-/// A draw on its way into the frame, with what only the geometry stages need.
-struct Submission<'a> {
-    draw: Draw<'a>,
+/// The images of one primitive's vertices; the memory is used again for the next.
+#[derive(Default)]
+struct Images {
+    /// In clip space, if some may have to be clipped.
     clip: Vec<HPoint<Clip>>,
     outcodes: Vec<Outcode>,
-    /// The vertices on the screen; `None` for those outside of the view volume and its guard band.
+    /// On the screen; `None` for those outside of the view volume and its guard band.
     screen: Vec<Option<ScreenVertex>>,
+}
+
+impl Images {
+    /// All vertices on the screen, when none has to be clipped.
+    fn inside(
+        &mut self,
+        stage: &Stage,
+        model_to_clip: Projective<Model, Clip>,
+        positions: &[[f32; 3]],
+    ) {
+        self.screen.clear();
+        let snap = |&position: &[f32; 3]| stage.snap(model_to_clip.point(to_point(position)));
+        self.screen.extend(positions.iter().map(snap));
+    }
+
+    /// Vertices in clip space with their outcodes, and those that are inside on the screen.
+    fn anywhere(
+        &mut self,
+        stage: &Stage,
+        model_to_clip: Projective<Model, Clip>,
+        positions: &[[f32; 3]],
+    ) {
+        let Self { clip, outcodes, screen } = self;
+        clip.resize(positions.len(), HPoint::new(0.0, 0.0, 0.0, 1.0));
+        outcodes.resize(positions.len(), Outcode::INSIDE);
+        stage.volume.project(model_to_clip, positions, clip, outcodes);
+        screen.clear();
+        let snap = |(&point, code): (&HPoint<Clip>, &Outcode)| {
+            if code.is_inside() { stage.snap(point) } else { None }
+        };
+        screen.extend(clip.iter().zip(&*outcodes).map(snap));
+    }
 }
 
 struct Assembler<'a> {
     stage: Stage,
+    is_flat: bool,
     frame: Frame,
     draws: DrawList<'a>,
+    images: Images,
     next_id: u32,
 }
 
@@ -135,65 +101,88 @@ static DEFAULT_MATERIAL: std::sync::LazyLock<Material> =
     std::sync::LazyLock::new(Material::default);
 
 impl<'a> Assembler<'a> {
-    /// The vertex stage of one primitive.
+    /// Adds what of one primitive may be seen to the frame, and what its vertices carry to the draws.
     fn draw(
         &mut self,
         placed: &'a Placed,
         instance: Instance,
         primitive: &'a Primitive,
-        texture: impl Fn(usize) -> Option<&'a crate::shade::MipChain<'a>>,
-    ) -> Result<Submission<'a>, RenderError> {
+        texture: impl Fn(usize) -> Option<&'a MipChain<'a>>,
+    ) -> Result<(), RenderError> {
         let model = &placed.model;
+        let first_id = self.next_id;
+        let count = u32::try_from(primitive.count()).map_err(|_| RenderError::TooManyPrimitives)?;
+        self.next_id = first_id.checked_add(count).ok_or(RenderError::TooManyPrimitives)?;
         let Posed { positions, normals, to_model } = model.posed(instance, primitive);
         let model_to_world = to_model.then(placed.model_to_world);
-        let material = primitive.material.map_or(&*DEFAULT_MATERIAL, |m| &model.materials[m]);
-        let clip = self.stage.to_clip(&positions, model_to_world);
-        let outcodes: Vec<_> = clip.iter().map(|&point| self.stage.volume.outcode(point)).collect();
-        let snap_inside = |(&point, code): (&HPoint<Clip>, &Outcode)| {
-            code.is_inside().then(|| self.stage.snap(point)).flatten()
+        let model_to_clip = self.stage.model_to_clip(model_to_world);
+        let is_mesh = primitive.topology == Topology::Triangles;
+        let whereabouts = match self.stage.whereabouts(model_to_clip, &positions) {
+            // Points and lines are wider than their vertices tell.
+            Whereabouts::Outside if is_mesh => return Ok(()),
+            Whereabouts::Inside if is_mesh => Whereabouts::Inside,
+            _ => Whereabouts::Unknown,
         };
-        let screen = clip.iter().zip(&outcodes).map(snap_inside).collect();
-        let to_place = |&p: &[f32; 3]| model_to_world.point(to_point(p)).raw().as_vec3().to_array();
-        let draw = Draw {
-            first_id: self.next_id,
+        let material = primitive.material.map_or(&*DEFAULT_MATERIAL, |m| &model.materials[m]);
+        let mut draw = Draw {
+            first_id,
             primitive,
             material,
             base_color_texture: material.base_color_texture.and_then(|used| texture(used.texture)),
             emissive_texture: material.emissive_texture.and_then(|used| texture(used.texture)),
-            places: positions.iter().map(to_place).collect(),
-            normals: normals.map(|normals| to_world(&normals, model_to_world)),
+            vertices: Vec::new(),
+            smooth: normals.is_some() && !self.is_flat,
+            uv_set: uv_set(material, primitive),
             mirrored: model_to_world.determinant() < 0.0,
         };
-        let count = u32::try_from(primitive.count()).map_err(|_| RenderError::TooManyPrimitives)?;
-        self.next_id = self.next_id.checked_add(count).ok_or(RenderError::TooManyPrimitives)?;
-        Ok(Submission { draw, clip, outcodes, screen })
+        if whereabouts == Whereabouts::Inside {
+            self.images.inside(&self.stage, model_to_clip, &positions);
+            self.mesh(&draw);
+        } else {
+            self.images.anywhere(&self.stage, model_to_clip, &positions);
+            self.submit(&draw);
+        }
+        let parts = Parts {
+            positions: draw.is_lit().then_some(&*positions),
+            normals: normals.as_deref().filter(|_| draw.is_lit() && draw.smooth),
+            uvs: draw.uv_set.map(|set| &*primitive.uvs[set]),
+        };
+        draw.vertices = parts.vertices(positions.len(), model_to_world);
+        self.draws.draws.push(draw);
+        Ok(())
+    }
+
+    /// Adds triangles none of which has to be clipped.
+    fn mesh(&mut self, draw: &Draw<'_>) {
+        let triangles = draw.primitive.indices.as_chunks::<3>().0;
+        let cover = cover_of(draw.material.alpha_mode);
+        self.frame.mesh(&self.images.screen, triangles, draw.first_id, cover, self.cull(draw));
     }
 
     /// Clips the primitive's points, lines or triangles and adds what is left to the frame.
-    fn submit(&mut self, submission: &Submission<'a>) {
-        let primitive = submission.draw.primitive;
-        let cover = cover_of(submission.draw.material.alpha_mode);
+    fn submit(&mut self, draw: &Draw<'_>) {
+        let primitive = draw.primitive;
+        let cover = cover_of(draw.material.alpha_mode);
+        let cull = self.cull(draw);
         let items = primitive.indices.chunks_exact(primitive.topology.corners());
-        for (id, corners) in (submission.draw.first_id..).zip(items) {
+        for (id, corners) in (draw.first_id..).zip(items) {
             match (primitive.topology, corners) {
-                (Topology::Points, &[p]) => self.point(submission, p, id, cover),
-                (Topology::Lines, &[p, q]) => self.line(submission, [p, q], id, cover),
-                (Topology::Triangles, &[p, q, r]) => {
-                    self.triangle(submission, [p, q, r], id, cover);
-                }
+                (Topology::Points, &[p]) => self.point(p, id, cover),
+                (Topology::Lines, &[p, q]) => self.line([p, q], id, cover),
+                (Topology::Triangles, &[p, q, r]) => self.triangle([p, q, r], id, cover, cull),
                 _ => {}
             }
         }
     }
 
-    fn point(&mut self, submission: &Submission<'_>, vertex: u32, id: u32, cover: Cover) {
-        if let Some(center) = submission.screen[vertex as usize] {
+    fn point(&mut self, vertex: u32, id: u32, cover: Cover) {
+        if let Some(center) = self.images.screen[vertex as usize] {
             self.frame.point(center, POINT_SIZE, id, cover);
         }
     }
 
-    fn line(&mut self, submission: &Submission<'_>, ends: [u32; 2], id: u32, cover: Cover) {
-        let ends = ends.map(|vertex| submission.clip[vertex as usize]);
+    fn line(&mut self, ends: [u32; 2], id: u32, cover: Cover) {
+        let ends = ends.map(|vertex| self.images.clip[vertex as usize]);
         let Some(seen) = self.stage.visible_segment(ends) else { return };
         if let Some(ends) = self.stage.snap_all([seen.start, seen.end]) {
             let places = [seen.t0 as f32, seen.t1 as f32];
@@ -201,16 +190,18 @@ impl<'a> Assembler<'a> {
         }
     }
 
-    fn triangle(&mut self, submission: &Submission<'_>, corners: [u32; 3], id: u32, cover: Cover) {
-        let points = corners.map(|vertex| submission.clip[vertex as usize]);
-        let outcodes = corners.map(|vertex| submission.outcodes[vertex as usize]);
-        let draw = &submission.draw;
-        let faces_away = orientation(points) * self.sign_of_front(draw) <= 0.0;
-        if faces_away && !draw.material.double_sided || !Outcode::rejects(&outcodes).is_inside() {
+    fn triangle(&mut self, vertices: [u32; 3], id: u32, cover: Cover, cull: Cull) {
+        let Images { clip, outcodes, screen } = &self.images;
+        let vertices = vertices.map(|vertex| vertex as usize);
+        if let Some(corners) = all(vertices.map(|vertex| screen[vertex])) {
+            if is_kept(cull, -signed_area(corners).signum() as f64) {
+                self.frame.triangle(corners, id, cover);
+            }
             return;
         }
-        if let Some(corners) = all(corners.map(|vertex| submission.screen[vertex as usize])) {
-            self.frame.triangle(corners, id, cover);
+        let points = vertices.map(|vertex| clip[vertex]);
+        let outcodes = vertices.map(|vertex| outcodes[vertex]);
+        if !Outcode::rejects(&outcodes).is_inside() || !is_kept(cull, orientation(points)) {
             return;
         }
         for piece in clip_triangle(points, &self.stage.volume).triangles() {
@@ -221,9 +212,23 @@ impl<'a> Assembler<'a> {
         }
     }
 
-    /// 1 if fronts are counter-clockwise in the picture, −1 if they are clockwise there.
-    fn sign_of_front(&self, draw: &Draw<'_>) -> f64 {
-        if draw.mirrored == self.stage.mirrors { 1.0 } else { -1.0 }
+    /// Which triangles are not to be seen: the backs of surfaces with one side. Fronts run counter-clockwise in the picture,
+    /// unless either the way to the world or that to the screen mirrors.
+    fn cull(&self, draw: &Draw<'_>) -> Cull {
+        match (draw.material.double_sided, draw.mirrored == self.stage.mirrors) {
+            (true, _) => Cull::Nothing,
+            (false, true) => Cull::Clockwise,
+            (false, false) => Cull::CounterClockwise,
+        }
+    }
+}
+
+/// Whether a triangle is kept whose [`orientation`] has this sign.
+fn is_kept(cull: Cull, orientation: f64) -> bool {
+    match cull {
+        Cull::Nothing => true,
+        Cull::Clockwise => orientation > 0.0,
+        Cull::CounterClockwise => orientation < 0.0,
     }
 }
 
@@ -240,15 +245,6 @@ fn cover_of(mode: AlphaMode) -> Cover {
         AlphaMode::Mask { .. } => Cover::Masked,
         AlphaMode::Blend => Cover::Translucent,
     }
-}
-
-fn to_world(normals: &[[f32; 3]], model_to_world: Affine<Model, World>) -> Vec<[f32; 3]> {
-    let turned = |&normal: &[f32; 3]| {
-        let normal = Normal::<Model>::from_raw(DVec3::from_array(normal.map(f64::from)));
-        let world = model_to_world.normal(normal).normalized();
-        world.map_or([0.0; 3], |normal| normal.raw().as_vec3().to_array())
-    };
-    normals.iter().map(turned).collect()
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The wireframe style: every edge once, hidden or not, clipped before the divide (PL-2).
 
 use super::RenderError;
-use super::assemble::Stage;
+use super::stage::Stage;
 use crate::model::{Posed, Primitive, Topology};
 use crate::scene::Scene;
 

@@ -4,15 +4,16 @@
 //! corners carry, for a run of such numbers: one primitive of one instance of one mesh.
 
 use super::MipChain;
+use super::corners::{Corners, UV, Vertex, blend};
+use super::seen::Seen;
 use crate::model::{Material, Primitive, TextureUse, Topology};
-use raster::Fragment;
 
 /// One primitive of a mesh at one place of the world.
 #[derive(Clone, Debug)]
 pub struct Draw<'a> {
     /// The name of its first point, line or triangle; the others follow.
     pub first_id: u32,
-    /// Indices, texture coordinates and vertex colours.
+    /// Indices, and what else the vertices carry.
     pub primitive: &'a Primitive,
     /// What it is made of.
     pub material: &'a Material,
@@ -20,10 +21,12 @@ pub struct Draw<'a> {
     pub base_color_texture: Option<&'a MipChain<'a>>,
     /// The texture of the light it gives off.
     pub emissive_texture: Option<&'a MipChain<'a>>,
-    /// The vertices' places in the world.
-    pub places: Vec<[f32; 3]>,
-    /// The vertices' unit normals in the world, if the file has any.
-    pub normals: Option<Vec<[f32; 3]>>,
+    /// What its vertices carry; nothing where nothing of it counts.
+    pub vertices: Vec<Vertex>,
+    /// Whether the vertices have normals that are to be seen; otherwise each triangle has one of its own.
+    pub smooth: bool,
+    /// The set of the texture coordinates that the vertices carry, if they carry any.
+    pub uv_set: Option<usize>,
     /// Whether the way to the world mirrors, so that triangles run the other way round.
     pub mirrored: bool,
 }
@@ -36,96 +39,81 @@ pub struct DrawList<'a> {
 }
 
 impl<'a> DrawList<'a> {
-    /// The draw that a name belongs to.
-    pub(crate) fn of(&self, id: u32) -> &Draw<'a> {
+    /// The draw that a name belongs to, and the first name that does not belong to it any more.
+    #[inline(always)]
+    pub(crate) fn of(&self, id: u32) -> (&Draw<'a>, u32) {
         let after = self.draws.partition_point(|draw| draw.first_id <= id);
-        &self.draws[after - 1]
+        let end = self.draws.get(after).map_or(u32::MAX, |next| next.first_id);
+        (&self.draws[after - 1], end)
     }
 }
 
 impl Draw<'_> {
-    /// Whether light falls on it: unlit materials, lines and points show their colour as it is.
-    pub(super) fn is_lit(&self) -> bool {
-        !self.material.unlit && self.primitive.topology == Topology::Triangles
-    }
-
     /// The vertices of a named point, line or triangle. Corners that it lacks repeat its last one; their weights are 0.
-    fn corners(&self, id: u32) -> [usize; 3] {
+    #[inline(always)]
+    fn corners_of_one(&self, id: u32) -> [usize; 3] {
+        let indices = &self.primitive.indices;
+        let nth = (id - self.first_id) as usize;
+        if self.primitive.topology == Topology::Triangles {
+            let [a, b, c] = indices.as_chunks::<3>().0[nth];
+            return [a as usize, b as usize, c as usize];
+        }
         let count = self.primitive.topology.corners();
-        let start = (id - self.first_id) as usize * count;
-        [0, 1, 2].map(|k: usize| self.primitive.indices[start + k.min(count - 1)] as usize)
+        [0, 1, 2].map(|k: usize| indices[nth * count + k.min(count - 1)] as usize)
     }
 
-    /// The place in the world.
-    pub(super) fn place(&self, fragment: &Fragment<'_>) -> [f32; 3] {
-        blend(&self.places, self.corners(fragment.id), fragment.weights)
+    /// The vertices of fragments of the named primitives, all of this draw.
+    #[inline(always)]
+    pub(super) fn corners<const N: usize>(&self, ids: &[u32; N], are_of_one: bool) -> Corners<N> {
+        if are_of_one {
+            return Corners::One(self.corners_of_one(ids[0]));
+        }
+        let mut corners = [[0; 3]; N];
+        for lane in 0..N {
+            corners[lane] = self.corners_of_one(ids[lane]);
+        }
+        Corners::Each(corners)
     }
 
-    /// The vertex colour, if there is one.
-    pub(super) fn color(&self, fragment: &Fragment<'_>) -> Option<[f32; 4]> {
-        let colors = self.primitive.colors.as_ref()?;
-        Some(blend(colors, self.corners(fragment.id), fragment.weights))
-    }
-
-    /// The texture's coordinates, and their derivatives by the pixel's column and row.
-    pub(super) fn uvs(&self, fragment: &Fragment<'_>, used: &TextureUse) -> [[f32; 2]; 3] {
-        let Some(uvs) = self.primitive.uvs.get(used.uv_set) else { return [[0.0; 2]; 3] };
-        let corners = self.corners(fragment.id);
-        let weights = [fragment.weights, fragment.weights_dx(), fragment.weights_dy()];
-        let [[u, v], right, below] = weights.map(|weights| blend(uvs, corners, weights));
-        let [a, b] = used.uv_map;
-        let turned = |[u, v]: [f32; 2]| [a[0] * u + a[1] * v, b[0] * u + b[1] * v];
-        [[a[0] * u + a[1] * v + a[2], b[0] * u + b[1] * v + b[2]], turned(right), turned(below)]
-    }
-
-    /// The unit normal on the side of the viewer, `to_viewer` leading there.
-    ///
-    /// Smooth if the file has normals and `flat` does not ask for the face's own. The face's own normal decides which side
-    /// is seen: a smooth one may lean away from the viewer near the outline of a body and is right to do so.
-    pub(super) fn normal(
+    /// The texture's coordinates and, if the chain wants them, their derivatives by the pixel's column and row.
+    #[inline(always)]
+    pub(super) fn uvs<const N: usize>(
         &self,
-        fragment: &Fragment<'_>,
-        flat: bool,
-        to_viewer: [f32; 3],
-    ) -> [f32; 3] {
-        let face = self.face_normal(fragment.id);
-        let seen_from_behind = dot(face, to_viewer) < 0.0;
-        let normal = match &self.normals {
-            Some(normals) if !flat => blend(normals, self.corners(fragment.id), fragment.weights),
-            _ => face,
+        corners: &Corners<N>,
+        seen: &impl Seen<N>,
+        used: &TextureUse,
+        with_derivatives: bool,
+    ) -> [[[f32; N]; 2]; 3] {
+        let mut uvs = [[[0.0; N]; 2]; 3];
+        let carried = if self.uv_set == Some(used.uv_set) {
+            corners.carried(&self.vertices, UV)
+        } else if let Some(set) = self.primitive.uvs.get(used.uv_set) {
+            corners.carried(set, 0)
+        } else {
+            return uvs;
         };
-        let normal = unit(normal).or_else(|| unit(face)).unwrap_or([0.0, 0.0, 1.0]);
-        if seen_from_behind { normal.map(|c| -c) } else { normal }
+        let [u, v] = blend(&carried, &seen.weights());
+        for (axis, map) in used.uv_map.iter().enumerate() {
+            for lane in 0..N {
+                uvs[0][axis][lane] = map[0] * u[lane] + map[1] * v[lane] + map[2];
+            }
+        }
+        if with_derivatives {
+            uvs[1] = turned(&used.uv_map, &blend(&carried, &seen.weights_dx()));
+            uvs[2] = turned(&used.uv_map, &blend(&carried, &seen.weights_dy()));
+        }
+        uvs
     }
+}
 
-    /// Perpendicular to the triangle, on its front side; its length is twice the triangle's area.
-    pub(crate) fn face_normal(&self, id: u32) -> [f32; 3] {
-        let [a, b, c] = self.corners(id).map(|vertex| self.places[vertex]);
-        let (ab, ac) = ([0, 1, 2].map(|k| b[k] - a[k]), [0, 1, 2].map(|k| c[k] - a[k]));
-        let normal = cross(ab, ac);
-        if self.mirrored { normal.map(|c| -c) } else { normal }
+/// A step of texture coordinates after their map, which moves places but not steps.
+#[inline(always)]
+fn turned<const N: usize>(uv_map: &[[f32; 3]; 2], [u, v]: &[[f32; N]; 2]) -> [[f32; N]; 2] {
+    let mut turned = [[0.0; N]; 2];
+    for (axis, map) in uv_map.iter().enumerate() {
+        for lane in 0..N {
+            turned[axis][lane] = map[0] * u[lane] + map[1] * v[lane];
+        }
     }
-}
-
-fn blend<const N: usize>(values: &[[f32; N]], corners: [usize; 3], weights: [f32; 3]) -> [f32; N] {
-    let [a, b, c] = corners.map(|corner| values[corner]);
-    std::array::from_fn(|k| a[k] * weights[0] + b[k] * weights[1] + c[k] * weights[2])
-}
-
-pub(super) fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-pub(super) fn length(v: [f32; 3]) -> f32 {
-    dot(v, v).sqrt()
-}
-
-/// The vector at length 1; `None` if it is too short or too long to have a direction.
-fn unit(v: [f32; 3]) -> Option<[f32; 3]> {
-    let length = length(v);
-    (length > 0.0 && length.is_finite()).then(|| v.map(|c| c / length))
+    turned
 }

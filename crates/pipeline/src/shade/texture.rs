@@ -4,8 +4,10 @@
 //! picture covers many texels, a level is read in which it covers about one, so that the texture neither shimmers nor
 //! costs more than a few fetches.
 
+mod sample;
+
 use crate::color::linear_table;
-use crate::model::{Filter, Image, Mipmap, Sampler, Wrap};
+use crate::model::{Image, Mipmap, Sampler};
 use std::borrow::Cow;
 
 /// An image at all its sizes, with the way to read it.
@@ -13,6 +15,8 @@ use std::borrow::Cow;
 pub struct MipChain<'a> {
     levels: Vec<Level<'a>>,
     sampler: Sampler,
+    /// The linear light of the codes of texels.
+    to_linear: &'static [f32; 256],
 }
 
 /// One size of an image: sRGB texels with straight alpha, rows from the top.
@@ -38,128 +42,34 @@ impl<'a> MipChain<'a> {
                 levels.push(half);
             }
         }
-        Self { levels, sampler }
-    }
-
-    /// The texture's colour, linear with straight alpha, at `uvs[0]`; `uvs[1]` and `uvs[2]` are the derivatives by the
-    /// pixel's column and row, which say how many texels a pixel covers.
-    pub(super) fn sample(&self, uvs: [[f32; 2]; 3], to_linear: &[f32; 256]) -> [f32; 4] {
-        let read = |level: usize, filter: Filter| {
-            self.levels[level].read(uvs[0], filter, self.sampler, to_linear)
-        };
-        let lod = self.level_of_detail(uvs);
-        if lod <= 0.0 {
-            return read(0, self.sampler.magnify);
-        }
-        let last = self.levels.len() - 1;
-        match self.sampler.mipmap {
-            Mipmap::None => read(0, self.sampler.minify),
-            Mipmap::Nearest => read(((lod + 0.5) as usize).min(last), self.sampler.minify),
-            Mipmap::Linear => {
-                let lower = (lod as usize).min(last);
-                let share = if lower == last { 0.0 } else { lod - lower as f32 };
-                let near = read(lower, self.sampler.minify);
-                if share == 0.0 {
-                    return near;
-                }
-                let far = read(lower + 1, self.sampler.minify);
-                [0, 1, 2, 3].map(|k| near[k] + (far[k] - near[k]) * share)
-            }
-        }
-    }
-
-    /// The base-2 logarithm of the texels that a pixel covers along its longer side.
-    fn level_of_detail(&self, [_, right, below]: [[f32; 2]; 3]) -> f32 {
-        let full = &self.levels[0];
-        let texels = |[u, v]: [f32; 2]| {
-            let du = u * full.width as f32;
-            let dv = v * full.height as f32;
-            du * du + dv * dv
-        };
-        let squared = texels(right).max(texels(below));
-        if squared > 1.0 && squared.is_finite() { 0.5 * libm::log2f(squared) } else { 0.0 }
+        Self { levels, sampler, to_linear: linear_table() }
     }
 }
 
 impl Level<'_> {
     /// This level at half size: each texel the mean of four, in linear light; `None` if it is a single texel.
+    /// Of an odd number of rows or columns the last one is left out.
     fn half<'b>(&self) -> Option<Level<'b>> {
         if self.width == 1 && self.height == 1 {
             return None;
         }
         let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
         let codes = MeanTables::shared();
-        let mut texels = Vec::with_capacity((width * height) as usize);
+        let mut texels = Vec::with_capacity(width as usize * height as usize);
+        let row = |y: i32| {
+            let start = y.min(self.height - 1) as usize * self.width as usize;
+            &self.texels[start..start + self.width as usize]
+        };
         for y in 0..height {
-            let rows = [2 * y, (2 * y + 1).min(self.height - 1)];
-            for x in 0..width {
-                let columns = [2 * x, (2 * x + 1).min(self.width - 1)];
-                let four = [
-                    self.texel(columns[0], rows[0]),
-                    self.texel(columns[1], rows[0]),
-                    self.texel(columns[0], rows[1]),
-                    self.texel(columns[1], rows[1]),
-                ];
-                texels.push(codes.mean(four));
+            let (upper, lower) = (row(2 * y), row(2 * y + 1));
+            if let ([a], [b]) = (upper, lower) {
+                texels.push(codes.mean([*a, *a, *b, *b]));
+                continue;
             }
+            let pairs = upper.as_chunks::<2>().0.iter().zip(lower.as_chunks::<2>().0);
+            texels.extend(pairs.map(|(&[a, b], &[c, d])| codes.mean([a, b, c, d])));
         }
         Some(Level { width, height, texels: Cow::Owned(texels) })
-    }
-
-    fn texel(&self, x: i32, y: i32) -> [u8; 4] {
-        self.texels[(y * self.width + x) as usize]
-    }
-
-    fn read(
-        &self,
-        [u, v]: [f32; 2],
-        filter: Filter,
-        sampler: Sampler,
-        to_linear: &[f32; 256],
-    ) -> [f32; 4] {
-        let (x, y) = (u * self.width as f32, v * self.height as f32);
-        let linear = |x: i32, y: i32| {
-            let x = wrap(x, self.width, sampler.wrap_u);
-            let y = wrap(y, self.height, sampler.wrap_v);
-            let [r, g, b, a] = self.texel(x, y);
-            let channel = |code: u8| to_linear[usize::from(code)];
-            [channel(r), channel(g), channel(b), f32::from(a) / 255.0]
-        };
-        match filter {
-            Filter::Nearest => linear(floor(x), floor(y)),
-            Filter::Linear => {
-                let (left, top) = (floor(x - 0.5), floor(y - 0.5));
-                let (s, t) = (x - 0.5 - left as f32, y - 0.5 - top as f32);
-                let upper = mix(linear(left, top), linear(left + 1, top), s);
-                let lower = mix(linear(left, top + 1), linear(left + 1, top + 1), s);
-                mix(upper, lower, t)
-            }
-        }
-    }
-}
-
-/// The largest whole number not above `x`; coordinates beyond a texture's reach stay in range.
-fn floor(x: f32) -> i32 {
-    let cut = x.clamp(-1e9, 1e9) as i32;
-    cut - i32::from((cut as f32) > x)
-}
-
-fn mix(a: [f32; 4], b: [f32; 4], share: f32) -> [f32; 4] {
-    [0, 1, 2, 3].map(|k| a[k] + (b[k] - a[k]) * share)
-}
-
-/// The texel that is shown in place of number `at` of a row of `size`.
-fn wrap(at: i32, size: i32, mode: Wrap) -> i32 {
-    if (0..size).contains(&at) {
-        return at;
-    }
-    match mode {
-        Wrap::Repeat => at.rem_euclid(size),
-        Wrap::Clamp => at.clamp(0, size - 1),
-        Wrap::Mirror => {
-            let place = at.rem_euclid(2 * size);
-            if place < size { place } else { 2 * size - 1 - place }
-        }
     }
 }
 
@@ -194,6 +104,7 @@ impl MeanTables {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::{Filter, Wrap};
 
     fn checker(size: u32) -> Image {
         let texel = |n: u32| {
@@ -202,12 +113,9 @@ mod tests {
         Image { width: size, height: size, rgba: (0..size * size).map(texel).collect() }
     }
 
-    #[test]
-    fn coordinates_outside_the_image_are_wrapped() {
-        let row = |mode| (-5..6).map(|at| wrap(at, 3, mode)).collect::<Vec<_>>();
-        assert_eq!(row(Wrap::Repeat), [1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2]);
-        assert_eq!(row(Wrap::Clamp), [0, 0, 0, 0, 0, 0, 1, 2, 2, 2, 2]);
-        assert_eq!(row(Wrap::Mirror), [1, 2, 2, 1, 0, 0, 1, 2, 2, 1, 0]);
+    /// One fragment, with alpha.
+    fn sample(chain: &MipChain<'_>, uvs: [[f32; 2]; 3]) -> [f32; 4] {
+        chain.sample(&uvs.map(|[u, v]| [[u], [v]]), true).map(|[channel]| channel)
     }
 
     #[test]
@@ -215,7 +123,7 @@ mod tests {
         let image = checker(16);
         let chain = MipChain::new(&image, Sampler::default());
         let uvs = [[0.4, 0.4], [1.0, 0.0], [0.0, 1.0]];
-        let [r, g, b, a] = chain.sample(uvs, linear_table());
+        let [r, g, b, a] = sample(&chain, uvs);
         assert!((r - 0.5).abs() < 0.003 && r == g && g == b && a == 1.0, "{r}");
     }
 
@@ -224,7 +132,7 @@ mod tests {
         let image = Image { width: 2, height: 1, rgba: vec![[0, 0, 0, 0], [255; 4]] };
         let sampler = Sampler { wrap_u: Wrap::Clamp, ..Sampler::default() };
         let chain = MipChain::new(&image, sampler);
-        let at = |u: f32| chain.sample([[u, 0.5], [0.0; 2], [0.0; 2]], linear_table())[0];
+        let at = |u: f32| sample(&chain, [[u, 0.5], [0.0; 2], [0.0; 2]])[0];
         assert_eq!([at(0.25), at(0.5), at(0.75), at(1.5)], [0.0, 0.5, 1.0, 1.0]);
     }
 
@@ -233,12 +141,46 @@ mod tests {
         let image = checker(4);
         let chain = MipChain::new(&image, Sampler::default());
         for u in [f32::NAN, f32::INFINITY, f32::MAX] {
-            assert!(
-                chain
-                    .sample([[u, 0.5]; 3], linear_table())
-                    .iter()
-                    .all(|c| c.is_nan() || c.is_finite())
-            );
+            let texel = sample(&chain, [[u, 0.5]; 3]);
+            assert!(texel.iter().all(|c| c.is_nan() || c.is_finite()));
+        }
+    }
+
+    #[test]
+    fn eight_samples_at_once_have_the_bits_of_one_by_one() {
+        let texel = |n: u32| [n * 7, n * 31, n * 101, n * 59].map(|code| code as u8);
+        let rgba = (0..24 * 16).map(texel).collect();
+        let image = Image { width: 24, height: 16, rgba };
+        let filters = [Filter::Nearest, Filter::Linear];
+        let wraps = [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp];
+        for mipmap in [Mipmap::None, Mipmap::Nearest, Mipmap::Linear] {
+            for (magnify, minify) in filters.into_iter().flat_map(|a| filters.map(|b| (a, b))) {
+                for (wrap_u, wrap_v) in wraps.into_iter().flat_map(|a| wraps.map(|b| (a, b))) {
+                    let sampler = Sampler { wrap_u, wrap_v, magnify, minify, mipmap };
+                    eight_are_as_one_by_one(&MipChain::new(&image, sampler));
+                }
+            }
+        }
+    }
+
+    /// Sizes of a pixel from a thirtieth of a texel to all of the image, mixed in each eight.
+    #[expect(clippy::needless_range_loop, reason = "lanes of several arrays are written")]
+    fn eight_are_as_one_by_one(chain: &MipChain<'_>) {
+        for round in 0..20 {
+            let mut uvs = [[[0.0_f32; 8]; 2]; 3];
+            for lane in 0..8 {
+                let number = (round * 8 + lane) as f32;
+                let size = 0.002 * (1 << ((round * 5 + lane * 3) % 10)) as f32;
+                uvs[0][0][lane] = number * 0.37 - 20.0;
+                uvs[0][1][lane] = 9.0 - number * 0.19;
+                uvs[1][0][lane] = size;
+                uvs[2][1][lane] = size * 0.7;
+            }
+            let all = chain.sample(&uvs, true);
+            for lane in 0..8 {
+                let one = uvs.map(|uv| uv.map(|axis| axis[lane]));
+                assert_eq!(sample(chain, one), all.map(|channel| channel[lane]));
+            }
         }
     }
 }

@@ -1,0 +1,143 @@
+//! The way from the world to the screen.
+
+use super::RenderError;
+use crate::scene::Scene;
+use clip::{Extent, Outcode, Volume, clip_segment};
+use glam::DVec3;
+use homog::{Affine, Clip, HPoint, Model, Ndc, Point, Projective, Screen, World};
+use raster::{GUARD_BAND, ScreenVertex};
+use viewport::Viewport;
+
+/// The way from the world to the screen.
+#[derive(Debug)]
+pub(super) struct Stage {
+    world_to_clip: Projective<World, Clip>,
+    /// What is kept: the view volume with a guard band.
+    pub(super) volume: Volume,
+    ndc_to_screen: Affine<Ndc, Screen>,
+    pub(super) mirrors: bool,
+}
+
+/// Where a mesh is, as far as the box around its vertices tells.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Whereabouts {
+    /// All of it is inside of the view volume and its guard band.
+    Inside,
+    /// All of it is outside of the view volume.
+    Outside,
+    /// Vertices must be looked at one by one.
+    Unknown,
+}
+
+impl Stage {
+    pub(super) fn of(scene: &Scene) -> Result<Self, RenderError> {
+        let (width, height) = (scene.image.width, scene.image.height);
+        let viewport = Viewport::image(width, height)?;
+        // Clip only what would leave the rasteriser's grid, with a pixel to spare: its tiles cut the rest (CL-4).
+        let band = |side: u32| {
+            let half = 0.5 * f64::from(side);
+            (1.0 - (GUARD_BAND.start() + 1.0) / half).clamp(1.0, Volume::MAX_GUARD_BAND)
+        };
+        let volume = Volume::CHAPTER;
+        let volume = volume.with_guard_band(band(width), band(height)).unwrap_or(volume);
+        Ok(Self {
+            world_to_clip: scene.shot.world_to_clip(),
+            volume,
+            ndc_to_screen: viewport.ndc_to_screen(),
+            mirrors: scene.shot.mirrors(),
+        })
+    }
+
+    /// From a model to clip space.
+    pub(super) fn model_to_clip(
+        &self,
+        model_to_world: Affine<Model, World>,
+    ) -> Projective<Model, Clip> {
+        model_to_world.then_project(self.world_to_clip)
+    }
+
+    /// Clip-space images of a primitive's vertices.
+    pub(super) fn to_clip(
+        &self,
+        positions: &[[f32; 3]],
+        model_to_world: Affine<Model, World>,
+    ) -> Vec<HPoint<Clip>> {
+        let model_to_clip = self.model_to_clip(model_to_world);
+        positions.iter().map(|&p| model_to_clip.point(to_point(p))).collect()
+    }
+
+    /// Where a mesh with vertices at these positions is. Boxes are convex, and stay so on the way to clip space.
+    pub(super) fn whereabouts(
+        &self,
+        model_to_clip: Projective<Model, Clip>,
+        positions: &[[f32; 3]],
+    ) -> Whereabouts {
+        let (mut least, mut greatest) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+        for position in positions {
+            for axis in 0..3 {
+                least[axis] = least[axis].min(position[axis]);
+                greatest[axis] = greatest[axis].max(position[axis]);
+            }
+        }
+        let corner = |number: usize, axis: usize| {
+            if number >> axis & 1 == 0 { least[axis] } else { greatest[axis] }
+        };
+        let corners: [[f32; 3]; 8] = std::array::from_fn(|n| [0, 1, 2].map(|axis| corner(n, axis)));
+        let in_band = self.extent(&self.volume, model_to_clip, &corners);
+        if in_band.is_inside() && !positions.is_empty() {
+            return Whereabouts::Inside;
+        }
+        let is_outside = self.extent(&Volume::CHAPTER, model_to_clip, &corners).is_outside();
+        // Corners that are not finite are outside of all planes, which says nothing of what is between them.
+        let is_certain = corners.iter().flatten().all(|c| c.abs() < 1e30);
+        if is_outside && is_certain { Whereabouts::Outside } else { Whereabouts::Unknown }
+    }
+
+    fn extent(
+        &self,
+        volume: &Volume,
+        model_to_clip: Projective<Model, Clip>,
+        corners: &[[f32; 3]; 8],
+    ) -> Extent {
+        let mut points = corners.map(|_| HPoint::new(0.0, 0.0, 0.0, 1.0));
+        volume.project(model_to_clip, corners, &mut points, &mut [Outcode::INSIDE; 8])
+    }
+
+    /// The visible part of a line; `None` if there is none.
+    pub(super) fn visible_segment(&self, ends: [HPoint<Clip>; 2]) -> Option<clip::ClippedSegment> {
+        clip_segment(ends[0], ends[1], &self.volume)
+    }
+
+    /// The divide and the viewport.
+    pub(super) fn to_screen(&self, point: HPoint<Clip>) -> Option<Point<Screen>> {
+        Some(self.ndc_to_screen.point(point.divide()?))
+    }
+
+    #[inline]
+    pub(super) fn snap(&self, point: HPoint<Clip>) -> Option<ScreenVertex> {
+        ScreenVertex::snap(self.to_screen(point)?, point.w())
+    }
+
+    pub(super) fn snap_all<const N: usize>(
+        &self,
+        points: [HPoint<Clip>; N],
+    ) -> Option<[ScreenVertex; N]> {
+        all(points.map(|point| self.snap(point)))
+    }
+}
+
+/// All vertices of a primitive, if none is missing.
+#[inline]
+pub(super) fn all<const N: usize>(
+    vertices: [Option<ScreenVertex>; N],
+) -> Option<[ScreenVertex; N]> {
+    let mut found = [vertices[0]?; N];
+    for (place, vertex) in found.iter_mut().zip(vertices) {
+        *place = vertex?;
+    }
+    Some(found)
+}
+
+pub(super) fn to_point(position: [f32; 3]) -> Point<Model> {
+    Point::from_raw(DVec3::from_array(position.map(f64::from)))
+}

@@ -1,0 +1,89 @@
+//! What shading asks of fragments, of one as of eight: it is written once, for any number of lanes.
+//!
+//! Everything on this way is a plain loop over the lanes and is made part of the function that calls it, which is compiled
+//! for the processor's vector instructions. The bits do not depend on the number of lanes.
+
+use raster::{Fragment, Fragments, WIDE, Weights};
+
+/// Some fragments that are shaded at once.
+pub(super) trait Seen<const N: usize> {
+    /// The corners' shares at the fragments.
+    fn weights(&self) -> [[f32; N]; 3];
+    /// Their derivatives by the pixel's column.
+    fn weights_dx(&self) -> [[f32; N]; 3];
+    /// Their derivatives by the pixel's row, downwards.
+    fn weights_dy(&self) -> [[f32; N]; 3];
+}
+
+impl Seen<1> for Fragment<'_> {
+    fn weights(&self) -> [[f32; 1]; 3] {
+        self.weights.map(|weight| [weight])
+    }
+
+    fn weights_dx(&self) -> [[f32; 1]; 3] {
+        self.weights_dx().map(|weight| [weight])
+    }
+
+    fn weights_dy(&self) -> [[f32; 1]; 3] {
+        self.weights_dy().map(|weight| [weight])
+    }
+}
+
+/// Eight fragments with their weights.
+#[derive(Debug)]
+pub(super) struct Wide<'a> {
+    weights: Weights<'a>,
+}
+
+impl<'a> Wide<'a> {
+    #[inline(always)]
+    pub(super) fn new(fragments: &Fragments<'a>) -> Self {
+        Self { weights: fragments.weights() }
+    }
+}
+
+impl Seen<WIDE> for Wide<'_> {
+    #[inline(always)]
+    fn weights(&self) -> [[f32; WIDE]; 3] {
+        self.weights.here
+    }
+
+    #[inline(always)]
+    fn weights_dx(&self) -> [[f32; WIDE]; 3] {
+        self.weights.dx()
+    }
+
+    #[inline(always)]
+    fn weights_dy(&self) -> [[f32; WIDE]; 3] {
+        self.weights.dy()
+    }
+}
+
+/// The same numbers in all lanes.
+#[inline(always)]
+pub(super) fn in_all<const N: usize, const K: usize>(values: [f32; K]) -> [[f32; N]; K] {
+    let mut lanes = [[0.0; N]; K];
+    for k in 0..K {
+        lanes[k] = [values[k]; N];
+    }
+    lanes
+}
+
+/// Multiplies each of the first channels by a factor of its own.
+#[inline(always)]
+pub(super) fn scale<const N: usize>(channels: &mut [[f32; N]], factors: &[[f32; N]]) {
+    for (channel, factor) in channels.iter_mut().zip(factors) {
+        for lane in 0..N {
+            channel[lane] *= factor[lane];
+        }
+    }
+}
+
+#[inline(always)]
+pub(super) fn dots<const N: usize>(a: &[[f32; N]; 3], b: &[[f32; N]; 3]) -> [f32; N] {
+    let mut dots = [0.0; N];
+    for lane in 0..N {
+        dots[lane] = a[0][lane] * b[0][lane] + a[1][lane] * b[1][lane] + a[2][lane] * b[2][lane];
+    }
+    dots
+}
