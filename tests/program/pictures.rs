@@ -21,6 +21,21 @@ fn flags_go_before_what_the_scene_says() {
 }
 
 #[test]
+fn timings_name_the_stages_and_change_nothing() {
+    let bench = Bench::new("timings");
+    bench.bring("crate.glb");
+    let flags = ["--size", "40x30", "--timings"];
+    let run = bench.run(&[&["render", "crate.glb"][..], &flags].concat());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let stages: Vec<_> = run.stderr.lines().filter_map(|line| line.split("  ").next()).collect();
+    let expected = ["read", "parse", "geometry", "images", "frame", "mip chains", "vertices"];
+    assert_eq!(stages, [&expected[..], &["pixels", "encode", "write", "all"]].concat());
+    let timed = bench.picture("crate.png");
+    assert_eq!(bench.run(&["render", "crate.glb", "--size", "40x30"]).stderr, "");
+    assert_eq!(bench.picture("crate.png"), timed);
+}
+
+#[test]
 fn a_transparent_background_has_no_halo() {
     let bench = Bench::new("transparent");
     bench.bring("spheres.glb");

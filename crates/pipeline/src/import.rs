@@ -58,6 +58,7 @@ pub use error::{Fault, FaultKind, ImportError};
 pub use extensions::{ExtensionUse, extension_use};
 pub use limits::Limits;
 
+use crate::Timings;
 use crate::model::Model;
 use accessor::Source;
 use buffers::Buffers;
@@ -85,6 +86,8 @@ pub struct ImportOptions {
     pub variant: Option<Choice>,
     /// What is done with images.
     pub images: Images,
+    /// What the stages of loading are measured with. Default: not at all.
+    pub timings: Timings,
 }
 
 /// What is done with the images of a file.
@@ -115,7 +118,8 @@ pub enum Images {
 /// The file, or one it refers to, cannot be read or may not be; is not glTF 2.0 or breaks its rules; requires an
 /// unknown extension; exceeds a limit; has no such scene or variant as the options ask for.
 pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> {
-    let loaded = resolver::read_file(path, &options.limits, "").and_then(|bytes| {
+    let read = || resolver::read_file(path, &options.limits, "");
+    let loaded = options.timings.measure("read", read).and_then(|bytes| {
         let resolver = Resolver::new(path, bytes.len(), options)?;
         read_model(path, &bytes, &resolver, options)
     });
@@ -145,7 +149,9 @@ fn read_model(
     let limits = resolver.limits;
     let mut warnings = Warnings::new(options.lenient);
     let container = Container::find(bytes, &mut warnings)?;
-    let document = Document::parse(&bytes[container.json], limits, &mut warnings)?;
+    let json = &bytes[container.json];
+    let parse = || Document::parse(json, limits, &mut warnings);
+    let document = options.timings.measure("parse", parse)?;
     let chunk = container.binary.map(|range| &bytes[range]);
     extensions::check(&document.root, &mut warnings)?;
     let buffers = Buffers::new(&document.root, resolver, chunk, limits);

@@ -9,8 +9,10 @@ mod picture;
 pub mod render;
 pub mod scene;
 pub mod shade;
+mod timings;
 
-pub use output::OutputError;
+pub use output::{OutputError, write_file};
 pub use picture::Picture;
-pub use render::{RenderError, render};
+pub use render::{RenderError, render, render_timed};
 pub use scene::{Origin, ResolveError, Scene, SceneError, SceneFile};
+pub use timings::Timings;

@@ -44,8 +44,11 @@ impl Picture {
     }
 }
 
-/// Writes a file whole or not at all.
-fn write_file(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+/// Writes a file whole or not at all: beside its place first, then by renaming.
+///
+/// # Errors
+/// If the file cannot be written; a file that was there before is then as it was.
+pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     let fault = |cause| OutputError { path: path.to_owned(), cause };
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(format!(".{}.part", std::process::id()));

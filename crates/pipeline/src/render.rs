@@ -17,11 +17,11 @@ mod wireframe;
 
 pub use shot::Shot;
 
-use crate::Picture;
 use crate::canvas::Canvas;
 use crate::color::SrgbEncoder;
 use crate::scene::{Scene, Style};
 use crate::shade::Shading;
+use crate::{Picture, Timings};
 use assemble::Assembly;
 use textures::Textures;
 
@@ -45,20 +45,35 @@ pub enum RenderError {
 /// # Errors
 /// If the picture's size is out of range or the scene holds too much.
 pub fn render(scene: &Scene, threads: usize) -> Result<Picture, RenderError> {
+    render_timed(scene, threads, &Timings::default())
+}
+
+/// Renders a scene, and measures how long each stage takes.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_timed(
+    scene: &Scene,
+    threads: usize,
+    timings: &Timings,
+) -> Result<Picture, RenderError> {
     match scene.style {
-        Style::Shaded | Style::Flat => surfaces(scene, threads),
-        Style::Wireframe => lines(scene),
+        Style::Shaded | Style::Flat => surfaces(scene, threads, timings),
+        Style::Wireframe => timings.measure("lines", || lines(scene)),
     }
 }
 
-fn surfaces(scene: &Scene, threads: usize) -> Result<Picture, RenderError> {
+fn surfaces(scene: &Scene, threads: usize, timings: &Timings) -> Result<Picture, RenderError> {
     let image = scene.image;
-    let textures = Textures::of(scene);
-    let Assembly { frame, draws } = Assembly::of(scene, &textures)?;
+    let textures = timings.measure("mip chains", || Textures::of(scene));
+    let assembled = timings.measure("vertices", || Assembly::of(scene, &textures))?;
+    let Assembly { frame, draws } = assembled;
     let shading = Shading { draws: &draws, lights: &scene.lights, viewer: scene.shot.viewer() };
     let mut pixels = vec![[0; 4]; image.width as usize * image.height as usize];
     let encoder = SrgbEncoder::shared();
-    frame.draw(&shading, image.background, threads, &mut pixels, encoder);
+    timings.measure("pixels", || {
+        frame.draw(&shading, image.background, threads, &mut pixels, encoder);
+    });
     Ok(Picture { width: image.width, height: image.height, pixels })
 }
 

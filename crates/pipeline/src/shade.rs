@@ -168,7 +168,7 @@ impl Draw<'_> {
         let emits = emission_counts && !*unlit && *emissive != [0.0; 3];
         let mut base = in_all(*base_color);
         let mut emitted = in_all(if emits { *emissive } else { [0.0; 3] });
-        if let Some(colors) = &self.primitive.colors {
+        if let Some(colors) = &self.colors {
             scale(&mut base, &blend::<N, 4>(&corners.carried(colors, 0), &seen.weights()));
         }
         let textures = [

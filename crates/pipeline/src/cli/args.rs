@@ -71,6 +71,9 @@ pub(crate) struct RenderArgs {
     /// Threads to use; the picture does not depend on it [default: as many as there are cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) threads: Option<u16>,
+    /// Tell how long each stage took
+    #[arg(long)]
+    pub(crate) timings: bool,
     #[command(flatten)]
     pub(crate) load: LoadArgs,
 }

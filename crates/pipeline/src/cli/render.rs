@@ -3,12 +3,15 @@
 use super::args::{ProjectionArg, RenderArgs, StyleArg};
 use super::progress::Progress;
 use super::{Failure, complain};
+use pipeline::import::ImportOptions;
 use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::{
     BackgroundFile, CameraChoice, ProjectionFile, SceneFile, StyleFile, ViewFile,
 };
-use pipeline::{Origin, Scene, render};
+use pipeline::{Origin, Scene, Timings, render_timed};
+use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// The most warnings of one model that are told; the rest is counted.
 const MOST_WARNINGS: usize = 8;
@@ -18,15 +21,31 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let progress = Progress::start("loading");
     let (origin, mut file) = open(&args.input)?;
     override_with(&mut file, args);
-    let options = ResolveOptions { import: args.load.options() };
+    let timings = if args.timings { Timings::measuring() } else { Timings::default() };
+    let import = ImportOptions { timings: timings.clone(), ..args.load.options() };
+    let options = ResolveOptions { import };
     let scene = Scene::resolve(&origin, &file, &options)?;
     progress.stage("rendering");
-    let picture = render(&scene, threads(args))?;
+    let picture = render_timed(&scene, threads(args), &timings)?;
     progress.stage("writing");
-    picture.write_png(&output)?;
+    let png = timings.measure("encode", || picture.to_png());
+    timings.measure("write", || pipeline::write_file(&output, &png))?;
     drop(progress);
+    tell(&timings);
     warn(&scene);
     Ok(())
+}
+
+/// What each stage took, and all together, on the standard error.
+fn tell(timings: &Timings) {
+    let stages = timings.stages();
+    let all: Duration = stages.iter().map(|(_, took)| *took).sum();
+    let rows = stages.iter().copied().chain((!stages.is_empty()).then_some(("all", all)));
+    for (stage, took) in rows {
+        let milliseconds = 1e3 * took.as_secs_f64();
+        // Nothing else can be done where nobody listens.
+        let _ = writeln!(std::io::stderr(), "{stage:<10} {milliseconds:9.2} ms");
+    }
 }
 
 /// Whether a file is a scene, by its name.

@@ -18,6 +18,21 @@ pub(super) fn build(
     options: &ImportOptions,
     warnings: &mut Warnings,
 ) -> Result<Model, Fault> {
+    let geometry = || geometry(document, source, options, warnings);
+    let mut model = options.timings.measure("geometry", geometry)?;
+    let meshes = shown_meshes(&model);
+    let images = || image::images(source, &mut model, &meshes, options.images, warnings);
+    options.timings.measure("images", images);
+    Ok(model)
+}
+
+/// Everything but the images.
+fn geometry(
+    document: &Document,
+    source: &Source<'_>,
+    options: &ImportOptions,
+    warnings: &mut Warnings,
+) -> Result<Model, Fault> {
     let root = &document.root;
     let mut nodes = scene::nodes(document, source.limits, warnings)?;
     let shown = choice::scene(root, options.scene.as_ref(), warnings)?;
@@ -42,8 +57,6 @@ pub(super) fn build(
     shape(document, source, options, &mut model, warnings)?;
     instancing::read(source, &mut model.nodes, warnings)?;
     scene::check_items(&model, source.limits)?;
-    let meshes = shown_meshes(&model);
-    image::images(source, &mut model, &meshes, options.images, warnings);
     Ok(model)
 }
 

@@ -63,9 +63,10 @@ impl Images {
         model_to_clip: Projective<Model, Clip>,
         positions: &[[f32; 3]],
     ) {
-        self.screen.clear();
-        let snap = |&position: &[f32; 3]| stage.snap(model_to_clip.point(to_point(position)));
-        self.screen.extend(positions.iter().map(snap));
+        self.clip.clear();
+        let project = |&position: &[f32; 3]| model_to_clip.point(to_point(position));
+        self.clip.extend(positions.iter().map(project));
+        self.snap_all(stage);
     }
 
     /// Vertices in clip space with their outcodes, and those that are inside on the screen.
@@ -75,15 +76,18 @@ impl Images {
         model_to_clip: Projective<Model, Clip>,
         positions: &[[f32; 3]],
     ) {
-        let Self { clip, outcodes, screen } = self;
-        clip.resize(positions.len(), HPoint::new(0.0, 0.0, 0.0, 1.0));
-        outcodes.resize(positions.len(), Outcode::INSIDE);
-        stage.volume.project(model_to_clip, positions, clip, outcodes);
-        screen.clear();
-        let snap = |(&point, code): (&HPoint<Clip>, &Outcode)| {
-            if code.is_inside() { stage.snap(point) } else { None }
-        };
-        screen.extend(clip.iter().zip(&*outcodes).map(snap));
+        self.clip.resize(positions.len(), HPoint::new(0.0, 0.0, 0.0, 1.0));
+        self.outcodes.resize(positions.len(), Outcode::INSIDE);
+        stage.volume.project(model_to_clip, positions, &mut self.clip, &mut self.outcodes);
+        self.snap_all(stage);
+        for (vertex, code) in self.screen.iter_mut().zip(&self.outcodes) {
+            *vertex = vertex.filter(|_| code.is_inside());
+        }
+    }
+
+    fn snap_all(&mut self, stage: &Stage) {
+        let instructions = raster::Instructions::best();
+        ScreenVertex::snap_all(&self.clip, stage.ndc_to_screen, instructions, &mut self.screen);
     }
 }
 
@@ -133,6 +137,7 @@ impl<'a> Assembler<'a> {
             vertices: Vec::new(),
             smooth: normals.is_some() && !self.is_flat,
             uv_set: uv_set(material, primitive),
+            colors: model.posed_colors(instance, primitive),
             mirrored: model_to_world.determinant() < 0.0,
         };
         if whereabouts == Whereabouts::Inside {
@@ -142,10 +147,11 @@ impl<'a> Assembler<'a> {
             self.images.anywhere(&self.stage, model_to_clip, &positions);
             self.submit(&draw);
         }
+        let uvs = draw.uv_set.and_then(|set| model.posed_uvs(instance, primitive, set));
         let parts = Parts {
             positions: draw.is_lit().then_some(&*positions),
             normals: normals.as_deref().filter(|_| draw.is_lit() && draw.smooth),
-            uvs: draw.uv_set.map(|set| &*primitive.uvs[set]),
+            uvs: uvs.as_deref(),
         };
         draw.vertices = parts.vertices(positions.len(), model_to_world);
         self.draws.draws.push(draw);

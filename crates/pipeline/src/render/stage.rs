@@ -14,7 +14,7 @@ pub(super) struct Stage {
     world_to_clip: Projective<World, Clip>,
     /// What is kept: the view volume with a guard band.
     pub(super) volume: Volume,
-    ndc_to_screen: Affine<Ndc, Screen>,
+    pub(super) ndc_to_screen: Affine<Ndc, Screen>,
     pub(super) mirrors: bool,
 }
 

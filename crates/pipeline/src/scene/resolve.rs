@@ -35,7 +35,8 @@ impl Scene {
     ) -> Result<Self, ResolveError> {
         resolve_image(origin, file)?;
         let models = load_models(origin, file, options)?;
-        Self::of_models(origin, file, models)
+        let frame = || Self::of_models(origin, file, models);
+        options.import.timings.measure("frame", frame)
     }
 
     /// Decides everything that the file leaves open around models that are loaded, posed and placed; those of the file are not

@@ -7,6 +7,7 @@ use super::MipChain;
 use super::corners::{Corners, UV, Vertex, blend};
 use super::seen::Seen;
 use crate::model::{Material, Primitive, TextureUse, Topology};
+use std::borrow::Cow;
 
 /// One primitive of a mesh at one place of the world.
 #[derive(Clone, Debug)]
@@ -27,6 +28,8 @@ pub struct Draw<'a> {
     pub smooth: bool,
     /// The set of the texture coordinates that the vertices carry, if they carry any.
     pub uv_set: Option<usize>,
+    /// The vertex colours, if there are any.
+    pub colors: Option<Cow<'a, [[f32; 4]]>>,
     /// Whether the way to the world mirrors, so that triangles run the other way round.
     pub mirrored: bool,
 }

@@ -1,0 +1,61 @@
+//! Where the time goes: a stopwatch that is handed through the stages.
+
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Stages and what each took.
+type Spans = Vec<(&'static str, Duration)>;
+
+/// A stopwatch for the stages of a run. Its copies share what they measure; the default one measures nothing.
+#[derive(Clone, Debug, Default)]
+pub struct Timings {
+    spans: Option<Arc<Mutex<Spans>>>,
+}
+
+impl Timings {
+    /// A stopwatch that measures.
+    #[must_use]
+    pub fn measuring() -> Self {
+        Self { spans: Some(Arc::default()) }
+    }
+
+    /// Does the work, and adds the time it takes to that of the stage.
+    pub fn measure<T>(&self, stage: &'static str, work: impl FnOnce() -> T) -> T {
+        let Some(spans) = &self.spans else { return work() };
+        let begin = Instant::now();
+        let result = work();
+        let took = begin.elapsed();
+        let mut spans = spans.lock().unwrap_or_else(PoisonError::into_inner);
+        match spans.iter_mut().find(|(name, _)| *name == stage) {
+            Some((_, sum)) => *sum += took,
+            None => spans.push((stage, took)),
+        }
+        result
+    }
+
+    /// The stages and what each took, in the order in which they first ended.
+    #[must_use]
+    pub fn stages(&self) -> Vec<(&'static str, Duration)> {
+        let spans = |spans: &Arc<Mutex<Spans>>| {
+            spans.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        };
+        self.spans.as_ref().map(spans).unwrap_or_default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stage_that_comes_twice_is_one_entry_and_the_default_measures_nothing() {
+        let timings = Timings::measuring();
+        assert_eq!(timings.measure("a", || 1), 1);
+        timings.clone().measure("b", || ());
+        timings.measure("a", || ());
+        assert_eq!(timings.stages().iter().map(|(name, _)| *name).collect::<Vec<_>>(), ["a", "b"]);
+        let silent = Timings::default();
+        silent.measure("a", || ());
+        assert!(silent.stages().is_empty());
+    }
+}
