@@ -70,6 +70,9 @@ fn hollow(width: u32, height: u32, bytes: usize) -> String {
     format!("the image says {width} x {height} texels, which cannot be in {bytes} bytes")
 }
 
+/// The texels of an image that is next to no bytes long, if its format can have such.
+const HOLLOW: u64 = 8 << 20;
+
 enum Kind {
     Png,
     Jpeg,
@@ -81,16 +84,16 @@ enum Kind {
 impl Kind {
     /// No more texels than this can be in so many bytes: deflate makes at most 1,032 bytes of one and a byte has eight
     /// one-bit texels; a JPEG needs a bit for each block of 64 texels; a WebP of one colour needs next to nothing, so
-    /// that only its sheer size can be held against it.
+    /// that its sheer size is held against it: what [`HOLLOW`] allows takes 70 MB while it is decoded.
     fn most_texels(&self, bytes: usize) -> u64 {
         let bytes = bytes as u64;
         match self {
             Self::Png => bytes.saturating_mul(8 * 1032),
             Self::Jpeg => bytes.saturating_mul(8 * 64),
-            Self::WebP => bytes.saturating_mul(1024).saturating_add(4096 * 4096),
+            Self::WebP => bytes.saturating_mul(1024).saturating_add(HOLLOW),
             // Blocks of one colour that are repeated need next to nothing as well.
             #[cfg(feature = "basisu")]
-            Self::Ktx2 => bytes.saturating_mul(1024).saturating_add(4096 * 4096),
+            Self::Ktx2 => bytes.saturating_mul(1024).saturating_add(HOLLOW),
         }
     }
 
