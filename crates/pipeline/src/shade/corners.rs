@@ -3,7 +3,7 @@
 /// What a vertex carries in most draws, in one line of the processor's cache.
 ///
 /// Its place in the world, its unit normal there, and the texture coordinates that most textures are read by:
-/// [`PLACE`], [`NORMAL`] and [`UV`] are where they begin.
+/// `PLACE`, `NORMAL` and `UV` are where they begin.
 pub type Vertex = [f32; 8];
 
 /// Where the place begins in a [`Vertex`].
