@@ -1,5 +1,6 @@
 //! Small valid glTF files, to be spoilt.
 
+use crate::glb::glb;
 use serde_json::{Value, json};
 
 /// A glTF document with the bytes of its only buffer.
@@ -228,21 +229,6 @@ impl Document {
     pub fn glb(&self) -> Vec<u8> {
         glb(self.json.to_string().as_bytes(), &self.bytes)
     }
-}
-
-/// A binary file of two chunks.
-pub fn glb(json: &[u8], bytes: &[u8]) -> Vec<u8> {
-    let mut file = b"glTF\x02\0\0\0\0\0\0\0".to_vec();
-    for (kind, filler, data) in [(b"JSON", b' ', json), (b"BIN\0", 0, bytes)] {
-        let length = data.len().next_multiple_of(4);
-        file.extend((length as u32).to_le_bytes());
-        file.extend(kind);
-        file.extend(data);
-        file.resize(file.len() + length - data.len(), filler);
-    }
-    let length = (file.len() as u32).to_le_bytes();
-    file[8..12].copy_from_slice(&length);
-    file
 }
 
 /// Numbers as they lie in a buffer.

@@ -32,14 +32,17 @@ fn crc(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(u32::MAX, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))
 }
 
-/// The header of a JPEG with so many components, and nothing after it.
-fn jpeg_header(width: u16, height: u16, components: u8) -> Vec<u8> {
+/// The header of a JPEG with components of these samplings, and nothing after it.
+fn jpeg_header(width: u16, height: u16, samplings: &[u8]) -> Vec<u8> {
+    let components = samplings.len() as u8;
     let mut bytes = vec![0xFF, 0xD8, 0xFF, 0xC0, 0, 8 + 3 * components, 8];
     bytes.extend(height.to_be_bytes());
     bytes.extend(width.to_be_bytes());
     bytes.push(components);
-    (1..=components).for_each(|number| bytes.extend([number, 0x11, 0]));
-    bytes.extend([0xFF, 0xDA, 0, 2, 0xFF, 0xD9]);
+    (1..).zip(samplings).for_each(|(number, &sampling)| bytes.extend([number, sampling, 0]));
+    bytes.extend([0xFF, 0xDA, 0, 6 + 2 * components, components]);
+    (1..=components).for_each(|number| bytes.extend([number, 0]));
+    bytes.extend([0, 63, 0, 0xFF, 0xD9]);
     bytes
 }
 
@@ -102,9 +105,17 @@ pub fn cases() -> Vec<Case> {
             b"\xABKTX 20\xBB\r\n\x1A\n",
             warns("this is a KTX image; only PNG, JPEG and WebP are read"),
         ),
-        textured("JPEG for printing", &jpeg_header(8, 8, 4), Expected::Loads),
-        textured("JPEG, 65,500 squared", &jpeg_header(65_500, 65_500, 3), Expected::Loads),
-        textured("JPEG without data", &jpeg_header(64, 64, 3), Expected::Loads),
+        textured("JPEG for printing", &jpeg_header(8, 8, &[0x11; 4]), Expected::Loads),
+        textured("JPEG, 65,500 squared", &jpeg_header(65_500, 65_500, &[0x11; 3]), Expected::Loads),
+        textured(
+            "JPEG with colour finer than brightness",
+            &jpeg_header(64, 64, &[0x11, 0x11, 0x22]),
+            warns(
+                "the JPEG has more samples of its colour than of its brightness; save it with the \
+                 usual sampling (4:4:4, 4:2:2 or 4:2:0)",
+            ),
+        ),
+        textured("JPEG without data", &jpeg_header(64, 64, &[0x11; 3]), Expected::Loads),
     ];
     cases.extend(webps());
     for depth in [0, 1, 2, 3, 4, 8, 16, 32] {
@@ -120,7 +131,7 @@ pub fn cases() -> Vec<Case> {
         changed[end] ^= 0xFF;
         cases.push(textured(&format!("PNG byte {end} changed"), &changed, Expected::Loads));
     }
-    let header = jpeg_header(64, 64, 3);
+    let header = jpeg_header(64, 64, &[0x11; 3]);
     for end in 0..header.len() {
         cases.push(textured(&format!("JPEG cut at {end}"), &header[..end], Expected::Loads));
     }

@@ -14,6 +14,8 @@ mod bytes;
 mod case;
 mod document;
 mod draco;
+#[path = "../../xtask/src/glb.rs"]
+mod glb;
 mod images;
 mod members;
 mod meshopt;

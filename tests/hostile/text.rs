@@ -1,7 +1,8 @@
 //! JSON that is deep, large, oddly encoded or not JSON; versions and extensions that are not known.
 
 use crate::case::{Case, Expected};
-use crate::document::{Document, glb};
+use crate::document::Document;
+use crate::glb::glb;
 use serde_json::{Value, json};
 
 fn text(name: &str, text: impl Into<Vec<u8>>, expected: Expected) -> Case {

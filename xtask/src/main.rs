@@ -10,6 +10,7 @@ mod conformance;
 mod determinism;
 mod fuzz;
 mod gallery;
+mod glb;
 mod golden;
 mod models;
 mod program;

@@ -30,6 +30,7 @@ mod error;
 mod extensions;
 mod image;
 mod instancing;
+mod jpeg;
 mod json;
 #[cfg(feature = "basisu")]
 mod ktx2;

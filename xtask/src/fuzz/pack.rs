@@ -1,5 +1,6 @@
 //! Models of several files as one binary file, for the targets read no other files; and what is compressed in them.
 
+use crate::glb::glb;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
@@ -89,20 +90,6 @@ fn chunks(file: &[u8]) -> Option<(&[u8], &[u8])> {
     let rest = 20 + json.len();
     let binary = word(rest).and_then(|length| file.get(rest + 8..)?.get(..length));
     Some((json, binary.unwrap_or(&[])))
-}
-
-fn glb(json: &[u8], bytes: &[u8]) -> Vec<u8> {
-    let mut file = b"glTF\x02\0\0\0\0\0\0\0".to_vec();
-    for (kind, filler, data) in [(b"JSON", b' ', json), (b"BIN\0", 0, bytes)] {
-        let length = data.len().next_multiple_of(4);
-        file.extend((length as u32).to_le_bytes());
-        file.extend(kind);
-        file.extend(data);
-        file.resize(file.len() + length - data.len(), filler);
-    }
-    let length = (file.len() as u32).to_le_bytes();
-    file[8..12].copy_from_slice(&length);
-    file
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@
 
 use super::mesh::Mesh;
 use super::palette::Color;
+use crate::glb::glb;
 use glam::DVec3;
 use serde_json::{Map, Value, json};
 
@@ -254,19 +255,7 @@ impl Document {
 
     /// The whole document as the bytes of a `.glb` file (glTF 2.0, §4.4).
     pub fn into_glb(self) -> Vec<u8> {
-        let mut json = self.json().to_string().into_bytes();
-        json.resize(json.len().next_multiple_of(4), b' ');
-        let length = 12 + 8 + json.len() + 8 + self.binary.len();
-        let mut glb = Vec::with_capacity(length);
-        glb.extend(b"glTF");
-        glb.extend(2_u32.to_le_bytes());
-        glb.extend((length as u32).to_le_bytes());
-        for (kind, chunk) in [(b"JSON", &json), (b"BIN\0", &self.binary)] {
-            glb.extend((chunk.len() as u32).to_le_bytes());
-            glb.extend(kind);
-            glb.extend(chunk);
-        }
-        glb
+        glb(self.json().to_string().as_bytes(), &self.binary)
     }
 
     fn json(&self) -> Value {

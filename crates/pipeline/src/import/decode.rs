@@ -2,6 +2,7 @@
 //!
 //! What an image is, its first bytes say; the file's name and the glTF `mimeType` are not asked.
 
+use super::jpeg::check_sampling;
 use super::webp::check_frames;
 use crate::model::Image;
 use image_webp::WebPDecoder;
@@ -164,6 +165,7 @@ fn jpeg_problem(error: &zune_jpeg::errors::DecodeErrors) -> String {
 }
 
 fn decode_jpeg(bytes: &[u8]) -> Result<Image, String> {
+    check_sampling(bytes)?;
     let mut decoder = jpeg_decoder(bytes);
     decoder.decode_headers().map_err(|error| jpeg_problem(&error))?;
     if let Some(space @ (ColorSpace::CMYK | ColorSpace::YCCK)) = decoder.input_colorspace() {
