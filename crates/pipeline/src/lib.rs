@@ -2,6 +2,7 @@
 
 mod canvas;
 mod color;
+pub mod drawing;
 pub mod import;
 pub mod model;
 mod output;

@@ -1,0 +1,10 @@
+//! Line drawings: the edges of the models, divided exactly into what is seen and what is hidden.
+//!
+//! ```text
+//!  meshes ─► edges with their classes ─► visible and hidden pieces ─► chains ─► SVG, PDF, PNG
+//! ```
+//! Everything is computed in f64 from the same stages as the pictures (HL-1); nothing is sampled.
+
+mod line;
+
+pub use line::{EdgeClass, Line, LineDrawing};

@@ -1,0 +1,168 @@
+//! The camera of a scene file: where it is, and how it projects.
+
+use crate::scene::number::{FieldOfView, Finite, NonNegative, Positive, Triple};
+use camera::NamedView;
+use serde::Deserialize;
+
+/// The camera: where it is, and how it projects.
+#[derive(Clone, PartialEq, Debug, Default, Deserialize)]
+#[serde(rename = "Camera", deny_unknown_fields, default)]
+pub struct CameraFile {
+    /// Where the eye is and where it looks.
+    pub view: ViewFile,
+    /// The projection; a camera of the model's brings its own. Default: perspective.
+    pub projection: Option<ProjectionFile>,
+}
+
+/// Where the eye is and where it looks.
+#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[serde(rename = "View", deny_unknown_fields)]
+pub enum ViewFile {
+    /// From a place towards another.
+    LookAt {
+        /// The place of the eye.
+        eye: Triple,
+        /// The place looked at, which becomes the centre of the picture.
+        target: Triple,
+        /// The view-up vector: the direction that is to point up in the picture. Default: y.
+        #[serde(default = "Triple::y_axis")]
+        up: Triple,
+    },
+    /// From a place in a direction.
+    LookTo {
+        /// The place of the eye.
+        eye: Triple,
+        /// The direction of gaze.
+        gaze: Triple,
+        /// The view-up vector. Default: y.
+        #[serde(default = "Triple::y_axis")]
+        up: Triple,
+    },
+    /// From a direction, at the distance at which everything just fits.
+    Frame {
+        /// Where from.
+        #[serde(default)]
+        from: FromFile,
+        /// The margin on each side, in per cent of the picture's side. Default: 5.
+        #[serde(default = "usual_padding")]
+        padding_percent: NonNegative,
+    },
+    /// A camera of the first model that has cameras.
+    FromModel(CameraChoice),
+}
+
+impl Default for ViewFile {
+    fn default() -> Self {
+        Self::Frame { from: FromFile::default(), padding_percent: USUAL_PADDING }
+    }
+}
+
+/// The margin, in per cent, of framed pictures that name none.
+pub const USUAL_PADDING: NonNegative = NonNegative::FIVE;
+
+fn usual_padding() -> NonNegative {
+    USUAL_PADDING
+}
+
+/// The direction a picture is framed from.
+#[derive(Clone, PartialEq, Debug, Default, Deserialize)]
+#[serde(rename = "From")]
+pub enum FromFile {
+    /// The side that faces +z, which is the front in glTF.
+    Front,
+    /// The side that faces −z.
+    Back,
+    /// The side that faces −x.
+    Left,
+    /// The side that faces +x.
+    Right,
+    /// The side that faces +y.
+    Top,
+    /// The side that faces −y.
+    Bottom,
+    /// From the front, a little from the right and from above.
+    #[default]
+    ThreeQuarter,
+    /// From the front, the right and above alike, so that all three axes are shortened alike.
+    Isometric,
+    /// x and y shortened alike, z twice as much: 7° and 42° on the page.
+    Dimetric,
+    /// Each axis shortened by a factor of its own.
+    Trimetric,
+    /// From the direction of a vector: (1, 0, 0) is from the right.
+    Direction(Triple),
+}
+
+impl From<NamedView> for FromFile {
+    fn from(view: NamedView) -> Self {
+        match view {
+            NamedView::Front => Self::Front,
+            NamedView::Back => Self::Back,
+            NamedView::Left => Self::Left,
+            NamedView::Right => Self::Right,
+            NamedView::Top => Self::Top,
+            NamedView::Bottom => Self::Bottom,
+            NamedView::ThreeQuarter => Self::ThreeQuarter,
+            NamedView::Isometric => Self::Isometric,
+            NamedView::Dimetric => Self::Dimetric,
+            NamedView::Trimetric => Self::Trimetric,
+        }
+    }
+}
+
+/// Which camera of a model.
+#[derive(Clone, PartialEq, Eq, Debug, Deserialize)]
+pub enum CameraChoice {
+    /// By its place in the file, from 0.
+    Index(usize),
+    /// By its own name or that of its node.
+    Name(String),
+}
+
+/// A projection.
+#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[serde(rename = "Projection", deny_unknown_fields)]
+pub enum ProjectionFile {
+    /// Perspective, the eye in front of the picture's centre.
+    Perspective {
+        /// The vertical opening angle. Default: 35.
+        #[serde(default)]
+        fov_y_degrees: FieldOfView,
+        /// The distance of the near plane. Default: as far out as the scene allows.
+        near: Option<Positive>,
+        /// The distance of the far plane. Default: just behind everything.
+        far: Option<Positive>,
+    },
+    /// Parallel, at right angles to the picture.
+    Orthographic {
+        /// The height of the view volume in the scene's units. Default: what the framing asks for.
+        height: Option<Positive>,
+        /// The distance of the near plane. Default: just before everything.
+        near: Option<Finite>,
+        /// The distance of the far plane. Default: just behind everything.
+        far: Option<Finite>,
+    },
+    /// Perspective through any window on the near plane, also one beside the line of sight.
+    Frustum {
+        /// The window's left border.
+        left: Finite,
+        /// The window's right border.
+        right: Finite,
+        /// The window's bottom border.
+        bottom: Finite,
+        /// The window's top border.
+        top: Finite,
+        /// The distance of the window, which is the near plane.
+        near: Positive,
+        /// The distance of the far plane. Default: just behind everything.
+        far: Option<Positive>,
+    },
+}
+
+impl ProjectionFile {
+    /// Perspective with every default.
+    pub const PERSPECTIVE: Self =
+        Self::Perspective { fov_y_degrees: FieldOfView::USUAL, near: None, far: None };
+    /// Orthographic with every default.
+    pub const ORTHOGRAPHIC: Self = Self::Orthographic { height: None, near: None, far: None };
+}
