@@ -183,7 +183,7 @@ impl<S: Surface> Resolve<'_, S> {
 
     #[inline(always)]
     fn piece(&self, number: u32) -> &Piece {
-        &self.frame.pieces[number as usize]
+        self.frame.pieces.at(number)
     }
 
     /// Lists what is seen in each pixel of a run: each solid piece once, then the layers, the farthest first. A pixel where
