@@ -48,15 +48,9 @@ impl Frame {
     /// # Errors
     /// [`RasterError::Size`] unless both sides are at least 1 and the part ends within [`MAX_SIDE`].
     pub fn part(corner: [u32; 2], size: [u32; 2], samples: Samples) -> Result<Self, RasterError> {
-        let ([x, y], [width, height]) = (corner, size);
-        let fits = |from: u32, side: u32| {
-            side > 0 && from.checked_add(side).is_some_and(|end| end <= MAX_SIDE)
-        };
-        if !fits(x, width) || !fits(y, height) {
-            return Err(RasterError::Size { x, y, width, height });
-        }
+        let part = checked(corner, size)?;
         Ok(Self {
-            part: Part { x, y, width, height },
+            part,
             samples,
             instructions: Instructions::best(),
             pieces: Pieces::default(),
@@ -83,6 +77,22 @@ impl Frame {
     #[must_use]
     pub const fn instructions(&self) -> Instructions {
         self.instructions
+    }
+
+    /// Takes all primitives out again for a picture of another size, or of other samples, and keeps the memory.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); the frame is then as it was.
+    pub fn restart(
+        &mut self,
+        width: u32,
+        height: u32,
+        samples: Samples,
+    ) -> Result<(), RasterError> {
+        self.part = checked([0, 0], [width, height])?;
+        self.samples = samples;
+        self.clear();
+        Ok(())
     }
 
     /// Takes all primitives out again and keeps the memory for the next picture.
@@ -208,6 +218,18 @@ impl Frame {
             self.pieces.push(Piece { corners: with_usual_w(corners), id, source, cover });
         }
     }
+}
+
+/// The part of a picture from the pixel `corner` on, if there is one of this size.
+fn checked(corner: [u32; 2], size: [u32; 2]) -> Result<Part, RasterError> {
+    let ([x, y], [width, height]) = (corner, size);
+    let fits = |from: u32, side: u32| {
+        side > 0 && from.checked_add(side).is_some_and(|end| end <= MAX_SIDE)
+    };
+    if !fits(x, width) || !fits(y, height) {
+        return Err(RasterError::Size { x, y, width, height });
+    }
+    Ok(Part { x, y, width, height })
 }
 
 /// A mesh on its way into a frame.

@@ -73,5 +73,6 @@ pub use frame::{Frame, MAX_SIDE};
 pub use instructions::Instructions;
 pub use primitive::{Cover, Cull, SourceWeights};
 pub use samples::Samples;
+pub use threads::share;
 pub use vertex::{GUARD_BAND, SUBPIXEL_BITS, SUBPIXELS, ScreenVertex};
 pub use visibility::Visibility;

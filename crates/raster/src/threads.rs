@@ -5,8 +5,9 @@
 
 use std::sync::{Mutex, PoisonError};
 
-/// Does the work for each item, by up to so many threads, each of which takes the next item when it is done with one.
-pub(crate) fn share<T, I>(threads: usize, items: I, work: impl Fn(T) + Sync)
+/// Does the work for each item, by up to so many threads, each of which takes the next item when it is done with one: as frames
+/// are drawn, for whoever prepares or finishes them.
+pub fn share<T, I>(threads: usize, items: I, work: impl Fn(T) + Sync)
 where
     T: Send,
     I: ExactSizeIterator<Item = T> + Send,
