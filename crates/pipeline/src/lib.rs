@@ -3,6 +3,7 @@
 mod canvas;
 mod color;
 pub mod drawing;
+pub mod explain;
 pub mod import;
 pub mod model;
 mod output;

@@ -1,6 +1,7 @@
 //! Flags and arguments.
 
 use super::loading::LoadArgs;
+use super::matrix::MatrixArgs;
 use super::pick::PickArgs;
 use camera::NamedView;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -24,6 +25,7 @@ Examples:
   alberti render scene.ron                        a scene: models, camera, lights, style
   alberti info model.glb                          what is in the file
   alberti check model.glb                         what is wrong with the file
+  alberti matrix 1 0 0 0 …                        what sixteen numbers are
 
 Exit codes: 0 done, 1 the input or the work failed (no output file is touched), 2 wrong usage.
 `check` ends with 1 if there are errors, and with 0 if there are only warnings and notes.";
@@ -36,6 +38,8 @@ pub(crate) enum Command {
     Info(InfoArgs),
     /// Tell everything that is wrong with a scene or a model, with its place and a remedy
     Check(CheckArgs),
+    /// Tell what a 4x4 matrix is: which map, which projection, in whose convention, or which known misprint
+    Matrix(MatrixArgs),
 }
 
 #[derive(Debug, clap::Args)]
