@@ -5,6 +5,15 @@
 //! ```
 //! Everything is computed in f64 from the same stages as the pictures (HL-1); nothing is sampled.
 
+mod draw;
+mod edges;
 mod line;
+mod options;
+mod sight;
+mod visibility;
 
+pub use draw::draw;
 pub use line::{EdgeClass, Line, LineDrawing};
+pub use options::{EdgeClasses, Hidden, Options};
+pub use sight::Sight;
+pub use visibility::{Obstacles, Parts, Tolerance};
