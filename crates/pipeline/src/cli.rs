@@ -3,6 +3,7 @@
 mod args;
 mod check;
 mod failure;
+mod format;
 mod info;
 mod loading;
 mod matrix;

@@ -7,6 +7,7 @@
 //! ```
 
 mod assemble;
+mod lines;
 mod shot;
 mod stage;
 #[cfg(test)]
@@ -15,6 +16,7 @@ mod textures;
 mod vertices;
 mod wireframe;
 
+pub use lines::{draw, line_drawing};
 pub use shot::Shot;
 
 use crate::canvas::Canvas;
@@ -59,7 +61,8 @@ pub fn render_timed(
 ) -> Result<Picture, RenderError> {
     match scene.style {
         Style::Shaded | Style::Flat => surfaces(scene, threads, timings),
-        Style::Wireframe => timings.measure("lines", || lines(scene)),
+        Style::Wireframe => timings.measure("lines", || wires(scene)),
+        Style::Lines(_) => lines::picture(scene, threads, timings),
     }
 }
 
@@ -77,7 +80,7 @@ fn surfaces(scene: &Scene, threads: usize, timings: &Timings) -> Result<Picture,
     Ok(Picture { width: image.width, height: image.height, pixels })
 }
 
-fn lines(scene: &Scene) -> Result<Picture, RenderError> {
+fn wires(scene: &Scene) -> Result<Picture, RenderError> {
     let image = scene.image;
     let segments = wireframe::segments(scene)?;
     let (width, height) = (image.width, image.height);

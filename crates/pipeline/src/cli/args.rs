@@ -32,7 +32,7 @@ Exit codes: 0 done, 1 the input or the work failed (no output file is touched), 
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Render a scene file or a bare model to a PNG
+    /// Render a scene file or a bare model to a PNG, or as a line drawing to an SVG or a PDF
     Render(RenderArgs),
     /// Tell what is in a model: meshes, bounds, cameras, materials, extensions
     Info(InfoArgs),
@@ -46,7 +46,8 @@ pub(crate) enum Command {
 pub(crate) struct RenderArgs {
     /// A scene (.ron) or a model (.gltf, .glb)
     pub(crate) input: PathBuf,
-    /// Where the picture goes [default: the input's name with .png, in the current folder]
+    /// Where the picture goes: .png, or a line drawing as .svg or .pdf [default: the input's name with .png, in the current
+    /// folder]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
     /// Width and height in pixels, such as 1920x1080
@@ -114,6 +115,16 @@ pub(crate) enum StyleArg {
     Flat,
     /// The edges of all triangles
     Wireframe,
+    /// The edges of all triangles, paler the farther away they are
+    DepthCued,
+    /// A line drawing with hidden lines removed
+    Lines,
+    /// A line drawing with hidden lines dashed
+    Dashed,
+    /// The outline alone
+    Silhouette,
+    /// Visible, hidden and tangent edges with the line types and widths of ISO 128
+    Technical,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

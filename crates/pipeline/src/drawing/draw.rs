@@ -1,7 +1,7 @@
 //! From a scene to its line drawing.
 
 use super::edges::{Candidate, Shape, candidates};
-use super::options::{Hidden, Options};
+use super::options::{HiddenParts, Options};
 use super::sight::Sight;
 use super::visibility::{Obstacles, Scratch, Tolerance, Trace};
 use super::{Line, LineDrawing};
@@ -26,10 +26,10 @@ pub fn draw(scene: &Scene, options: &Options, threads: usize) -> Result<LineDraw
     let tolerance = Tolerance::of_scene(shape.diagonal());
     let edges = candidates(&mut shape, &sight, options);
     let obstacles = match options.hidden {
-        Hidden::Ignored => Obstacles::new([], sight, tolerance),
+        HiddenParts::Ignored => Obstacles::new([], sight, tolerance),
         _ => Obstacles::new(shape.triangles(), sight, tolerance),
     };
-    let drawer = Drawer { sight, obstacles, keeps_hidden: options.hidden == Hidden::Kept };
+    let drawer = Drawer { sight, obstacles, keeps_hidden: options.hidden == HiddenParts::Kept };
     Ok(LineDrawing {
         size: DVec2::new(width.into(), height.into()),
         objects: shape.objects,
