@@ -6,6 +6,7 @@ mod check;
 mod document;
 mod files;
 mod info;
+mod matrix;
 mod messages;
 mod pictures;
 mod real;

@@ -3,6 +3,8 @@
 //! Surfaces never come here. Filling neighbouring triangles with anti-aliased paths would let the background shine
 //! through their seams, and tiny-skia breaks ties the other way round (RA-3).
 
+mod page;
+
 use crate::Picture;
 use crate::color::SrgbEncoder;
 use tiny_skia::{Color, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Stroke, Transform};

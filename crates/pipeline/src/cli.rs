@@ -3,8 +3,10 @@
 mod args;
 mod check;
 mod failure;
+mod format;
 mod info;
 mod loading;
+mod matrix;
 mod pick;
 mod progress;
 mod render;
@@ -22,6 +24,7 @@ pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
         Command::Render(args) => render::run(&args)?,
         Command::Info(args) => info::run(&args)?,
         Command::Check(args) => return check::run(&args),
+        Command::Matrix(args) => matrix::run(&args)?,
     }
     Ok(ExitCode::SUCCESS)
 }

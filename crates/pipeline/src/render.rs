@@ -7,6 +7,7 @@
 //! ```
 
 mod assemble;
+mod lines;
 mod renderer;
 mod shot;
 mod stage;
@@ -16,6 +17,7 @@ mod textures;
 mod vertices;
 mod wireframe;
 
+pub use lines::{draw, line_drawing};
 pub use renderer::Renderer;
 pub use shot::Shot;
 pub use textures::Textures;
@@ -58,7 +60,8 @@ pub fn render_timed(
 ) -> Result<Picture, RenderError> {
     match scene.style {
         Style::Shaded | Style::Flat => surfaces(scene, threads, timings),
-        Style::Wireframe => timings.measure("lines", || lines(scene)),
+        Style::Wireframe => timings.measure("lines", || wires(scene)),
+        Style::Lines(_) => lines::picture(scene, threads, timings),
     }
 }
 
@@ -69,7 +72,7 @@ fn surfaces(scene: &Scene, threads: usize, timings: &Timings) -> Result<Picture,
     Ok(picture)
 }
 
-fn lines(scene: &Scene) -> Result<Picture, RenderError> {
+fn wires(scene: &Scene) -> Result<Picture, RenderError> {
     let image = scene.image;
     let segments = wireframe::segments(scene)?;
     let (width, height) = (image.width, image.height);

@@ -7,6 +7,7 @@ mod bounds;
 mod error;
 pub mod file;
 mod locate;
+mod look;
 #[cfg(test)]
 mod mistakes;
 mod number;
@@ -23,6 +24,7 @@ pub use parse::parse;
 pub use resolve::{ResolveOptions, chosen_animation};
 pub use review::review;
 
+use crate::drawing::LineLook;
 use crate::import::ImportError;
 use crate::model::Model;
 use crate::render::Shot;
@@ -57,7 +59,7 @@ pub struct Placed {
 }
 
 /// How surfaces are drawn.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Style {
     /// Lit, with smooth normals where the file has them.
     Shaded,
@@ -65,6 +67,8 @@ pub enum Style {
     Flat,
     /// The edges of all triangles.
     Wireframe,
+    /// A line drawing.
+    Lines(LineLook),
 }
 
 /// The picture to make.

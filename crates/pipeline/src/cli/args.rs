@@ -1,6 +1,7 @@
 //! Flags and arguments.
 
 use super::loading::LoadArgs;
+use super::matrix::MatrixArgs;
 use super::pick::PickArgs;
 use camera::NamedView;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -24,25 +25,29 @@ Examples:
   alberti render scene.ron                        a scene: models, camera, lights, style
   alberti info model.glb                          what is in the file
   alberti check model.glb                         what is wrong with the file
+  alberti matrix 1 0 0 0 …                        what sixteen numbers are
 
 Exit codes: 0 done, 1 the input or the work failed (no output file is touched), 2 wrong usage.
 `check` ends with 1 if there are errors, and with 0 if there are only warnings and notes.";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Render a scene file or a bare model to a PNG
+    /// Render a scene file or a bare model to a PNG, or as a line drawing to an SVG or a PDF
     Render(RenderArgs),
     /// Tell what is in a model: meshes, bounds, cameras, materials, extensions
     Info(InfoArgs),
     /// Tell everything that is wrong with a scene or a model, with its place and a remedy
     Check(CheckArgs),
+    /// Tell what a 4x4 matrix is: which map, which projection, in whose convention, or which known misprint
+    Matrix(MatrixArgs),
 }
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct RenderArgs {
     /// A scene (.ron) or a model (.gltf, .glb)
     pub(crate) input: PathBuf,
-    /// Where the picture goes [default: the input's name with .png, in the current folder]
+    /// Where the picture goes: .png, or a line drawing as .svg or .pdf [default: the input's name with .png, in the current
+    /// folder]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
     /// Width and height in pixels, such as 1920x1080
@@ -110,6 +115,16 @@ pub(crate) enum StyleArg {
     Flat,
     /// The edges of all triangles
     Wireframe,
+    /// The edges of all triangles, paler the farther away they are
+    DepthCued,
+    /// A line drawing with hidden lines removed
+    Lines,
+    /// A line drawing with hidden lines dashed
+    Dashed,
+    /// The outline alone
+    Silhouette,
+    /// Visible, hidden and tangent edges with the line types and widths of ISO 128
+    Technical,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -1,6 +1,7 @@
-//! `alberti render`: a scene or a bare model becomes a PNG.
+//! `alberti render`: a scene or a bare model becomes a PNG, or as a line drawing an SVG or a PDF.
 
 use super::args::{ProjectionArg, RenderArgs, StyleArg};
+use super::format::Format;
 use super::progress::Progress;
 use super::{Failure, complain};
 use pipeline::import::ImportOptions;
@@ -8,7 +9,7 @@ use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::{
     BackgroundFile, CameraChoice, ProjectionFile, SceneFile, StyleFile, ViewFile,
 };
-use pipeline::{Origin, Scene, Timings, render_timed};
+use pipeline::{Origin, Scene, Timings, draw, render_timed};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -18,6 +19,7 @@ const MOST_WARNINGS: usize = 8;
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let output = output_of(args)?;
+    let format = Format::of(&output)?;
     let progress = Progress::start("loading");
     let (origin, mut file) = open(&args.input)?;
     override_with(&mut file, args);
@@ -26,10 +28,18 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let options = ResolveOptions { import };
     let scene = Scene::resolve(&origin, &file, &options)?;
     progress.stage("rendering");
-    let picture = render_timed(&scene, threads(args), &timings)?;
+    let bytes = match format {
+        Format::Png => {
+            let picture = render_timed(&scene, threads(args), &timings)?;
+            timings.measure("encode", || picture.to_png())
+        }
+        Format::Svg | Format::Pdf => {
+            let page = draw(&scene, threads(args), &timings)?;
+            timings.measure("encode", || format.vectors(&[page]))
+        }
+    };
     progress.stage("writing");
-    let png = timings.measure("encode", || picture.to_png());
-    timings.measure("write", || pipeline::write_file(&output, &png))?;
+    timings.measure("write", || pipeline::write_file(&output, &bytes))?;
     drop(progress);
     tell(&timings);
     warn(&scene);
@@ -59,9 +69,7 @@ fn open(input: &Path) -> Result<(Origin, SceneFile), Failure> {
 
 fn output_of(args: &RenderArgs) -> Result<PathBuf, Failure> {
     if let Some(output) = &args.output {
-        let is_png = output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
-        let fault = || format!("the output {} does not end in .png", output.display());
-        return is_png.then(|| output.clone()).ok_or_else(|| Failure::Usage(fault()));
+        return Ok(output.clone());
     }
     let stem = args.input.file_stem();
     let stem = stem.ok_or_else(|| Failure::Usage("name the output with -o FILE".to_owned()))?;
@@ -93,6 +101,11 @@ fn override_with(file: &mut SceneFile, args: &RenderArgs) {
             StyleArg::Shaded => StyleFile::Shaded,
             StyleArg::Flat => StyleFile::Flat,
             StyleArg::Wireframe => StyleFile::Wireframe,
+            StyleArg::DepthCued => StyleFile::depth_cued(),
+            StyleArg::Lines => StyleFile::removed(),
+            StyleArg::Dashed => StyleFile::dashed(),
+            StyleArg::Silhouette => StyleFile::silhouette(),
+            StyleArg::Technical => StyleFile::technical(),
         };
     }
     file.models.iter_mut().for_each(|model| args.pick.override_in(model));

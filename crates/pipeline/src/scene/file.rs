@@ -5,12 +5,14 @@
 
 mod camera;
 mod light;
+mod lines;
 mod look;
 
 pub use self::camera::{
     CameraChoice, CameraFile, FromFile, ProjectionFile, USUAL_PADDING, ViewFile,
 };
 pub use self::light::LightFile;
+pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, WidthFile};
 pub use self::look::{BackgroundFile, ImageFile, StyleFile};
 pub use super::number::Finite;
 use super::number::{Scale, Triple};

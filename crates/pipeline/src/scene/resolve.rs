@@ -2,6 +2,7 @@
 
 use super::file::{BackgroundFile, Choice, Finite, LightFile, ModelFile, StyleFile};
 use super::locate::Step::{Field, Index};
+use super::look::resolve_lines;
 use super::parse::suggestion;
 use super::viewpoint::resolve_shot;
 use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile, Style};
@@ -52,10 +53,11 @@ impl Scene {
         let image = resolve_image(origin, file)?;
         let shot = resolve_shot(origin, &file.camera, &models, image)?;
         let lights = resolve_lights(origin, file, &shot)?;
-        let style = match file.style {
+        let style = match &file.style {
             StyleFile::Shaded => Style::Shaded,
             StyleFile::Flat => Style::Flat,
             StyleFile::Wireframe => Style::Wireframe,
+            StyleFile::Lines(lines) => Style::Lines(resolve_lines(origin, lines)?),
         };
         Ok(Self { models, shot, lights, style, image })
     }

@@ -1,0 +1,93 @@
+//! Pages as pictures: the strokes and fills of a page through tiny-skia.
+
+use super::Canvas;
+use crate::Picture;
+use crate::drawing::{Cap, Ink, Join, Layer, Page, Pen, Polyline, millimetres};
+use tiny_skia::{
+    Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, StrokeDash,
+    Transform,
+};
+
+/// How many points a path may have before another is begun: long ones are slow to fill, and short ones cost a call each.
+const POINTS: usize = 256;
+
+impl Page {
+    /// The page as a picture of this size in pixels, stretched to fill it; transparent where there is no paper. `None` if it
+    /// would have no pixels, or more than memory holds.
+    #[must_use]
+    pub fn to_picture(&self, width: u32, height: u32) -> Option<Picture> {
+        let mut pixmap = Pixmap::new(width, height)?;
+        if let Some(paper) = self.paper {
+            pixmap.fill(color(paper));
+        }
+        let mut canvas = Canvas { pixmap };
+        let scale = [f64::from(width) / self.size.x, f64::from(height) / self.size.y];
+        for layer in &self.layers {
+            canvas.layer(layer, scale);
+        }
+        Some(canvas.into_picture())
+    }
+}
+
+impl Canvas {
+    /// Draws the layers of a page over what is there, with this many pixels for a millimetre.
+    pub(crate) fn layer(&mut self, layer: &Layer, scale: [f64; 2]) {
+        let mut paint = Paint { anti_alias: true, ..Paint::default() };
+        paint.set_color(color(layer.pen.ink));
+        let stroke = stroke(&layer.pen, 0.5 * (scale[0] + scale[1]));
+        for group in &layer.groups {
+            for path in paths(&group.strokes, scale, POINTS) {
+                self.pixmap.stroke_path(&path, &paint, &stroke, Transform::identity(), None);
+            }
+            // Holes must be in the path of what they are holes of.
+            for path in paths(&group.fills, scale, usize::MAX) {
+                let rule = FillRule::EvenOdd;
+                self.pixmap.fill_path(&path, &paint, rule, Transform::identity(), None);
+            }
+        }
+    }
+}
+
+fn color([r, g, b]: Ink) -> Color {
+    Color::from_rgba8(r, g, b, 255)
+}
+
+fn stroke(pen: &Pen, scale: f64) -> Stroke {
+    let dashes = pen.dashes.iter().map(|dash| (dash * scale) as f32).collect::<Vec<_>>();
+    Stroke {
+        width: (pen.width * scale) as f32,
+        miter_limit: 4.0,
+        line_cap: match pen.cap {
+            Cap::Butt => LineCap::Butt,
+            Cap::Round => LineCap::Round,
+            Cap::Square => LineCap::Square,
+        },
+        line_join: match pen.join {
+            Join::Miter => LineJoin::Miter,
+            Join::Round => LineJoin::Round,
+            Join::Bevel => LineJoin::Bevel,
+        },
+        // None for no dashes.
+        dash: StrokeDash::new(dashes, 0.0),
+    }
+}
+
+/// The lines as paths of about so many points, in pixels.
+fn paths(lines: &[Polyline], scale: [f64; 2], most: usize) -> Vec<Path> {
+    let mut paths = Vec::new();
+    let mut path = PathBuilder::new();
+    for line in lines {
+        if path.len() >= most {
+            paths.extend(std::mem::take(&mut path).finish());
+        }
+        for (at, point) in line.points.iter().enumerate() {
+            let [x, y] = [0, 1].map(|axis| (millimetres(*point)[axis] * scale[axis]) as f32);
+            if at == 0 { path.move_to(x, y) } else { path.line_to(x, y) }
+        }
+        if line.closed {
+            path.close();
+        }
+    }
+    paths.extend(path.finish());
+    paths
+}

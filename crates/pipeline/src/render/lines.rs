@@ -1,0 +1,95 @@
+//! Line drawings of a scene: from the models to the page that every output writes.
+
+use super::RenderError;
+use crate::color::SrgbEncoder;
+use crate::drawing::{
+    self, EdgeClass, EdgeClasses, Hidden, HiddenParts, Ink, LineDrawing, LineLook, Options, Page,
+    Shown,
+};
+use crate::scene::{Scene, Style};
+use crate::{Picture, Timings};
+
+/// The line drawing of a scene on a page of the picture's size, 96 pixels to the inch. Styles that show surfaces have their
+/// hidden lines removed.
+///
+/// The number of threads does not change it.
+///
+/// # Errors
+/// As [`render`](crate::render()).
+pub fn draw(scene: &Scene, threads: usize, timings: &Timings) -> Result<Page, RenderError> {
+    let look = scene.style.line_look();
+    let drawing = timings.measure("lines", || line_drawing(scene, &look, threads))?;
+    let page = || drawing.to_page(&look, &title(scene), paper(scene.image.background));
+    Ok(timings.measure("chains", page))
+}
+
+/// The lines of a scene, with what is visible told from what is hidden.
+///
+/// # Errors
+/// As [`render`](crate::render()).
+pub fn line_drawing(
+    scene: &Scene,
+    look: &LineLook,
+    threads: usize,
+) -> Result<LineDrawing, RenderError> {
+    drawing::draw(scene, &look.options(), threads)
+}
+
+impl LineLook {
+    /// What the engine must find out for this look.
+    fn options(&self) -> Options {
+        let classes = match self.shown {
+            Shown::Facets => EdgeClasses::ALL,
+            Shown::Features => EdgeClasses::FEATURES,
+            Shown::Tangents => EdgeClasses::FEATURES.with(EdgeClass::Tangent),
+            Shown::Silhouette => Options::silhouettes().classes,
+        };
+        let hidden = match self.hidden {
+            Hidden::Removed => HiddenParts::Removed,
+            Hidden::Dashed => HiddenParts::Kept,
+            Hidden::Drawn => HiddenParts::Ignored,
+        };
+        Options { classes, hidden, crease: self.crease }
+    }
+}
+
+/// The line drawing as a picture.
+pub(super) fn picture(
+    scene: &Scene,
+    threads: usize,
+    timings: &Timings,
+) -> Result<Picture, RenderError> {
+    let page = draw(scene, threads, timings)?;
+    let (width, height) = (scene.image.width, scene.image.height);
+    let too_large = raster::RasterError::Size { x: 0, y: 0, width, height };
+    timings.measure("pixels", || page.to_picture(width, height)).ok_or(too_large.into())
+}
+
+impl Style {
+    /// How its lines look.
+    #[must_use]
+    pub const fn line_look(self) -> LineLook {
+        match self {
+            Self::Shaded | Self::Flat => LineLook::REMOVED,
+            Self::Wireframe => LineLook::WIREFRAME,
+            Self::Lines(look) => look,
+        }
+    }
+}
+
+/// The names of the models, each once.
+fn title(scene: &Scene) -> String {
+    let mut names: Vec<&str> = Vec::new();
+    for placed in &scene.models {
+        if !names.contains(&placed.model.name.as_str()) {
+            names.push(&placed.model.name);
+        }
+    }
+    names.join(", ")
+}
+
+/// The background as a colour of paper; `None` if it is transparent.
+fn paper(background: [f32; 4]) -> Option<Ink> {
+    let [r, g, b, alpha] = SrgbEncoder::shared().pixel(background);
+    (alpha == 255).then_some([r, g, b])
+}
