@@ -7,6 +7,8 @@
 
 mod chain;
 mod fixed;
+mod font;
+mod label;
 mod layout;
 mod line;
 mod linetype;
@@ -16,10 +18,11 @@ mod page;
 mod pdf;
 mod svg;
 
+pub use label::{Align, Label};
 pub use layout::Placement;
 pub use line::{EdgeClass, Line, LineDrawing};
 pub use linetype::{IsoGroup, LineType};
-pub use look::{Hidden, LineLook, Shown, Widths};
+pub use look::{HiddenLines, LineLook, Shown, Widths};
 pub use page::{
     Cap, Group, Ink, Join, Layer, MILLIMETRES_PER_PIXEL, Page, Pen, Place, Polyline, micrometres,
     millimetres,
