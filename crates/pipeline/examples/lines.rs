@@ -45,6 +45,7 @@ fn svg(drawing: &LineDrawing) -> String {
         let color = match line.class {
             EdgeClass::Silhouette => "black",
             EdgeClass::Boundary => "blue",
+            EdgeClass::Tangent => "orange",
             EdgeClass::Crease => "#444",
             EdgeClass::Intersection => "red",
             _ => "green",

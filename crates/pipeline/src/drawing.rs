@@ -7,6 +7,7 @@
 
 mod draw;
 mod edges;
+mod in_order;
 mod line;
 mod options;
 mod sight;

@@ -71,8 +71,8 @@ impl EdgeClasses {
     /// Every class.
     pub const ALL: Self = Self(u16::MAX);
 
-    /// All but facets and tangent edges.
-    pub const FEATURES: Self = Self::ALL.without(EdgeClass::Facet).without(EdgeClass::Tangent);
+    /// All but facets.
+    pub const FEATURES: Self = Self::ALL.without(EdgeClass::Facet);
 
     /// The set with a class.
     #[must_use]
