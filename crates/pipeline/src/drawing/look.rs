@@ -1,6 +1,8 @@
 //! How a line drawing looks: which lines are drawn, how hidden ones show, and with what pens.
 
+use super::EdgeClass;
 use super::linetype::IsoGroup;
+use super::options::{EdgeClasses, Hidden, Options};
 use super::page::{Cap, Ink, Join, MILLIMETRES_PER_PIXEL};
 
 /// How a line drawing looks.
@@ -87,6 +89,27 @@ impl LineLook {
         widths: Widths::Iso(IsoGroup::HALF),
         ..Self::REMOVED
     };
+}
+
+impl LineLook {
+    /// What must be drawn for it.
+    #[must_use]
+    pub fn options(&self) -> Options {
+        Options {
+            classes: match self.shown {
+                Shown::Facets => EdgeClasses::ALL,
+                Shown::Features => EdgeClasses::FEATURES.without(EdgeClass::Tangent),
+                Shown::Tangents => EdgeClasses::FEATURES,
+                Shown::Silhouette => Options::silhouettes().classes,
+            },
+            hidden: match self.hidden {
+                HiddenLines::Removed => Hidden::Removed,
+                HiddenLines::Dashed => Hidden::Kept,
+                HiddenLines::Drawn => Hidden::Ignored,
+            },
+            crease: self.crease,
+        }
+    }
 }
 
 impl Widths {
