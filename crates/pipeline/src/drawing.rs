@@ -9,6 +9,9 @@ mod chain;
 mod draw;
 mod edges;
 mod fixed;
+mod font;
+mod in_order;
+mod label;
 mod layout;
 mod line;
 mod linetype;
@@ -22,11 +25,12 @@ mod svg;
 mod visibility;
 
 pub use draw::draw;
+pub use label::{Align, Label};
 pub use layout::Placement;
 pub use line::{EdgeClass, Line, LineDrawing};
 pub use linetype::{IsoGroup, LineType};
-pub use look::{Hidden, LineLook, Shown, Widths};
-pub use options::{EdgeClasses, HiddenParts, Options};
+pub use look::{HiddenLines, LineLook, Shown, Widths};
+pub use options::{EdgeClasses, Hidden, Options};
 pub use page::{
     Cap, Group, Ink, Join, Layer, MILLIMETRES_PER_PIXEL, Page, Pen, Place, Polyline, micrometres,
     millimetres,

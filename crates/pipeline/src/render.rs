@@ -16,7 +16,7 @@ mod textures;
 mod vertices;
 mod wireframe;
 
-pub use lines::{draw, line_drawing};
+pub use lines::draw;
 pub use shot::Shot;
 
 use crate::canvas::Canvas;

@@ -40,7 +40,7 @@ pub(super) fn segments(scene: &Scene) -> Result<Vec<Segment>, RenderError> {
 
 /// The edges of a primitive, as pairs of vertices. An edge that two triangles share is there once, also where the
 /// triangles have vertices of their own at the same places.
-pub(super) fn edges(primitive: &Primitive, positions: &[[f32; 3]]) -> Vec<[u32; 2]> {
+fn edges(primitive: &Primitive, positions: &[[f32; 3]]) -> Vec<[u32; 2]> {
     let sides: Vec<[u32; 2]> = match primitive.topology {
         Topology::Points => return Vec::new(),
         Topology::Lines => primitive.indices.as_chunks::<2>().0.to_vec(),

@@ -4,7 +4,7 @@ use super::file::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, WidthFile
 use super::locate::Step::Field;
 use super::{Origin, SceneError};
 use crate::color::parse_hex_codes;
-use crate::drawing::{Cap, Hidden, Ink, IsoGroup, Join, LineLook, Shown, Widths};
+use crate::drawing::{Cap, HiddenLines, Ink, IsoGroup, Join, LineLook, Shown, Widths};
 
 /// How a line drawing looks.
 pub(super) fn resolve_lines(origin: &Origin, file: &LinesFile) -> Result<LineLook, SceneError> {
@@ -16,9 +16,9 @@ pub(super) fn resolve_lines(origin: &Origin, file: &LinesFile) -> Result<LineLoo
             ShownFile::Silhouette => Shown::Silhouette,
         },
         hidden: match file.hidden {
-            HiddenFile::Removed => Hidden::Removed,
-            HiddenFile::Dashed => Hidden::Dashed,
-            HiddenFile::Drawn => Hidden::Drawn,
+            HiddenFile::Removed => HiddenLines::Removed,
+            HiddenFile::Dashed => HiddenLines::Dashed,
+            HiddenFile::Drawn => HiddenLines::Drawn,
         },
         crease: file.crease_degrees.value().to_radians(),
         depth_cue: file.depth_cue_percent.value() / 100.0,
