@@ -2,7 +2,7 @@
 //! on the standard error how many there are and how long it took.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program speaks")]
 
-use pipeline::drawing::{EdgeClass, LineDrawing, Options, draw};
+use pipeline::drawing::{EdgeClass, LineDrawing, Options, draw, verify};
 use pipeline::scene::ResolveOptions;
 use pipeline::{Origin, Scene};
 use std::path::Path;
@@ -16,9 +16,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (origin, mut file) =
         if is_scene { Origin::read(input)? } else { Origin::bare_model(input) };
     let mut options = Options::hidden_removed();
+    let mut check = false;
     for argument in arguments {
         match argument.as_str() {
             "kept" => options = Options::hidden_kept(),
+            "verify" => check = true,
             "wireframe" => options = Options::wireframe(),
             "silhouettes" => options = Options::silhouettes(),
             width => file.image.size = (width.parse()?, (3 * width.parse::<u32>()?).div_ceil(4)),
@@ -29,6 +31,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let drawing = draw(&scene, &options, 2)?;
     let took = start.elapsed();
     eprintln!("{} lines of {} objects in {took:?}", drawing.lines.len(), drawing.objects.len());
+    if check {
+        let agreement = verify(&scene, &drawing)?;
+        eprintln!(
+            "{:.4} % of {:.0} px disagree",
+            agreement.disagreement() * 100.0,
+            agreement.visible
+        );
+        for (place, length) in agreement.places.iter().take(20) {
+            eprintln!("  {length:.2} px of {:?}", drawing.lines[*place]);
+        }
+    }
     print!("{}", svg(&drawing));
     Ok(())
 }

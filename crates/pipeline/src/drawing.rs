@@ -11,10 +11,12 @@ mod in_order;
 mod line;
 mod options;
 mod sight;
+mod verify;
 mod visibility;
 
 pub use draw::draw;
 pub use line::{EdgeClass, Line, LineDrawing};
 pub use options::{EdgeClasses, Hidden, Options};
 pub use sight::Sight;
+pub use verify::{Agreement, verify};
 pub use visibility::{Obstacles, Parts, Tolerance};
