@@ -22,6 +22,7 @@ mod page;
 mod pdf;
 mod sight;
 mod svg;
+mod verify;
 mod visibility;
 
 pub use draw::draw;
@@ -37,4 +38,5 @@ pub use page::{
 };
 pub use pdf::to_pdf;
 pub use sight::Sight;
+pub use verify::{Agreement, verify};
 pub use visibility::{Obstacles, Parts, Tolerance};
