@@ -68,7 +68,12 @@ fn surfaces(scene: &Scene, threads: usize, timings: &Timings) -> Result<Picture,
     let textures = timings.measure("mip chains", || Textures::of(scene));
     let assembled = timings.measure("vertices", || Assembly::of(scene, &textures))?;
     let Assembly { frame, draws } = assembled;
-    let shading = Shading { draws: &draws, lights: &scene.lights, viewer: scene.shot.viewer() };
+    let shading = Shading {
+        draws: &draws,
+        lights: &scene.lights,
+        viewer: scene.shot.viewer(),
+        instructions: frame.instructions(),
+    };
     let mut pixels = vec![[0; 4]; image.width as usize * image.height as usize];
     let encoder = SrgbEncoder::shared();
     timings.measure("pixels", || {

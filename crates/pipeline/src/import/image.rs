@@ -74,7 +74,7 @@ fn needed(
     let visible = meshes.iter().zip(shown).filter(|(_, shown)| **shown).map(|(mesh, _)| mesh);
     for primitive in visible.flat_map(|mesh| &mesh.primitives).filter(|p| p.count() > 0) {
         let material = primitive.material.and_then(|at| materials.get(at));
-        for used in material.into_iter().flat_map(Material::textures) {
+        for (_, used) in material.into_iter().flat_map(Material::textures) {
             let image = textures.get(used.texture).and_then(|texture| texture.image);
             if let Some(flag) = image.and_then(|image| needed.get_mut(image)) {
                 *flag = true;
