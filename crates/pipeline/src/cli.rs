@@ -9,6 +9,7 @@ mod loading;
 mod pick;
 mod progress;
 mod render;
+mod sheet;
 
 pub(crate) use args::Args;
 pub(crate) use failure::Failure;
@@ -21,6 +22,7 @@ use std::process::ExitCode;
 pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
     match args.command {
         Command::Render(args) => render::run(&args)?,
+        Command::Sheet(args) => sheet::run(&args)?,
         Command::Info(args) => info::run(&args)?,
         Command::Check(args) => return check::run(&args),
     }

@@ -30,11 +30,11 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     progress.stage("rendering");
     let bytes = match format {
         Format::Png => {
-            let picture = render_timed(&scene, threads(args), &timings)?;
+            let picture = render_timed(&scene, threads(args.threads), &timings)?;
             timings.measure("encode", || picture.to_png())
         }
         Format::Svg | Format::Pdf => {
-            let page = draw(&scene, threads(args), &timings)?;
+            let page = draw(&scene, threads(args.threads), &timings)?;
             timings.measure("encode", || format.vectors(&[page]))
         }
     };
@@ -63,7 +63,7 @@ pub(super) fn is_scene(input: &Path) -> bool {
     input.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"))
 }
 
-fn open(input: &Path) -> Result<(Origin, SceneFile), Failure> {
+pub(super) fn open(input: &Path) -> Result<(Origin, SceneFile), Failure> {
     if is_scene(input) { Ok(Origin::read(input)?) } else { Ok(Origin::bare_model(input)) }
 }
 
@@ -78,9 +78,10 @@ fn output_of(args: &RenderArgs) -> Result<PathBuf, Failure> {
     Ok(PathBuf::from(name))
 }
 
-fn threads(args: &RenderArgs) -> usize {
+/// As many threads as are wanted, or as there are cores.
+pub(super) fn threads(wanted: Option<u16>) -> usize {
     let all = || std::thread::available_parallelism().map_or(1, Into::into);
-    args.threads.map_or_else(all, usize::from)
+    wanted.map_or_else(all, usize::from)
 }
 
 /// What the flags say goes before what the scene says.
@@ -129,7 +130,7 @@ fn override_with(file: &mut SceneFile, args: &RenderArgs) {
     }
 }
 
-fn warn(scene: &Scene) {
+pub(super) fn warn(scene: &Scene) {
     let mut told: Vec<&str> = Vec::new();
     for placed in &scene.models {
         let model = &placed.model;
