@@ -13,6 +13,7 @@ mod matrix;
 mod pick;
 mod progress;
 mod render;
+mod sheet;
 
 pub(crate) use args::Args;
 pub(crate) use failure::Failure;
@@ -25,6 +26,7 @@ use std::process::ExitCode;
 pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
     match args.command {
         Command::Render(args) => render::run(&args)?,
+        Command::Sheet(args) => sheet::run(&args)?,
         Command::Info(args) => info::run(&args)?,
         Command::Check(args) => return check::run(&args),
         Command::Matrix(args) => matrix::run(&args)?,

@@ -20,6 +20,7 @@ mod options;
 mod overlap;
 mod page;
 mod pdf;
+mod sheet;
 mod sight;
 mod svg;
 mod verify;
@@ -37,6 +38,7 @@ pub use page::{
     millimetres,
 };
 pub use pdf::to_pdf;
+pub use sheet::{Sheet, SheetError, Titles};
 pub use sight::Sight;
 pub use verify::{Agreement, verify};
 pub use visibility::{Obstacles, Parts, Tolerance};

@@ -6,6 +6,7 @@ use super::loading::LoadArgs;
 use super::look::LookArgs;
 use super::matrix::MatrixArgs;
 use super::pick::PickArgs;
+use super::sheet::SheetArgs;
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -24,6 +25,8 @@ Examples:
   alberti render model.glb                        a picture in model.png, framed and lit
   alberti render model.glb --view front --size 512x512 -o thumb.png
   alberti render scene.ron                        a scene: models, camera, lights, style
+  alberti render model.glb -o model.svg           a line drawing, hidden lines removed
+  alberti sheet model.glb --paper a4              front, top, side and isometric view to scale
   alberti info model.glb                          what is in the file
   alberti check model.glb                         what is wrong with the file
   alberti matrix 1 0 0 0 …                        what sixteen numbers are
@@ -37,6 +40,8 @@ Exit codes: 0 done, 1 the input or the work failed (no output file is touched), 
 pub(crate) enum Command {
     /// Render a scene file or a bare model to a PNG, or as a line drawing to an SVG or a PDF
     Render(RenderArgs),
+    /// Draw the views of a scene or a model on paper, to scale: front, top, side and isometric
+    Sheet(SheetArgs),
     /// Tell what is in a model: meshes, bounds, cameras, materials, extensions
     Info(InfoArgs),
     /// Tell everything that is wrong with a scene or a model, with its place and a remedy

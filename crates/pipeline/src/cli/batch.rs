@@ -59,7 +59,7 @@ pub(crate) fn run(args: &BatchArgs) -> Result<ExitCode, Failure> {
     let settings = format!("{:?} {:?}", args.look, args.load);
     let done = if args.again { Vec::new() } else { report::read_all(&args.out) };
     let report = Report::open(&args.out, shard)?;
-    let threads = args.threads.map_or_else(super::render::all_cores, usize::from);
+    let threads = super::render::threads(args.threads);
     let order = work::Order { args, settings: &settings, done: &done, threads };
     let records = order.work(&mine, &report);
     report.finish(&records)?;

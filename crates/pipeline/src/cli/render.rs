@@ -28,11 +28,11 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     progress.stage("rendering");
     let bytes = match format {
         Format::Png => {
-            let picture = render_timed(&scene, threads(args), &timings)?;
+            let picture = render_timed(&scene, threads(args.threads), &timings)?;
             timings.measure("encode", || picture.to_png())
         }
         Format::Svg | Format::Pdf => {
-            let page = draw(&scene, threads(args), &timings)?;
+            let page = draw(&scene, threads(args.threads), &timings)?;
             timings.measure("encode", || format.vectors(&[page]))
         }
     };
@@ -77,16 +77,13 @@ fn output_of(args: &RenderArgs) -> Result<PathBuf, Failure> {
     Ok(PathBuf::from(name))
 }
 
-fn threads(args: &RenderArgs) -> usize {
-    args.threads.map_or_else(all_cores, usize::from)
+/// As many threads as are wanted, or as there are cores.
+pub(super) fn threads(wanted: Option<u16>) -> usize {
+    let all = || std::thread::available_parallelism().map_or(1, Into::into);
+    wanted.map_or_else(all, usize::from)
 }
 
-/// As many threads as there are cores.
-pub(super) fn all_cores() -> usize {
-    std::thread::available_parallelism().map_or(1, Into::into)
-}
-
-fn warn(scene: &Scene) {
+pub(super) fn warn(scene: &Scene) {
     let mut told: Vec<&str> = Vec::new();
     for placed in &scene.models {
         let model = &placed.model;

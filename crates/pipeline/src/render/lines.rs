@@ -16,7 +16,7 @@ use crate::{Picture, Timings};
 pub fn draw(scene: &Scene, threads: usize, timings: &Timings) -> Result<Page, RenderError> {
     let look = scene.style.line_look();
     let drawing = timings.measure("lines", || drawing::draw(scene, &look.options(), threads))?;
-    let page = || drawing.to_page(&look, &title(scene), paper(scene.image.background));
+    let page = || drawing.to_page(&look, &scene.title(), paper(scene.image.background));
     Ok(timings.measure("chains", page))
 }
 
@@ -42,17 +42,6 @@ impl Style {
             Self::Lines(look) => look,
         }
     }
-}
-
-/// The names of the models, each once.
-fn title(scene: &Scene) -> String {
-    let mut names: Vec<&str> = Vec::new();
-    for placed in &scene.models {
-        if !names.contains(&placed.model.name.as_str()) {
-            names.push(&placed.model.name);
-        }
-    }
-    names.join(", ")
 }
 
 /// The background as a colour of paper; `None` if it is transparent.
