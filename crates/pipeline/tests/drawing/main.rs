@@ -1,0 +1,8 @@
+//! Line drawings of scenes whose lines can be computed by hand.
+//!
+//! All are drawn on 800 × 800 pixels, 100 to a unit of the picture, with its origin in the middle and y up: X and Y below are
+//! in those units.
+
+mod edges;
+mod solids;
+mod stage;
