@@ -118,9 +118,9 @@ impl Image {
         let mut planes = Vec::new();
         let shape = Shape::of(scene);
         for face in &shape.faces {
-            let corners = face.corners.map(|corner| sight.to_clip(shape.points[corner as usize]));
+            let corners = face.corners.map(|corner| sight.project(shape.points[corner as usize]));
             for piece in clip_triangle(corners, &Volume::CHAPTER).triangles() {
-                let places = piece.map(|vertex| sight.to_screen(vertex.point));
+                let places = piece.map(|vertex| sight.place(vertex.point));
                 let [Some(a), Some(b), Some(c)] = places else { continue };
                 let snap = |place, k: usize| {
                     ScreenVertex::snap(Point::from_raw(place), piece[k].point.w())
