@@ -3,14 +3,14 @@
 
 use super::Shard;
 use crate::cli::Failure;
-use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 use std::fs::{File, OpenOptions};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 /// What became of a job.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Debug)]
 pub(super) struct Record {
     /// The file, as it was given.
     pub(super) input: String,
@@ -32,6 +32,30 @@ pub(super) const DONE: &str = "done";
 pub(super) const KEPT: &str = "done before";
 pub(super) const FAILED: &str = "failed";
 
+impl Record {
+    fn to_line(&self) -> String {
+        let Self { input, output, status, key, seconds, warnings, message } = self;
+        let json = json!({"input": input, "output": output, "status": status, "key": key,
+            "seconds": seconds, "warnings": warnings, "message": message});
+        format!("{json}\n")
+    }
+
+    /// The record of a line; `None` if it is cut off, or of something else.
+    fn of_line(line: &str) -> Option<Self> {
+        let json: Value = serde_json::from_str(line).ok()?;
+        let word = |name: &str| Some(json.get(name)?.as_str()?.to_owned());
+        Some(Self {
+            input: word("input")?,
+            output: word("output")?,
+            status: word("status")?,
+            key: word("key")?,
+            seconds: json.get("seconds")?.as_f64()?,
+            warnings: usize::try_from(json.get("warnings")?.as_u64()?).ok()?,
+            message: word("message")?,
+        })
+    }
+}
+
 /// A report that is being written.
 pub(super) struct Report {
     path: PathBuf,
@@ -52,17 +76,14 @@ impl Report {
 
     /// Writes down what became of a job.
     pub(super) fn add(&self, record: &Record) {
-        let Ok(mut line) = serde_json::to_string(record) else { return };
-        line.push('\n');
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         // A full disk is found when the report is finished.
-        let _ = file.write_all(line.as_bytes());
+        let _ = file.write_all(record.to_line().as_bytes());
     }
 
     /// Puts the whole report in order: a line for each job of this run, in the order of the jobs.
     pub(super) fn finish(self, records: &[Record]) -> Result<(), Failure> {
-        let lines = records.iter().filter_map(|record| serde_json::to_string(record).ok());
-        let text: String = lines.flat_map(|line| [line, "\n".to_owned()]).collect();
+        let text: String = records.iter().map(Record::to_line).collect();
         drop(self.file);
         Ok(pipeline::write_file(&self.path, text.as_bytes())?)
     }
@@ -78,8 +99,7 @@ pub(super) fn read_all(folder: &Path) -> Vec<Record> {
     });
     paths.sort();
     let texts = paths.iter().filter_map(|path| std::fs::read_to_string(path).ok());
-    let records = |text: String| -> Vec<Record> {
-        text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect()
-    };
+    let records =
+        |text: String| -> Vec<Record> { text.lines().filter_map(Record::of_line).collect() };
     texts.flat_map(records).collect()
 }
