@@ -7,7 +7,7 @@ use super::{Failure, complain};
 use pipeline::import::ImportOptions;
 use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::{
-    BackgroundFile, CameraChoice, ProjectionFile, SceneFile, StyleFile, ViewFile,
+    BackgroundFile, CameraChoice, PrincipalFile, ProjectionFile, SceneFile, StyleFile, ViewFile,
 };
 use pipeline::{Origin, Scene, Timings, draw, render_timed};
 use std::io::Write;
@@ -120,12 +120,22 @@ fn override_with(file: &mut SceneFile, args: &RenderArgs) {
             ViewFile::Frame { padding_percent, .. } => *padding_percent,
             _ => pipeline::scene::file::USUAL_PADDING,
         };
-        file.camera.view = ViewFile::Frame { from: view.into(), padding_percent };
+        file.camera.view = ViewFile::Frame { from: Some(view.into()), padding_percent };
     }
     if let Some(projection) = args.projection {
         file.camera.projection = Some(match projection {
             ProjectionArg::Perspective => ProjectionFile::PERSPECTIVE,
             ProjectionArg::Orthographic => ProjectionFile::ORTHOGRAPHIC,
+            ProjectionArg::Multiview => ProjectionFile::Multiview(PrincipalFile::Front),
+            ProjectionArg::Isometric => ProjectionFile::Isometric,
+            ProjectionArg::Dimetric => ProjectionFile::Dimetric,
+            ProjectionArg::Trimetric => ProjectionFile::Trimetric,
+            ProjectionArg::Cavalier => ProjectionFile::cavalier(),
+            ProjectionArg::Cabinet => ProjectionFile::cabinet(),
+            ProjectionArg::Military => ProjectionFile::military(),
+            ProjectionArg::OnePoint => ProjectionFile::one_point(),
+            ProjectionArg::TwoPoint => ProjectionFile::two_point(),
+            ProjectionArg::ThreePoint => ProjectionFile::three_point(),
         });
     }
 }
