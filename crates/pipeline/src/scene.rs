@@ -4,6 +4,7 @@
 //! radians, every default is decided, and what does not make sense has become an error that points at its place.
 
 mod bounds;
+mod classical;
 mod error;
 pub mod file;
 mod locate;

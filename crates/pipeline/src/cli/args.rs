@@ -124,4 +124,24 @@ pub(crate) enum ProjectionArg {
     Perspective,
     /// Parallel, at right angles to the picture
     Orthographic,
+    /// The front in true shape, or what --view names
+    Multiview,
+    /// All three axes shortened alike
+    Isometric,
+    /// x and y in full, z by half
+    Dimetric,
+    /// Each axis shortened by a factor of its own
+    Trimetric,
+    /// The front in true shape, depth in full at 45°
+    Cavalier,
+    /// The front in true shape, depth by half at 45°
+    Cabinet,
+    /// The ground plan in true shape, heights straight up
+    Military,
+    /// Lines in depth meet in one point
+    OnePoint,
+    /// Uprights stay upright, the other lines meet in two points
+    TwoPoint,
+    /// Uprights meet too
+    ThreePoint,
 }

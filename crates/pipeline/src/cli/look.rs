@@ -5,8 +5,8 @@ use super::pick::PickArgs;
 use camera::NamedView;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use pipeline::scene::file::{
-    BackgroundFile, CameraChoice, CameraFile, ProjectionFile, SceneFile, StyleFile, USUAL_PADDING,
-    ViewFile,
+    BackgroundFile, CameraChoice, CameraFile, PrincipalFile, ProjectionFile, SceneFile, StyleFile,
+    USUAL_PADDING, ViewFile,
 };
 
 /// What goes before what the scene says; a bare model is a scene that says nothing.
@@ -69,7 +69,7 @@ impl LookArgs {
                 ViewFile::Frame { padding_percent, .. } => *padding_percent,
                 _ => USUAL_PADDING,
             };
-            file.view = ViewFile::Frame { from: view.into(), padding_percent };
+            file.view = ViewFile::Frame { from: Some(view.into()), padding_percent };
         }
         if let Some(projection) = self.projection {
             file.projection = Some(projection.into());
@@ -97,6 +97,16 @@ impl From<ProjectionArg> for ProjectionFile {
         match projection {
             ProjectionArg::Perspective => Self::PERSPECTIVE,
             ProjectionArg::Orthographic => Self::ORTHOGRAPHIC,
+            ProjectionArg::Multiview => Self::Multiview(PrincipalFile::Front),
+            ProjectionArg::Isometric => Self::Isometric,
+            ProjectionArg::Dimetric => Self::Dimetric,
+            ProjectionArg::Trimetric => Self::Trimetric,
+            ProjectionArg::Cavalier => Self::cavalier(),
+            ProjectionArg::Cabinet => Self::cabinet(),
+            ProjectionArg::Military => Self::military(),
+            ProjectionArg::OnePoint => Self::one_point(),
+            ProjectionArg::TwoPoint => Self::two_point(),
+            ProjectionArg::ThreePoint => Self::three_point(),
         }
     }
 }

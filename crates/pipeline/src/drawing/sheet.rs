@@ -24,13 +24,14 @@ mod symbol;
 mod title_block;
 mod view;
 
+use super::label::{Align, Label};
 use super::layout::Placement;
 use super::linetype::IsoGroup;
 use super::look::{HiddenLines, LineLook, Widths};
-use super::page::{Ink, Page};
+use super::page::{Group, Ink, Layer, Page};
 use crate::render::RenderError;
 use crate::scene::Scene;
-use arrange::Arrangement;
+use arrange::{Arrangement, Placed};
 use camera::NamedView;
 use glam::DVec2;
 use projection::SheetAngle;
@@ -148,23 +149,46 @@ impl Sheet {
         let view = |name: NamedView| View::of(&points, name, self.unit);
         let [front, top, side] = [view(NamedView::Front)?, view(NamedView::Top)?, view(self.side)?];
         let axonometric = self.axonometric.map(view).transpose()?;
-        let arrangement = Arrangement::of(self, &[&front, &top, &side], axonometric.as_ref())?;
+        let arrangement = Arrangement::of(self, [&front, &top, &side], axonometric.as_ref())?;
         let title =
             if self.titles.title.is_empty() { scene.title() } else { self.titles.title.clone() };
         let size = DVec2::new(self.paper.width(), self.paper.height());
         let mut page = Page::new(size, title, Some([255; 3]));
         let ink = self.look.ink.unwrap_or(INK);
-        for (view, centre) in arrangement.views() {
-            let is_seen_through = NamedView::PRINCIPAL.contains(&view.name);
-            let hidden = if is_seen_through { self.look.hidden } else { HiddenLines::Removed };
-            let look = LineLook { hidden, ..self.look };
-            let drawing = view.draw(scene, &look, threads)?;
-            let placement = view.placement(&drawing, arrangement.scale, centre);
-            let prefix = format!("{}-", view.name);
-            page.layers.extend(drawing.layers(&look, placement, &prefix, ink));
+        for placed in &arrangement.placed {
+            page.layers.extend(self.view_layers(placed, scene, threads, ink)?);
         }
         self.draw_apparatus(&mut page, &arrangement, ink);
         Ok(page)
+    }
+
+    /// The lines of a view. Hidden ones would only confuse in an axonometric view.
+    fn view_layers(
+        &self,
+        placed: &Placed<'_>,
+        scene: &Scene,
+        threads: usize,
+        ink: Ink,
+    ) -> Result<Vec<Layer>, SheetError> {
+        let view = placed.view;
+        let is_principal = NamedView::PRINCIPAL.contains(&view.name);
+        let hidden = if is_principal { self.look.hidden } else { HiddenLines::Removed };
+        let look = LineLook { hidden, ..self.look };
+        let drawing = view.draw(scene, &look, threads)?;
+        let placement = view.placement(&drawing, placed.scale, placed.centre);
+        Ok(drawing.layers(&look, placement, &format!("{}-", view.name), ink))
+    }
+
+    /// What says that a view has another scale than the sheet, below it.
+    fn other_scales(&self, arrangement: &Arrangement<'_>, ink: Ink) -> Option<Layer> {
+        let other = arrangement.placed.iter().find(|placed| placed.scale != arrangement.scale)?;
+        let (area, height) = (other.area(), self.lettering());
+        let at = DVec2::new(other.centre.x, area.y() + area.height() + 1.8 * height);
+        let text = other.scale.to_string();
+        let label = Label::new(&text, at, height).aligned(Align::Middle);
+        let mut layer = Layer::new("other-scale", "scale of the last view", label.pen(ink));
+        layer.groups.push(Group { strokes: label.strokes(), ..Group::default() });
+        Some(layer)
     }
 
     /// Dimensions, scale bar, frame and title block.
@@ -172,9 +196,10 @@ impl Sheet {
         if self.dimensions {
             page.layers.extend(dimension::overall(self, arrangement, ink));
         }
-        page.layers.push(scale_bar::layer(self, arrangement, ink));
+        page.layers.extend(self.other_scales(arrangement, ink));
+        page.layers.push(scale_bar::layer(self, arrangement.scale, ink));
         let block = self.title_block_area();
-        page.layers.extend(frame::layers(self.paper, ink));
+        page.layers.push(frame::layer(self.paper, block, ink));
         let title = page.title.clone();
         page.layers.extend(title_block::layers(self, &title, arrangement.scale, block, ink));
     }
@@ -199,6 +224,11 @@ impl Sheet {
     /// The area within the frame.
     fn drawing_area(&self) -> Rectangle {
         frame::inside(self.paper)
+    }
+
+    /// Where the scale bar is: in the lower left corner of the frame, or above the title block where that takes the whole width.
+    fn scale_bar_area(&self) -> Rectangle {
+        scale_bar::area(self)
     }
 
     /// Where the title block is: in the lower right corner of the frame.

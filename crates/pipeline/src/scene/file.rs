@@ -7,14 +7,14 @@ mod camera;
 mod light;
 mod lines;
 mod look;
+mod projection;
 mod sheet;
 
-pub use self::camera::{
-    CameraChoice, CameraFile, FromFile, ProjectionFile, USUAL_PADDING, ViewFile,
-};
+pub use self::camera::{CameraChoice, CameraFile, FromFile, USUAL_PADDING, ViewFile};
 pub use self::light::LightFile;
 pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, WidthFile};
 pub use self::look::{BackgroundFile, ImageFile, StyleFile};
+pub use self::projection::{PrincipalFile, ProjectionFile};
 pub use self::sheet::{
     AngleFile, AxonometricFile, OrientationFile, PaperFile, SheetFile, SideFile, UnitFile,
 };

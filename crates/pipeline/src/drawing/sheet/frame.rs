@@ -23,14 +23,14 @@ pub(super) fn inside(paper: Paper) -> Rectangle {
     rectangle(left, edge, paper.width() - left - right, paper.height() - 2.0 * edge)
 }
 
-/// The frame and its marks.
-pub(super) fn layers(paper: Paper, ink: Ink) -> Vec<Layer> {
+/// The frame and its marks; these do not reach into the title block.
+pub(super) fn layer(paper: Paper, block: Rectangle, ink: Ink) -> Layer {
     let pen = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::of_width(WIDTH, ink) };
     let mut layer = Layer::new("frame", "frame", pen);
     let mut strokes = vec![outline(inside(paper))];
-    strokes.extend(centring_marks(paper));
+    strokes.extend(centring_marks(paper, block));
     layer.groups.push(Group { strokes, ..Group::default() });
-    vec![layer]
+    layer
 }
 
 /// The border of a rectangle.
@@ -43,17 +43,18 @@ pub(super) fn outline(area: Rectangle) -> Polyline {
 }
 
 /// Marks that help to place a sheet in a copier.
-fn centring_marks(paper: Paper) -> Vec<Polyline> {
+fn centring_marks(paper: Paper, block: Rectangle) -> Vec<Polyline> {
     let size = DVec2::new(paper.width(), paper.height());
     let (middle, area) = (size * 0.5, inside(paper));
     let (left, top) = (area.x(), area.y());
     let (right, bottom) = (left + area.width(), top + area.height());
     let [edge, reach] = MARK;
+    let at_foot = if block.x() > middle.x { reach } else { 0.0 };
     let marks = [
         [DVec2::new(edge, middle.y), DVec2::new(left + reach, middle.y)],
         [DVec2::new(size.x - edge, middle.y), DVec2::new(right - reach, middle.y)],
         [DVec2::new(middle.x, edge), DVec2::new(middle.x, top + reach)],
-        [DVec2::new(middle.x, size.y - edge), DVec2::new(middle.x, bottom - reach)],
+        [DVec2::new(middle.x, size.y - edge), DVec2::new(middle.x, bottom - at_foot)],
     ];
     marks.iter().filter_map(|mark| Polyline::through(mark, false)).collect()
 }

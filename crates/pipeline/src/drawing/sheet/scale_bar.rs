@@ -7,10 +7,10 @@
 //!   0              100 mm
 //! ```
 
-use super::Sheet;
-use super::arrange::Arrangement;
+use super::{Sheet, rectangle};
 use crate::drawing::{Align, Cap, Group, Ink, Join, Label, Layer, Pen, Polyline};
 use glam::DVec2;
+use viewport::{DrawingScale, Rectangle};
 
 /// The longest bar in millimetres.
 const LONGEST: f64 = 60.0;
@@ -18,19 +18,29 @@ const LONGEST: f64 = 60.0;
 /// The height of the bar.
 const HEIGHT: f64 = 1.2;
 
+/// The height of its labels, in heights of the sheet's letters.
+const LETTERS: f64 = 0.7;
+
 /// The parts of the bar, every other one filled.
 const PARTS: u32 = 4;
 
-/// The bar in the lower left corner of the frame, or over the title block where that takes the whole width.
-pub(super) fn layer(sheet: &Sheet, arrangement: &Arrangement<'_>, ink: Ink) -> Layer {
-    let area = sheet.drawing_area();
-    let block = sheet.title_block_area();
-    let letters = sheet.lettering() * 0.7;
-    let thing = round_length(arrangement.scale.to_thing(LONGEST.min(area.width() * 0.4)));
-    let length = arrangement.scale.to_paper(thing);
-    let beside = block.x() - area.x() > length + 20.0;
-    let bottom = if beside { area.y() + area.height() } else { block.y() };
-    let corner = DVec2::new(area.x() + 6.0, bottom - 4.0 - letters - HEIGHT);
+/// The room for the bar and its labels.
+pub(super) fn area(sheet: &Sheet) -> Rectangle {
+    let (frame, block) = (sheet.drawing_area(), sheet.title_block_area());
+    let letters = sheet.lettering() * LETTERS;
+    let (width, height) = (LONGEST.min(frame.width() * 0.5) + 16.0, HEIGHT + letters + 6.0);
+    let is_beside = block.x() - frame.x() > width;
+    let bottom = if is_beside { frame.y() + frame.height() } else { block.y() };
+    rectangle(frame.x(), bottom - height, width, height)
+}
+
+/// The bar, in its area.
+pub(super) fn layer(sheet: &Sheet, scale: DrawingScale, ink: Ink) -> Layer {
+    let area = area(sheet);
+    let letters = sheet.lettering() * LETTERS;
+    let thing = round_length(scale.to_thing(area.width() - 16.0));
+    let length = scale.to_paper(thing);
+    let corner = DVec2::new(area.x() + 6.0, area.y() + 1.0);
     let pen = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::of_width(0.18, ink) };
     let mut layer = Layer::new("scale-bar", "scale bar", pen);
     let mut bar = Group { strokes: vec![part(corner, 0.0, length)], ..Group::default() };

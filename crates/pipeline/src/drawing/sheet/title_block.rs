@@ -45,7 +45,7 @@ pub(super) fn area(frame: Rectangle) -> Rectangle {
     rectangle(right - width, bottom - height, width, height)
 }
 
-/// The borders, the lettering in its two widths, and the symbol.
+/// The borders, the lettering in its three widths, and the symbol.
 pub(super) fn layers(
     sheet: &Sheet,
     title: &str,
@@ -58,6 +58,8 @@ pub(super) fn layers(
     let mut borders = Layer::new("title-block", "title block", border(0.35));
     borders.groups.push(Group { strokes: vec![outline(area)], ..Group::default() });
     let mut names = Layer::new("title-block-names", "title block: names", Pen::of_width(0.18, ink));
+    let heading = Pen::of_width(0.5, ink);
+    let mut heading = Layer::new("title-block-title", "title block: title", heading);
     let mut values = Layer::new("title-block-text", "title block: text", Pen::of_width(0.35, ink));
     for field in &fields {
         let place =
@@ -72,12 +74,13 @@ pub(super) fn layers(
         names.groups.push(text(&name.no_wider_than(room)));
         let foot = low + DVec2::new(INSET, size.y - size.y * 0.19);
         let value = Label::new(&field.value, foot, field.height.min(size.y * 0.42));
-        values.groups.push(text(&value.no_wider_than(room)));
+        let layer = if field.height == TITLE { &mut heading } else { &mut values };
+        layer.groups.push(text(&value.no_wider_than(room)));
         if field.name == PROJECTION {
             names.groups.push(symbol(sheet, cell));
         }
     }
-    vec![borders, names, values]
+    vec![borders, names, heading, values]
 }
 
 const PROJECTION: &str = "Projection";
@@ -106,8 +109,9 @@ fn fields<'a>(sheet: &Sheet, title: &str, scale: DrawingScale) -> Vec<Field<'a>>
 }
 
 fn symbol(sheet: &Sheet, cell: Rectangle) -> Group {
-    let middle = DVec2::new(cell.x() + cell.width() * 0.6, cell.y() + cell.height() * 0.52);
-    let strokes: Vec<Polyline> = projection_symbol(sheet.angle, middle, cell.height() * 0.62);
+    let height = (cell.height() * 0.62).min(cell.width() * 0.2);
+    let middle = DVec2::new(cell.x() + cell.width() * 0.6, cell.y() + cell.height() - height * 0.8);
+    let strokes: Vec<Polyline> = projection_symbol(sheet.angle, middle, height);
     Group { strokes, ..Group::default() }
 }
 
