@@ -10,6 +10,7 @@ mod conventions;
 mod factors;
 mod json;
 mod matrix;
+mod node;
 mod place;
 mod segment;
 mod text;
@@ -19,7 +20,8 @@ pub use chain::Chain;
 pub use conventions::Conventions;
 pub use json::{SCHEMA_NAME, SCHEMA_VERSION};
 pub use matrix::explain_matrix;
-pub use place::{Vertex, explain_place, explain_vertex};
+pub use node::explain_node;
+pub use place::{Vertex, explain_chain, explain_place, explain_vertex};
 pub use segment::explain_segment;
 pub use triangle::explain_triangle;
 

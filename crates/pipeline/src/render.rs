@@ -15,14 +15,12 @@ mod stage;
 mod tests;
 mod textures;
 mod vertices;
-mod wireframe;
 
-pub use lines::{draw, line_drawing};
+pub use lines::draw;
 pub use renderer::Renderer;
 pub use shot::Shot;
 pub use textures::Textures;
 
-use crate::canvas::Canvas;
 use crate::scene::{Scene, Style};
 use crate::{Picture, Timings};
 
@@ -60,8 +58,7 @@ pub fn render_timed(
 ) -> Result<Picture, RenderError> {
     match scene.style {
         Style::Shaded | Style::Flat => surfaces(scene, threads, timings),
-        Style::Wireframe => timings.measure("lines", || wires(scene)),
-        Style::Lines(_) => lines::picture(scene, threads, timings),
+        Style::Wireframe | Style::Lines(_) => lines::picture(scene, threads, timings),
     }
 }
 
@@ -70,14 +67,4 @@ fn surfaces(scene: &Scene, threads: usize, timings: &Timings) -> Result<Picture,
     let mut picture = Picture::default();
     Renderer::default().render(scene, &textures, threads, timings, &mut picture)?;
     Ok(picture)
-}
-
-fn wires(scene: &Scene) -> Result<Picture, RenderError> {
-    let image = scene.image;
-    let segments = wireframe::segments(scene)?;
-    let (width, height) = (image.width, image.height);
-    let too_large = raster::RasterError::Size { x: 0, y: 0, width, height };
-    let mut canvas = Canvas::new(width, height, image.background).ok_or(too_large)?;
-    canvas.lines(&segments, wireframe::LINE_WIDTH, wireframe::ink(image.background));
-    Ok(canvas.into_picture())
 }

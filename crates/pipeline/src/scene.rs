@@ -4,6 +4,7 @@
 //! radians, every default is decided, and what does not make sense has become an error that points at its place.
 
 mod bounds;
+mod classical;
 mod error;
 pub mod file;
 mod locate;
@@ -15,6 +16,7 @@ mod origin;
 mod parse;
 mod resolve;
 mod review;
+mod sheet;
 mod viewpoint;
 
 pub use error::SceneError;
@@ -29,7 +31,7 @@ use crate::import::ImportError;
 use crate::model::Model;
 use crate::render::Shot;
 use crate::shade::Light;
-use homog::{Affine, Model as ModelSpace, World};
+use homog::{Affine, Model as ModelSpace, Point, World};
 use raster::Samples;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -47,6 +49,26 @@ pub struct Scene {
     pub style: Style,
     /// The picture to make.
     pub image: ImageSpec,
+}
+
+impl Scene {
+    /// Every vertex that some point, line or triangle of the scene uses, in the world.
+    #[must_use]
+    pub fn world_points(&self) -> Vec<Point<World>> {
+        bounds::world_points(&self.models)
+    }
+
+    /// The names of the models, each once.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let mut names: Vec<&str> = Vec::new();
+        for placed in &self.models {
+            if !names.contains(&placed.model.name.as_str()) {
+                names.push(&placed.model.name);
+            }
+        }
+        names.join(", ")
+    }
 }
 
 /// A model in its place.

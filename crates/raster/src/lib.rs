@@ -70,7 +70,7 @@ pub use error::RasterError;
 pub use fragment::Fragment;
 pub use fragments::{Eight, Fragments, WIDE, Weights};
 pub use frame::{Frame, MAX_SIDE};
-pub use instructions::Instructions;
+pub use instructions::{Instructions, Work};
 pub use primitive::{Cover, Cull, SourceWeights};
 pub use samples::Samples;
 pub use threads::share;

@@ -1,7 +1,8 @@
 //! From a scene to its line drawing.
 
 use super::edges::{Candidate, Shape, candidates};
-use super::options::{HiddenParts, Options};
+use super::in_order::in_order;
+use super::options::{Hidden, Options};
 use super::sight::Sight;
 use super::visibility::{Obstacles, Scratch, Tolerance, Trace};
 use super::{Line, LineDrawing};
@@ -9,11 +10,7 @@ use crate::render::RenderError;
 use crate::scene::Scene;
 use glam::DVec2;
 use homog::Point;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use viewport::Viewport;
-
-/// Edges that a thread takes at a time.
-const CHUNK: usize = 512;
 
 /// Draws the edges of a scene with up to `threads` threads. Their number does not change the drawing.
 ///
@@ -24,12 +21,12 @@ pub fn draw(scene: &Scene, options: &Options, threads: usize) -> Result<LineDraw
     let sight = Sight::new(&scene.shot, &Viewport::image(width, height)?);
     let mut shape = Shape::of(scene);
     let tolerance = Tolerance::of_scene(shape.diagonal());
-    let edges = candidates(&mut shape, &sight, options);
+    let edges = candidates(&mut shape, &sight, options, threads);
     let obstacles = match options.hidden {
-        HiddenParts::Ignored => Obstacles::new([], sight, tolerance),
+        Hidden::Ignored => Obstacles::new([], sight, tolerance),
         _ => Obstacles::new(shape.triangles(), sight, tolerance),
     };
-    let drawer = Drawer { sight, obstacles, keeps_hidden: options.hidden == HiddenParts::Kept };
+    let drawer = Drawer { sight, obstacles, keeps_hidden: options.hidden == Hidden::Kept };
     Ok(LineDrawing {
         size: DVec2::new(width.into(), height.into()),
         objects: shape.objects,
@@ -46,34 +43,11 @@ struct Drawer {
 impl Drawer {
     /// The pieces of all edges, in the order of the edges.
     fn lines(&self, edges: &[Candidate], threads: usize) -> Vec<Line> {
-        let next = AtomicUsize::new(0);
-        let work = || {
-            let mut scratch = Scratch::default();
-            let mut done = Vec::new();
-            loop {
-                let chunk = next.fetch_add(1, Ordering::Relaxed);
-                let Some(edges) = edges.chunks(CHUNK).nth(chunk) else { return done };
-                let mut lines = Vec::new();
-                for (edge, number) in edges.iter().zip(chunk * CHUNK..) {
-                    self.divide(edge, number as u32, &mut scratch, &mut lines);
-                }
-                done.push((chunk, lines));
+        in_order(edges.len(), threads, |range, scratch, lines| {
+            for number in range {
+                self.divide(&edges[number], number as u32, scratch, lines);
             }
-        };
-        let most = edges.len().div_ceil(CHUNK);
-        let mut done: Vec<(usize, Vec<Line>)> = std::thread::scope(|scope| {
-            let others: Vec<_> = (1..threads.min(most)).map(|_| scope.spawn(work)).collect();
-            let mut done = work();
-            for other in others {
-                match other.join() {
-                    Ok(lines) => done.extend(lines),
-                    Err(cause) => std::panic::resume_unwind(cause),
-                }
-            }
-            done
-        });
-        done.sort_unstable_by_key(|(chunk, _)| *chunk);
-        done.into_iter().flat_map(|(_, lines)| lines).collect()
+        })
     }
 
     /// The pieces of an edge.

@@ -5,7 +5,9 @@
 //! ```
 
 mod classify;
+mod crossings;
 mod gather;
+mod seams;
 mod sides;
 mod weld;
 

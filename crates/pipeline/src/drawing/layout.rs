@@ -2,7 +2,7 @@
 
 use super::chain::{Chain, chained};
 use super::linetype::LineType;
-use super::look::{Hidden, LineLook, Shown};
+use super::look::{HiddenLines, LineLook, Shown};
 use super::overlap::{Piece, once};
 use super::page::{Group, Ink, Layer, MILLIMETRES_PER_PIXEL, Page, Pen};
 use super::{EdgeClass, Line, LineDrawing};
@@ -130,7 +130,7 @@ impl<'a> Kinds<'a> {
 
     /// Hands on the parts of a line that are drawn, with the number of their kind.
     fn pieces(&self, line: &Line, mut hand_on: impl FnMut(u32, [DVec2; 2], u32)) {
-        let hidden = !line.visible && self.look.hidden != Hidden::Drawn;
+        let hidden = !line.visible && self.look.hidden != HiddenLines::Drawn;
         let number = |band: u32| {
             let kind = Kind { hidden, band, class: line.class };
             self.kinds.iter().position(|other| *other == kind).map(|at| at as u32)
@@ -188,7 +188,7 @@ fn paler(ink: Ink, most: f64, band: u32) -> Ink {
 
 /// Whether a look draws lines of a class.
 fn draws(look: &LineLook, class: EdgeClass, hidden: bool) -> bool {
-    if hidden && look.hidden == Hidden::Removed {
+    if hidden && look.hidden == HiddenLines::Removed {
         return false;
     }
     match class {
@@ -239,7 +239,7 @@ impl Kind {
         let class = self.class.name();
         let sight = match (self.hidden, look.hidden) {
             (true, _) => "hidden",
-            (false, Hidden::Drawn) => "all",
+            (false, HiddenLines::Drawn) => "all",
             (false, _) => "visible",
         };
         let (mut id, mut title) = (format!("{sight}-{class}"), format!("{sight}: {class}"));

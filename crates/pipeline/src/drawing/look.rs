@@ -1,6 +1,8 @@
 //! How a line drawing looks: which lines are drawn, how hidden ones show, and with what pens.
 
+use super::EdgeClass;
 use super::linetype::IsoGroup;
+use super::options::{EdgeClasses, Hidden, Options};
 use super::page::{Cap, Ink, Join, MILLIMETRES_PER_PIXEL};
 
 /// How a line drawing looks.
@@ -9,7 +11,7 @@ pub struct LineLook {
     /// Which lines are drawn.
     pub shown: Shown,
     /// What becomes of hidden lines.
-    pub hidden: Hidden,
+    pub hidden: HiddenLines,
     /// Two faces that meet at more than this angle, in radians, have an edge between them.
     pub crease: f64,
     /// How much of its contrast the farthest line loses: 0 for none, 1 for all.
@@ -39,7 +41,7 @@ pub enum Shown {
 
 /// What becomes of hidden lines.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Hidden {
+pub enum HiddenLines {
     /// They are not drawn.
     Removed,
     /// They are dashed.
@@ -63,7 +65,7 @@ impl LineLook {
     /// Features, hidden lines removed, 1.25 pixels wide.
     pub const REMOVED: Self = Self {
         shown: Shown::Features,
-        hidden: Hidden::Removed,
+        hidden: HiddenLines::Removed,
         crease: 30.0 * core::f64::consts::PI / 180.0,
         depth_cue: 0.0,
         widths: Widths::Pixels(1.25),
@@ -72,10 +74,10 @@ impl LineLook {
         join: Join::Round,
     };
     /// The same with hidden lines dashed.
-    pub const DASHED: Self = Self { hidden: Hidden::Dashed, ..Self::REMOVED };
+    pub const DASHED: Self = Self { hidden: HiddenLines::Dashed, ..Self::REMOVED };
     /// The sides of all triangles, seen through.
     pub const WIREFRAME: Self =
-        Self { shown: Shown::Facets, hidden: Hidden::Drawn, ..Self::REMOVED };
+        Self { shown: Shown::Facets, hidden: HiddenLines::Drawn, ..Self::REMOVED };
     /// A wireframe that is paler the farther away it is.
     pub const DEPTH_CUED: Self = Self { depth_cue: 0.8, ..Self::WIREFRAME };
     /// The outline alone.
@@ -83,10 +85,31 @@ impl LineLook {
     /// Visible, hidden and tangent edges with the line types and widths of ISO 128.
     pub const TECHNICAL: Self = Self {
         shown: Shown::Tangents,
-        hidden: Hidden::Dashed,
+        hidden: HiddenLines::Dashed,
         widths: Widths::Iso(IsoGroup::HALF),
         ..Self::REMOVED
     };
+}
+
+impl LineLook {
+    /// What must be drawn for it.
+    #[must_use]
+    pub fn options(&self) -> Options {
+        Options {
+            classes: match self.shown {
+                Shown::Facets => EdgeClasses::ALL,
+                Shown::Features => EdgeClasses::FEATURES.without(EdgeClass::Tangent),
+                Shown::Tangents => EdgeClasses::FEATURES,
+                Shown::Silhouette => Options::silhouettes().classes,
+            },
+            hidden: match self.hidden {
+                HiddenLines::Removed => Hidden::Removed,
+                HiddenLines::Dashed => Hidden::Kept,
+                HiddenLines::Drawn => Hidden::Ignored,
+            },
+            crease: self.crease,
+        }
+    }
 }
 
 impl Widths {

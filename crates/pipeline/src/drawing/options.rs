@@ -8,7 +8,7 @@ pub struct Options {
     /// The edges that are drawn.
     pub classes: EdgeClasses,
     /// What becomes of hidden parts.
-    pub hidden: HiddenParts,
+    pub hidden: Hidden,
     /// Two faces that meet at more than this angle make a crease: in radians, 0 for faces that go on straight.
     /// Default: 30 degrees.
     pub crease: f64,
@@ -16,7 +16,7 @@ pub struct Options {
 
 /// What becomes of the hidden parts of edges.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum HiddenParts {
+pub enum Hidden {
     /// They are left out.
     Removed,
     /// They are kept, and marked as hidden.
@@ -37,13 +37,13 @@ impl Options {
     /// The edges one would draw by hand, where they can be seen.
     #[must_use]
     pub const fn hidden_removed() -> Self {
-        Self { classes: EdgeClasses::FEATURES, hidden: HiddenParts::Removed, crease: Self::CREASE }
+        Self { classes: EdgeClasses::FEATURES, hidden: Hidden::Removed, crease: Self::CREASE }
     }
 
     /// The same with the hidden parts, to be dashed.
     #[must_use]
     pub const fn hidden_kept() -> Self {
-        Self { hidden: HiddenParts::Kept, ..Self::hidden_removed() }
+        Self { hidden: Hidden::Kept, ..Self::hidden_removed() }
     }
 
     /// Silhouettes and borders, where they can be seen.
@@ -56,7 +56,7 @@ impl Options {
     /// Every side of every face, as if surfaces were of wire.
     #[must_use]
     pub const fn wireframe() -> Self {
-        Self { classes: EdgeClasses::ALL, hidden: HiddenParts::Ignored, crease: Self::CREASE }
+        Self { classes: EdgeClasses::ALL, hidden: Hidden::Ignored, crease: Self::CREASE }
     }
 }
 
@@ -71,8 +71,8 @@ impl EdgeClasses {
     /// Every class.
     pub const ALL: Self = Self(u16::MAX);
 
-    /// All but facets and tangent edges.
-    pub const FEATURES: Self = Self::ALL.without(EdgeClass::Facet).without(EdgeClass::Tangent);
+    /// All but facets.
+    pub const FEATURES: Self = Self::ALL.without(EdgeClass::Facet);
 
     /// The set with a class.
     #[must_use]

@@ -6,6 +6,7 @@ mod piece;
 mod spans;
 mod trace;
 
+pub(super) use bvh::{Aabb, Bvh};
 pub(super) use obstacles::Scratch;
 pub use obstacles::{Obstacles, Parts, Tolerance};
 pub(super) use trace::Trace;

@@ -21,6 +21,8 @@ pub struct Chain {
     view_to_clip: Projective<View, Clip>,
     conventions: Conventions,
     viewport: Viewport,
+    /// Whether the window exchanges left and right, or bottom and top.
+    mirrors: bool,
 }
 
 /// A point of the world with the name it has in an explanation.
@@ -42,6 +44,7 @@ impl Chain {
             view_to_clip: ours.convert(conventions.volume(), shot.view_to_clip),
             conventions,
             viewport: conventions.viewport(width, height)?,
+            mirrors: shot.mirrors(),
         })
     }
 
@@ -77,6 +80,19 @@ impl Chain {
     #[must_use]
     pub fn to_screen(&self, point: HPoint<Clip>) -> Option<Point<Screen>> {
         Some(self.ndc_to_screen().point(point.divide()?))
+    }
+
+    /// Whether a triangle (a, b, c) shows the viewer the side on which its corners run counter-clockwise; `None` if it is seen
+    /// edge-on. Points and lines have no back.
+    pub(super) fn shows_front(&self, corners: &[HPoint<Clip>]) -> Option<bool> {
+        let &[a, b, c] = corners else { return Some(true) };
+        // The volume of (x, y, w) is positive if the corners run counter-clockwise in clip space with y up, also where w is
+        // negative for some (Olano and Greer, 1997).
+        let [a, b, c] = [a, b, c].map(|p| glam::DVec3::new(p.x(), p.y(), p.w()));
+        let volume = a.dot(b.cross(c));
+        let turned = self.conventions.y_runs_down() != self.mirrors;
+        let upright = if turned { -volume } else { volume };
+        (upright != 0.0).then_some(upright > 0.0)
     }
 
     fn turn(&self) -> Affine<View, View> {

@@ -1,7 +1,7 @@
 //! Whose conventions an explanation speaks in: the canonical volume, the side that view space looks to, and how pixels are
 //! counted. The picture does not depend on them.
 
-use projection::{Convention, Handedness};
+use projection::{Convention, Handedness, NdcY};
 use std::str::FromStr;
 use viewport::{DepthRange, PixelConvention, Rectangle, Viewport, ViewportError};
 
@@ -57,6 +57,11 @@ impl Conventions {
     /// Whether view space looks along +z.
     pub(super) fn looks_along_z(self) -> bool {
         self.volume().handedness() == Handedness::Left
+    }
+
+    /// Whether y runs down in clip space.
+    pub(super) fn y_runs_down(self) -> bool {
+        self.volume().ndc_y() == NdcY::Down
     }
 
     /// The viewport on the whole of an image.

@@ -7,6 +7,19 @@ use crate::model::{Instance, Model};
 use crate::scene::Placed;
 use homog::{Affine, Model as ModelSpace, Point, World};
 
+/// Tells the maps themselves, without anything that passes them.
+#[must_use]
+pub fn explain_chain(chain: &Chain) -> Explanation {
+    let [_, screen] = chain.screen_steps(&[]);
+    let steps = vec![chain.camera_step(&[]), chain.projection_step(&[]), screen];
+    let verdict = "--point, --segment and --node follow something through them.".to_owned();
+    Explanation {
+        subject: "The chain of maps from the world to the screen".to_owned(),
+        steps,
+        verdict,
+    }
+}
+
 /// Follows a place of the world through every stage.
 #[must_use]
 pub fn explain_place(chain: &Chain, place: Point<World>) -> Explanation {

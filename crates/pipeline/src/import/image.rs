@@ -79,7 +79,7 @@ fn shown(model: &Model, meshes: usize) -> Vec<bool> {
 /// Notes the images of a material.
 fn note(material: Option<usize>, model: &Model, needed: &mut [bool]) {
     let material = material.and_then(|at| model.materials.get(at));
-    for used in material.into_iter().flat_map(Material::textures) {
+    for (_, used) in material.into_iter().flat_map(Material::textures) {
         let image = model.textures.get(used.texture).and_then(|texture| texture.image);
         if let Some(flag) = image.and_then(|image| needed.get_mut(image)) {
             *flag = true;

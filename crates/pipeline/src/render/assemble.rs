@@ -4,10 +4,12 @@ use super::RenderError;
 use super::renderer::Memory;
 use super::stage::{Stage, Whereabouts, all};
 use super::textures::Textures;
-use super::vertices::{Parts, uv_set};
-use crate::model::{AlphaMode, Instance, Material, Posed, Primitive, Topology};
+use super::vertices::{Parts, tangents, uv_set};
+use crate::model::{
+    AlphaMode, Instance, Material, Posed, Primitive, TextureSlot, TextureUse, Topology,
+};
 use crate::scene::{Placed, Scene, Style};
-use crate::shade::{Draw, MipChain};
+use crate::shade::{Draw, Maps, MipChain};
 use clip::{Outcode, clip_triangle};
 use glam::DVec3;
 use homog::{Clip, HPoint, Model, Projective};
@@ -30,7 +32,7 @@ pub(super) fn assemble<'a>(
     let mut assembler = Assembler { stage, is_flat, threads, memory, next_id: 0 };
     for (number, placed) in scene.models.iter().enumerate() {
         for (instance, primitive) in placed.model.shown_primitives() {
-            let texture = |n: usize| textures.chain(number, n);
+            let texture = |slot, used: TextureUse| textures.chain(number, slot, used.texture);
             assembler.draw(placed, instance, primitive, texture)?;
         }
     }
@@ -108,17 +110,18 @@ impl<'a> Assembler<'a> {
         placed: &'a Placed,
         instance: Instance,
         primitive: &'a Primitive,
-        texture: impl Fn(usize) -> Option<&'a MipChain<'a>>,
+        texture: impl Fn(TextureSlot, TextureUse) -> Option<&'a MipChain<'a>>,
     ) -> Result<(), RenderError> {
         let model = &placed.model;
         let first_id = self.next_id;
         let count = u32::try_from(primitive.count()).map_err(|_| RenderError::TooManyPrimitives)?;
         self.next_id = first_id.checked_add(count).ok_or(RenderError::TooManyPrimitives)?;
-        let Posed { positions, normals, to_model } = model.posed(instance, primitive);
+        let posed = model.posed(instance, primitive);
+        let Posed { positions, normals, to_model } = &posed;
         let model_to_world = to_model.then(placed.model_to_world);
         let model_to_clip = self.stage.model_to_clip(model_to_world);
         let is_mesh = primitive.topology == Topology::Triangles;
-        let whereabouts = match self.stage.whereabouts(model_to_clip, &positions) {
+        let whereabouts = match self.stage.whereabouts(model_to_clip, positions) {
             // Points and lines are wider than their vertices tell.
             Whereabouts::Outside if is_mesh => return Ok(()),
             Whereabouts::Inside if is_mesh => Whereabouts::Inside,
@@ -129,24 +132,24 @@ impl<'a> Assembler<'a> {
             first_id,
             primitive,
             material,
-            base_color_texture: material.base_color_texture.and_then(|used| texture(used.texture)),
-            emissive_texture: material.emissive_texture.and_then(|used| texture(used.texture)),
+            maps: Maps::of(material, texture),
             vertices: self.memory.spare.pop().unwrap_or_default(),
+            tangents: tangents(model, instance, primitive, material, &posed, model_to_world),
             smooth: normals.is_some() && !self.is_flat,
             uv_set: uv_set(material, primitive),
             colors: model.posed_colors(instance, primitive),
             mirrored: model_to_world.determinant() < 0.0,
         };
         if whereabouts == Whereabouts::Inside {
-            self.memory.images.inside(&self.stage, model_to_clip, &positions, self.threads);
+            self.memory.images.inside(&self.stage, model_to_clip, positions, self.threads);
             self.mesh(&draw);
         } else {
-            self.memory.images.anywhere(&self.stage, model_to_clip, &positions);
+            self.memory.images.anywhere(&self.stage, model_to_clip, positions);
             self.submit(&draw);
         }
         let uvs = draw.uv_set.and_then(|set| model.posed_uvs(instance, primitive, set));
         let parts = Parts {
-            positions: draw.is_lit().then_some(&*positions),
+            positions: draw.is_lit().then_some(&**positions),
             normals: normals.as_deref().filter(|_| draw.is_lit() && draw.smooth),
             uvs: uvs.as_deref(),
         };

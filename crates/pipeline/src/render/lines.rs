@@ -2,10 +2,7 @@
 
 use super::RenderError;
 use crate::color::SrgbEncoder;
-use crate::drawing::{
-    self, EdgeClass, EdgeClasses, Hidden, HiddenParts, Ink, LineDrawing, LineLook, Options, Page,
-    Shown,
-};
+use crate::drawing::{self, Ink, LineLook, Page};
 use crate::scene::{Scene, Style};
 use crate::{Picture, Timings};
 
@@ -18,39 +15,9 @@ use crate::{Picture, Timings};
 /// As [`render`](crate::render()).
 pub fn draw(scene: &Scene, threads: usize, timings: &Timings) -> Result<Page, RenderError> {
     let look = scene.style.line_look();
-    let drawing = timings.measure("lines", || line_drawing(scene, &look, threads))?;
-    let page = || drawing.to_page(&look, &title(scene), paper(scene.image.background));
+    let drawing = timings.measure("lines", || drawing::draw(scene, &look.options(), threads))?;
+    let page = || drawing.to_page(&look, &scene.title(), paper(scene.image.background));
     Ok(timings.measure("chains", page))
-}
-
-/// The lines of a scene, with what is visible told from what is hidden.
-///
-/// # Errors
-/// As [`render`](crate::render()).
-pub fn line_drawing(
-    scene: &Scene,
-    look: &LineLook,
-    threads: usize,
-) -> Result<LineDrawing, RenderError> {
-    drawing::draw(scene, &look.options(), threads)
-}
-
-impl LineLook {
-    /// What the engine must find out for this look.
-    fn options(&self) -> Options {
-        let classes = match self.shown {
-            Shown::Facets => EdgeClasses::ALL,
-            Shown::Features => EdgeClasses::FEATURES,
-            Shown::Tangents => EdgeClasses::FEATURES.with(EdgeClass::Tangent),
-            Shown::Silhouette => Options::silhouettes().classes,
-        };
-        let hidden = match self.hidden {
-            Hidden::Removed => HiddenParts::Removed,
-            Hidden::Dashed => HiddenParts::Kept,
-            Hidden::Drawn => HiddenParts::Ignored,
-        };
-        Options { classes, hidden, crease: self.crease }
-    }
 }
 
 /// The line drawing as a picture.
@@ -75,17 +42,6 @@ impl Style {
             Self::Lines(look) => look,
         }
     }
-}
-
-/// The names of the models, each once.
-fn title(scene: &Scene) -> String {
-    let mut names: Vec<&str> = Vec::new();
-    for placed in &scene.models {
-        if !names.contains(&placed.model.name.as_str()) {
-            names.push(&placed.model.name);
-        }
-    }
-    names.join(", ")
 }
 
 /// The background as a colour of paper; `None` if it is transparent.

@@ -64,7 +64,12 @@ impl Renderer {
         let memory = self.lend(scene, threads)?;
         let memory = timings.measure("vertices", || assemble(scene, textures, threads, memory))?;
         let Memory { frame, draws, .. } = &memory;
-        let shading = Shading { draws, lights: &scene.lights, viewer: scene.shot.viewer() };
+        let shading = Shading {
+            draws,
+            lights: &scene.lights,
+            viewer: scene.shot.viewer(),
+            instructions: frame.instructions(),
+        };
         picture.resize(image.width, image.height);
         let encoder = SrgbEncoder::shared();
         timings.measure("pixels", || {

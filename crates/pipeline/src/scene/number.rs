@@ -83,7 +83,18 @@ impl Positive {
     }
 }
 
+impl Finite {
+    /// A number that is known to be finite.
+    pub(super) const fn known(value: f64) -> Self {
+        debug_assert!(value.is_finite(), "a finite number is finite");
+        Self(value)
+    }
+}
+
 impl NonNegative {
+    /// 1.
+    pub const ONE: Self = Self(1.0);
+
     /// 5, the usual margin in per cent.
     pub const FIVE: Self = Self(5.0);
 }

@@ -1,9 +1,12 @@
 //! Why an edge is drawn: what the faces on its two sides do there.
 
+use super::crossings::crossings;
 use super::gather::{Face, Shape};
+use super::seams::{Reach, borders, cut, weld_near};
 use super::sides::{Side, Sides};
 use super::weld::weld_equal;
 use crate::drawing::sight::Sight;
+use crate::drawing::visibility::Tolerance;
 use crate::drawing::{EdgeClass, Options};
 use crate::model::EdgeVisibility;
 use glam::DVec3;
@@ -17,26 +20,45 @@ pub(crate) struct Candidate {
 }
 
 /// Welds the shape and finds the edges that the options ask for, by object and in the order of their points.
-pub(crate) fn candidates(shape: &mut Shape, sight: &Sight, options: &Options) -> Vec<Candidate> {
+pub(crate) fn candidates(
+    shape: &mut Shape,
+    sight: &Sight,
+    options: &Options,
+    threads: usize,
+) -> Vec<Candidate> {
     weld_equal(shape);
-    let normals = Normals::of(shape, sight);
-    let sides = Sides::of(&shape.faces, shape.points.len());
+    let mut sides = Sides::of(&shape.faces, shape.points.len());
+    let mut seams = borders(&sides);
+    let reach = Reach::of(shape);
+    if weld_near(shape, &seams, &reach) {
+        sides = Sides::of(&shape.faces, shape.points.len());
+        seams = borders(&sides);
+    }
+    let seams = cut(shape, &seams, &reach);
     let mut found = Vec::new();
-    let mut add = |ends: [u32; 2], class, object| {
+    let mut add = |ends: [DVec3; 2], class, object| {
         if options.classes.contains(class) {
-            let ends = ends.map(|end| shape.points[end as usize]);
             found.push(Candidate { ends, class, object });
         }
     };
-    let classifier =
-        Classifier { faces: &shape.faces, normals: &normals, bend: libm::cos(options.crease) };
-    for (ends, sides) in sides.edges() {
-        let object = sides.iter().map(|side| shape.faces[side.face as usize].object).min();
-        add(ends, classifier.class(sides), object.unwrap_or(0));
+    let places = |ends: [u32; 2]| ends.map(|end| shape.points[end as usize]);
+    let classifier = Classifier::of(shape, sight, options);
+    for (ends, sides) in sides.edges().filter(|(_, sides)| sides.len() > 1) {
+        add(places(ends), classifier.class(sides), classifier.object(sides));
+    }
+    for parts in seams.chunk_by(|(a, _), (b, _)| a == b) {
+        let sides: Vec<Side> = parts.iter().map(|(_, side)| *side).collect();
+        add(places(parts[0].0), classifier.class(&sides), classifier.object(&sides));
     }
     for stroke in &shape.strokes {
         let class = if stroke.marked { EdgeClass::Marked } else { EdgeClass::Line };
-        add(stroke.ends, class, stroke.object);
+        add(places(stroke.ends), class, stroke.object);
+    }
+    if options.classes.contains(EdgeClass::Intersection) {
+        let touching = Tolerance::of_scene(shape.diagonal()).world;
+        for (ends, object) in crossings(shape, touching, threads) {
+            add(ends, EdgeClass::Intersection, object);
+        }
     }
     found.sort_by_key(|candidate| candidate.object);
     found
@@ -65,18 +87,30 @@ impl Normals {
 
 struct Classifier<'a> {
     faces: &'a [Face],
-    normals: &'a Normals,
+    normals: Normals,
     /// The cosine of the crease angle.
     bend: f64,
 }
 
-impl Classifier<'_> {
+impl<'a> Classifier<'a> {
+    fn of(shape: &'a Shape, sight: &Sight, options: &Options) -> Self {
+        let normals = Normals::of(shape, sight);
+        Self { faces: &shape.faces, normals, bend: libm::cos(options.crease) }
+    }
+
+    fn face(&self, side: Side) -> &Face {
+        &self.faces[side.face as usize]
+    }
+
+    /// The first of the objects that meet at an edge.
+    fn object(&self, sides: &[Side]) -> u32 {
+        sides.iter().map(|&side| self.face(side).object).min().unwrap_or(0)
+    }
+
     fn class(&self, sides: &[Side]) -> EdgeClass {
         let shape = self.shape(sides);
-        let marks = sides.iter().filter_map(|side| {
-            Some(self.faces[side.face as usize].marks?[usize::from(side.number)])
-        });
-        match (marks.max(), shape) {
+        let mark = |&side: &Side| Some(self.face(side).marks?[usize::from(side.number)]);
+        match (sides.iter().filter_map(mark).max(), shape) {
             (None, shape) => shape,
             (Some(EdgeVisibility::Hard | EdgeVisibility::RepeatedHard), _) => EdgeClass::Marked,
             (Some(EdgeVisibility::Silhouette), EdgeClass::Silhouette) => EdgeClass::Silhouette,
@@ -84,18 +118,44 @@ impl Classifier<'_> {
         }
     }
 
-    /// The class by the shape alone.
+    /// The class by the shape alone: the strongest that any object has there. Borders of two objects make a pair.
     fn shape(&self, sides: &[Side]) -> EdgeClass {
-        let &[one, other] = sides else {
-            return if sides.len() == 1 { EdgeClass::Boundary } else { EdgeClass::Crease };
-        };
+        if let &[one, other] = sides {
+            return self.between(one, other);
+        }
+        // A third face of an object makes more than a surface of it.
+        let of_object =
+            |object| sides.iter().filter(move |&&side| self.face(side).object == object);
+        let (mut class, mut alone) = (EdgeClass::Facet, Vec::new());
+        for &side in sides {
+            let mut same = of_object(self.face(side).object);
+            class = class.min(match (same.next(), same.next(), same.next()) {
+                (Some(&one), Some(&other), None) => self.between(one, other),
+                (Some(_), Some(_), Some(_)) => EdgeClass::Crease,
+                _ => {
+                    alone.push(side);
+                    EdgeClass::Facet
+                }
+            });
+        }
+        match *alone {
+            [] => class,
+            [one, other] => class.min(self.between(one, other)),
+            [_] => class.min(EdgeClass::Boundary),
+            _ => class.min(EdgeClass::Crease),
+        }
+    }
+
+    /// The class of an edge between two faces.
+    fn between(&self, one: Side, other: Side) -> EdgeClass {
         let ((n, looks), (m, other_looks)) = (self.normals.beside(one), self.normals.beside(other));
-        // Seen along the same direction of the edge, the faces of a surface run against each other: m is the other's
-        // outer normal turned inwards.
+        // As if both ran along the rising edge: then one of the normals of a smooth surface points inwards.
         if looks == other_looks {
             EdgeClass::Silhouette
         } else if n.dot(-m) < self.bend {
             EdgeClass::Crease
+        } else if self.face(one).material != self.face(other).material {
+            EdgeClass::Tangent
         } else {
             EdgeClass::Facet
         }

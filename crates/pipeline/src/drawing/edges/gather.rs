@@ -12,6 +12,8 @@ pub(crate) struct Face {
     pub(crate) corners: [u32; 3],
     /// The object it belongs to.
     pub(crate) object: u32,
+    /// A number that faces of the same material share.
+    pub(crate) material: u32,
     /// What the file says of its sides, from the first corner to the second and so on; `None` if it says nothing.
     pub(crate) marks: Option<[EdgeVisibility; 3]>,
 }
@@ -39,6 +41,7 @@ impl Shape {
     /// All shown primitives as they are posed.
     pub(crate) fn of(scene: &Scene) -> Self {
         let mut shape = Self::default();
+        let mut first_material = 0;
         for placed in &scene.models {
             let model = &*placed.model;
             for instance in model.shown_meshes() {
@@ -48,9 +51,11 @@ impl Shape {
                 for primitive in mesh.into_iter().flat_map(|mesh| &mesh.primitives) {
                     let Posed { positions, to_model, .. } = model.posed(instance, primitive);
                     let to_world = to_model.then(placed.model_to_world);
-                    shape.add(primitive, &positions, to_world, object);
+                    let material = first_material + primitive.material.map_or(0, |m| m as u32 + 1);
+                    shape.add(primitive, &positions, to_world, (object, material));
                 }
             }
+            first_material += model.materials.len() as u32 + 1;
         }
         shape
     }
@@ -60,7 +65,7 @@ impl Shape {
         primitive: &Primitive,
         positions: &[[f32; 3]],
         to_world: Affine<ModelSpace, World>,
-        object: u32,
+        (object, material): (u32, u32),
     ) {
         let first = self.points.len() as u32;
         let place = |position: &[f32; 3]| to_world.point(position.map(f64::from).into()).raw();
@@ -83,7 +88,7 @@ impl Shape {
                 let corners = primitive.indices.as_chunks::<3>().0.iter();
                 let faces = corners.enumerate().map(|(at, corners)| {
                     let corners = corners.map(|corner| corner + first);
-                    Face { corners, object, marks: marks(at).or(rest) }
+                    Face { corners, object, material, marks: marks(at).or(rest) }
                 });
                 self.faces.extend(faces.filter(|face| is_here(&face.corners)));
                 let lines = edges.into_iter().flat_map(|edges| &edges.lines);

@@ -14,7 +14,8 @@ pub(crate) struct Aabb {
 }
 
 impl Aabb {
-    const NONE: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
+    /// The box around nothing.
+    pub(crate) const NONE: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
     /// The box around some points.
     pub(crate) fn around(points: impl IntoIterator<Item = DVec3>) -> Self {

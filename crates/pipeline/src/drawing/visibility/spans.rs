@@ -9,6 +9,7 @@ impl Spans {
         self.0.clear();
     }
 
+    #[cfg(test)]
     pub(crate) fn as_slice(&self) -> &[[f64; 2]] {
         &self.0
     }
