@@ -19,6 +19,7 @@ pub use lines::draw;
 pub use shot::Shot;
 
 use crate::color::SrgbEncoder;
+use crate::drawing::overlays;
 use crate::scene::{Scene, Style};
 use crate::shade::Shading;
 use crate::{Picture, Timings};
@@ -58,7 +59,10 @@ pub fn render_timed(
     timings: &Timings,
 ) -> Result<Picture, RenderError> {
     match scene.style {
-        Style::Shaded | Style::Flat => surfaces(scene, threads, timings),
+        Style::Shaded | Style::Flat => {
+            let picture = surfaces(scene, threads, timings)?;
+            Ok(picture.under(&overlays(scene)))
+        }
         Style::Wireframe | Style::Lines(_) => lines::picture(scene, threads, timings),
     }
 }

@@ -68,6 +68,9 @@ pub(crate) struct RenderArgs {
     /// The projection
     #[arg(long)]
     pub(crate) projection: Option<ProjectionArg>,
+    /// What is drawn over the picture to explain it; may be given several times
+    #[arg(long, value_name = "WHAT", value_delimiter = ',')]
+    pub(crate) overlay: Vec<OverlayArg>,
     /// What is seen where no model is: transparent, or a colour such as #f4f1ea
     #[arg(long, value_name = "COLOR")]
     pub(crate) background: Option<String>,
@@ -126,6 +129,18 @@ pub(crate) enum StyleArg {
     Silhouette,
     /// Visible, hidden and tangent edges with the line types and widths of ISO 128
     Technical,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum OverlayArg {
+    /// The axes of the world
+    Axes,
+    /// A grid on the ground
+    Grid,
+    /// Where horizontal directions vanish
+    Horizon,
+    /// Where the axes vanish
+    VanishingPoints,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

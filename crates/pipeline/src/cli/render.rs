@@ -1,13 +1,14 @@
 //! `alberti render`: a scene or a bare model becomes a PNG, or as a line drawing an SVG or a PDF.
 
-use super::args::{ProjectionArg, RenderArgs, StyleArg};
+use super::args::{OverlayArg, ProjectionArg, RenderArgs, StyleArg};
 use super::format::Format;
 use super::progress::Progress;
 use super::{Failure, complain};
 use pipeline::import::ImportOptions;
 use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::{
-    BackgroundFile, CameraChoice, PrincipalFile, ProjectionFile, SceneFile, StyleFile, ViewFile,
+    BackgroundFile, CameraChoice, OverlayFile, PrincipalFile, ProjectionFile, SceneFile, StyleFile,
+    ViewFile,
 };
 use pipeline::{Origin, Scene, Timings, draw, render_timed};
 use std::io::Write;
@@ -109,6 +110,12 @@ fn override_with(file: &mut SceneFile, args: &RenderArgs) {
             StyleArg::Technical => StyleFile::technical(),
         };
     }
+    file.overlays.extend(args.overlay.iter().map(|overlay| match overlay {
+        OverlayArg::Axes => OverlayFile::Axes { length: None },
+        OverlayArg::Grid => OverlayFile::Grid { step: None },
+        OverlayArg::Horizon => OverlayFile::Horizon,
+        OverlayArg::VanishingPoints => OverlayFile::VanishingPoints,
+    }));
     file.models.iter_mut().for_each(|model| args.pick.override_in(model));
     if let Some(camera) = &args.camera {
         let by_name = || CameraChoice::Name(camera.clone());

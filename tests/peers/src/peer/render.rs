@@ -46,6 +46,7 @@ impl Render {
             ],
             style: Style::Shaded,
             image: ImageSpec { width, height, background: [0.0; 4], samples },
+            overlays: Vec::new(),
         };
         Ok(Self { scene, threads, pixels: Vec::new() })
     }
