@@ -1,11 +1,15 @@
 //! The command line: what may be asked for, and who does it.
 
 mod args;
+mod batch;
 mod check;
+mod explain;
 mod failure;
 mod format;
 mod info;
 mod loading;
+mod look;
+mod matrix;
 mod pick;
 mod progress;
 mod render;
@@ -25,6 +29,9 @@ pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
         Command::Sheet(args) => sheet::run(&args)?,
         Command::Info(args) => info::run(&args)?,
         Command::Check(args) => return check::run(&args),
+        Command::Matrix(args) => matrix::run(&args)?,
+        Command::Explain(args) => explain::run(&args)?,
+        Command::Batch(args) => return batch::run(&args),
     }
     Ok(ExitCode::SUCCESS)
 }

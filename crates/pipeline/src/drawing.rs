@@ -24,6 +24,7 @@ mod pdf;
 mod sheet;
 mod sight;
 mod svg;
+mod verify;
 mod visibility;
 
 pub use draw::draw;
@@ -41,4 +42,5 @@ pub use page::{
 pub use pdf::to_pdf;
 pub use sheet::{Sheet, SheetError, Titles};
 pub use sight::Sight;
+pub use verify::{Agreement, verify};
 pub use visibility::{Obstacles, Parts, Tolerance};

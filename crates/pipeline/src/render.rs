@@ -8,6 +8,7 @@
 
 mod assemble;
 mod lines;
+mod renderer;
 mod shot;
 mod stage;
 #[cfg(test)]
@@ -16,15 +17,13 @@ mod textures;
 mod vertices;
 
 pub use lines::draw;
+pub use renderer::Renderer;
 pub use shot::Shot;
+pub use textures::Textures;
 
-use crate::color::SrgbEncoder;
 use crate::drawing::overlays;
 use crate::scene::{Scene, Style};
-use crate::shade::Shading;
 use crate::{Picture, Timings};
-use assemble::Assembly;
-use textures::Textures;
 
 /// A scene that cannot be rendered.
 #[derive(Debug, thiserror::Error)]
@@ -68,15 +67,8 @@ pub fn render_timed(
 }
 
 fn surfaces(scene: &Scene, threads: usize, timings: &Timings) -> Result<Picture, RenderError> {
-    let image = scene.image;
-    let textures = timings.measure("mip chains", || Textures::of(scene));
-    let assembled = timings.measure("vertices", || Assembly::of(scene, &textures))?;
-    let Assembly { frame, draws } = assembled;
-    let shading = Shading { draws: &draws, lights: &scene.lights, viewer: scene.shot.viewer() };
-    let mut pixels = vec![[0; 4]; image.width as usize * image.height as usize];
-    let encoder = SrgbEncoder::shared();
-    timings.measure("pixels", || {
-        frame.draw(&shading, image.background, threads, &mut pixels, encoder);
-    });
-    Ok(Picture { width: image.width, height: image.height, pixels })
+    let textures = timings.measure("mip chains", || Textures::of(&scene.models));
+    let mut picture = Picture::default();
+    Renderer::default().render(scene, &textures, threads, timings, &mut picture)?;
+    Ok(picture)
 }

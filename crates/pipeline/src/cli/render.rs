@@ -1,15 +1,12 @@
 //! `alberti render`: a scene or a bare model becomes a PNG, or as a line drawing an SVG or a PDF.
 
-use super::args::{OverlayArg, ProjectionArg, RenderArgs, StyleArg};
+use super::args::RenderArgs;
 use super::format::Format;
 use super::progress::Progress;
 use super::{Failure, complain};
 use pipeline::import::ImportOptions;
 use pipeline::scene::ResolveOptions;
-use pipeline::scene::file::{
-    BackgroundFile, CameraChoice, OverlayFile, PrincipalFile, ProjectionFile, SceneFile, StyleFile,
-    ViewFile,
-};
+use pipeline::scene::file::SceneFile;
 use pipeline::{Origin, Scene, Timings, draw, render_timed};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -23,7 +20,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let format = Format::of(&output)?;
     let progress = Progress::start("loading");
     let (origin, mut file) = open(&args.input)?;
-    override_with(&mut file, args);
+    args.look.override_in(&mut file);
     let timings = if args.timings { Timings::measuring() } else { Timings::default() };
     let import = ImportOptions { timings: timings.clone(), ..args.load.options() };
     let options = ResolveOptions { import };
@@ -64,6 +61,7 @@ pub(super) fn is_scene(input: &Path) -> bool {
     input.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"))
 }
 
+/// A scene file, or the scene of a bare model.
 pub(super) fn open(input: &Path) -> Result<(Origin, SceneFile), Failure> {
     if is_scene(input) { Ok(Origin::read(input)?) } else { Ok(Origin::bare_model(input)) }
 }
@@ -83,68 +81,6 @@ fn output_of(args: &RenderArgs) -> Result<PathBuf, Failure> {
 pub(super) fn threads(wanted: Option<u16>) -> usize {
     let all = || std::thread::available_parallelism().map_or(1, Into::into);
     wanted.map_or_else(all, usize::from)
-}
-
-/// What the flags say goes before what the scene says.
-fn override_with(file: &mut SceneFile, args: &RenderArgs) {
-    if let Some(size) = args.size {
-        file.image.size = size;
-    }
-    if let Some(samples) = args.samples {
-        file.image.samples = samples;
-    }
-    if let Some(text) = &args.background {
-        let transparent = text.eq_ignore_ascii_case("transparent");
-        let color = BackgroundFile::Color(text.clone());
-        file.image.background = if transparent { BackgroundFile::Transparent } else { color };
-    }
-    if let Some(style) = args.style {
-        file.style = match style {
-            StyleArg::Shaded => StyleFile::Shaded,
-            StyleArg::Flat => StyleFile::Flat,
-            StyleArg::Wireframe => StyleFile::Wireframe,
-            StyleArg::DepthCued => StyleFile::depth_cued(),
-            StyleArg::Lines => StyleFile::removed(),
-            StyleArg::Dashed => StyleFile::dashed(),
-            StyleArg::Silhouette => StyleFile::silhouette(),
-            StyleArg::Technical => StyleFile::technical(),
-        };
-    }
-    file.overlays.extend(args.overlay.iter().map(|overlay| match overlay {
-        OverlayArg::Axes => OverlayFile::Axes { length: None },
-        OverlayArg::Grid => OverlayFile::Grid { step: None },
-        OverlayArg::Horizon => OverlayFile::Horizon,
-        OverlayArg::VanishingPoints => OverlayFile::VanishingPoints,
-    }));
-    file.models.iter_mut().for_each(|model| args.pick.override_in(model));
-    if let Some(camera) = &args.camera {
-        let by_name = || CameraChoice::Name(camera.clone());
-        let choice = camera.parse().map_or_else(|_| by_name(), CameraChoice::Index);
-        file.camera.view = ViewFile::FromModel(choice);
-    }
-    if let Some(view) = args.view {
-        let padding_percent = match &file.camera.view {
-            ViewFile::Frame { padding_percent, .. } => *padding_percent,
-            _ => pipeline::scene::file::USUAL_PADDING,
-        };
-        file.camera.view = ViewFile::Frame { from: Some(view.into()), padding_percent };
-    }
-    if let Some(projection) = args.projection {
-        file.camera.projection = Some(match projection {
-            ProjectionArg::Perspective => ProjectionFile::PERSPECTIVE,
-            ProjectionArg::Orthographic => ProjectionFile::ORTHOGRAPHIC,
-            ProjectionArg::Multiview => ProjectionFile::Multiview(PrincipalFile::Front),
-            ProjectionArg::Isometric => ProjectionFile::Isometric,
-            ProjectionArg::Dimetric => ProjectionFile::Dimetric,
-            ProjectionArg::Trimetric => ProjectionFile::Trimetric,
-            ProjectionArg::Cavalier => ProjectionFile::cavalier(),
-            ProjectionArg::Cabinet => ProjectionFile::cabinet(),
-            ProjectionArg::Military => ProjectionFile::military(),
-            ProjectionArg::OnePoint => ProjectionFile::one_point(),
-            ProjectionArg::TwoPoint => ProjectionFile::two_point(),
-            ProjectionArg::ThreePoint => ProjectionFile::three_point(),
-        });
-    }
 }
 
 pub(super) fn warn(scene: &Scene) {

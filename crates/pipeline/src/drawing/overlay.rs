@@ -6,18 +6,24 @@
 //!               x   ╲ ┌───────────┐ ╱       z      that run to them, and what another camera sees
 //!                     │           │
 //! ```
-//! They lie over everything and are not hidden by it. What is behind the eye is cut off before the divide; the near and the far plane
-//! do not count.
+//! Axes, grid and view volume stand in the world, and the models hide them; the others are drawn on the picture. What is behind the
+//! eye is cut off before the divide; the near and the far plane do not count.
 
 mod perspective;
 mod volume;
 
+use super::edges::Shape;
 use super::label::{Align, Label};
+use super::linetype::LineType;
+use super::look::HiddenLines;
 use super::page::{Cap, Group, Ink, Layer, MILLIMETRES_PER_PIXEL, Pen, Polyline};
+use super::sight::Sight;
+use super::visibility::{Obstacles, Tolerance};
 use crate::render::Shot;
 use crate::scene::Scene;
-use glam::{DVec2, DVec3, DVec4};
+use glam::{DMat4, DVec2, DVec3, DVec4};
 use homog::{Bounds, Clip, Point, Projective, Vector, World};
+use viewport::Viewport;
 
 /// Something drawn over a picture.
 #[derive(Clone, Copy, Debug)]
@@ -81,7 +87,19 @@ struct Glass {
     half: DVec2,
     /// The box around the models.
     bounds: Bounds<World>,
+    /// What hides; `None` if one sees through everything.
+    obstacles: Option<Obstacles>,
 }
+
+/// The parts of lines that can be seen, and those that cannot.
+#[derive(Default)]
+struct Sighted {
+    visible: Vec<Polyline>,
+    hidden: Vec<Polyline>,
+}
+
+/// How much farther than the depths of the models one sees, before and behind them.
+const REACH: f64 = 1000.0;
 
 impl Glass {
     /// `None` if there are no models to draw over.
@@ -92,6 +110,7 @@ impl Glass {
             world_to_clip: scene.shot.world_to_clip(),
             half: size * (0.5 * MILLIMETRES_PER_PIXEL),
             bounds,
+            obstacles: obstacles(scene),
         })
     }
 
@@ -133,8 +152,17 @@ impl Glass {
     }
 
     /// A line of the world as strokes.
-    fn line(&self, from: Point<World>, to: Point<World>) -> Option<Polyline> {
-        Polyline::through(&self.segment(self.image(from), self.image(to))?, false)
+    fn line(&self, from: Point<World>, to: Point<World>, strokes: &mut Sighted) {
+        let stroke = |[a, b]: [f64; 2]| {
+            let [a, b] = [a, b].map(|t| self.image(from.lerp(to, t)));
+            Polyline::through(&self.segment(a, b)?, false)
+        };
+        let Some(obstacles) = &self.obstacles else {
+            return strokes.visible.extend(stroke([0.0, 1.0]));
+        };
+        let parts = obstacles.parts([from, to]);
+        strokes.visible.extend(parts.visible.into_iter().filter_map(stroke));
+        strokes.hidden.extend(parts.hidden.into_iter().filter_map(stroke));
     }
 
     /// Where a place is on the page, if it is in the picture.
@@ -146,26 +174,36 @@ impl Glass {
     fn axes(&self, length: Option<f64>) -> Vec<Layer> {
         let reach = self.bounds.diagonal();
         let length = length.unwrap_or(if reach > 0.0 { 0.6 * reach } else { 1.0 });
-        let axis = |(direction, name, ink): (Vector<World>, &str, Ink)| {
-            let tip = Point::ORIGIN + direction * length;
-            let mut layer = layer(&format!("axis-{name}"), &format!("axis {name}"), ink);
-            let Some(ends) = self.segment(self.image(Point::ORIGIN), self.image(tip)) else {
-                return layer;
-            };
-            let along = (ends[1] - ends[0]).normalize_or_zero();
-            let mut group = Group::default();
-            group.strokes.extend(Polyline::through(&ends, false));
-            if let Some(tip) = self.seen(self.image(tip)).filter(|_| along != DVec2::ZERO) {
-                group.fills.extend(arrowhead(tip, along));
-                let at = tip + along * (0.9 * LETTERS) + DVec2::new(0.0, 0.35 * LETTERS);
-                group
-                    .strokes
-                    .extend(Label::new(name, at, LETTERS).aligned(Align::Middle).strokes());
-            }
-            layer.groups.push(group);
-            layer
-        };
-        AXES.map(axis).to_vec()
+        let axes = AXES.into_iter();
+        axes.flat_map(|(direction, name, ink)| self.axis(direction * length, name, ink)).collect()
+    }
+
+    fn axis(&self, reach: Vector<World>, name: &str, ink: Ink) -> [Layer; 2] {
+        let tip = Point::ORIGIN + reach;
+        let [mut layer, hidden] = self.lines(&format!("axis-{name}"), ink, &[[Point::ORIGIN, tip]]);
+        let ends = [Point::ORIGIN, tip].map(|place| self.image(place));
+        let ends = self.segment(ends[0], ends[1]).filter(|_| self.seen(ends[1]).is_some());
+        if let Some([from, tip]) = ends {
+            let along = (tip - from).normalize_or_zero();
+            let at = tip + along * (0.9 * LETTERS) + DVec2::new(0.0, 0.35 * LETTERS);
+            let label = Label::new(name, at, LETTERS).aligned(Align::Middle);
+            let fills = arrowhead(tip, along).into_iter().collect();
+            layer.groups.push(Group { strokes: label.strokes(), fills, ..Group::default() });
+        }
+        [layer, hidden]
+    }
+
+    /// Lines of the world as a layer of their visible parts, and one of their hidden parts, dashed.
+    fn lines(&self, name: &str, ink: Ink, lines: &[[Point<World>; 2]]) -> [Layer; 2] {
+        let mut strokes = Sighted::default();
+        lines.iter().for_each(|[from, to]| self.line(*from, *to, &mut strokes));
+        let mut visible = layer(name, name, ink);
+        let mut hidden = layer(&format!("{name}-hidden"), &format!("{name}: hidden"), ink);
+        hidden.pen.width *= 0.6;
+        hidden.pen.dashes = LineType::Dashed.dashes(hidden.pen.width * 0.6);
+        visible.groups.push(Group { strokes: strokes.visible, ..Group::default() });
+        hidden.groups.push(Group { strokes: strokes.hidden, ..Group::default() });
+        [visible, hidden]
     }
 
     fn grid(&self, step: Option<f64>) -> Vec<Layer> {
@@ -181,12 +219,28 @@ impl Glass {
         let (width, depth) = (f64::from(columns), f64::from(rows));
         let across = (0..=rows).map(|row| (at(0.0, row.into()), at(width, row.into())));
         let along = (0..=columns).map(|column| (at(column.into(), 0.0), at(column.into(), depth)));
-        let strokes = across.chain(along).filter_map(|(from, to)| self.line(from, to)).collect();
+        let mut strokes = Sighted::default();
+        across.chain(along).for_each(|(from, to)| self.line(from, to, &mut strokes));
         let mut layer = layer("grid", &format!("grid, {step} apart"), GREY);
         layer.pen.width = 0.13;
-        layer.groups.push(Group { strokes, ..Group::default() });
+        layer.groups.push(Group { strokes: strokes.visible, ..Group::default() });
         vec![layer]
     }
+}
+
+/// The faces of the models, unless the scene is drawn as if they were of glass.
+fn obstacles(scene: &Scene) -> Option<Obstacles> {
+    if scene.style.line_look().hidden == HiddenLines::Drawn {
+        return None;
+    }
+    let viewport = Viewport::image(scene.image.width, scene.image.height).ok()?;
+    // Depth does not decide what is seen beside the models, only its order counts.
+    let deep = DMat4::from_diagonal(DVec4::new(1.0, 1.0, 1.0 / REACH, 1.0));
+    let view_to_clip = Projective::from_raw(deep * scene.shot.view_to_clip.raw());
+    let sight = Sight::new(&Shot { view_to_clip, ..scene.shot }, &viewport);
+    let shape = Shape::of(scene);
+    let tolerance = Tolerance::of_scene(shape.diagonal());
+    Some(Obstacles::new(shape.triangles(), sight, tolerance))
 }
 
 /// x, y and w.

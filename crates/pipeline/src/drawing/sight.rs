@@ -29,12 +29,12 @@ impl Sight {
         }
     }
 
-    pub(super) fn to_clip(&self, point: DVec3) -> HPoint<Clip> {
+    pub(super) fn project(&self, point: DVec3) -> HPoint<Clip> {
         self.world_to_clip.point(Point::from_raw(point))
     }
 
     /// The divide and the viewport; `None` where there is no image.
-    pub(super) fn to_screen(&self, point: HPoint<Clip>) -> Option<DVec3> {
+    pub(super) fn place(&self, point: HPoint<Clip>) -> Option<DVec3> {
         let screen = self.ndc_to_screen.point(point.divide()?).raw();
         screen.is_finite().then_some(screen)
     }
@@ -46,7 +46,7 @@ impl Sight {
 
     /// The part of an edge within the view volume, before the divide.
     pub(super) fn within(&self, ends: [DVec3; 2]) -> Option<ClippedSegment> {
-        let [a, b] = ends.map(|end| self.to_clip(end));
+        let [a, b] = ends.map(|end| self.project(end));
         clip_segment(a, b, &Volume::CHAPTER)
     }
 }

@@ -298,6 +298,7 @@ pub(super) fn resolve_light(
         LightFile::Point { position, candela, color } => Light::Point {
             position: position.0.map(|c| c as f32),
             candela: times(candela.value(), color.0),
+            range: f32::INFINITY,
         },
         LightFile::Ambient { lux, color } => Light::Ambient { lux: times(lux.value(), color.0) },
     })

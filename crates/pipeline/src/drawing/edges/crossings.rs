@@ -2,13 +2,20 @@
 //! test*, 1997).
 //!
 //! Each triangle cuts the plane of the other in a segment; both segments lie on the line where the planes meet, and what
-//! they share is the crossing. Triangles in one plane, or that only touch, do not cross.
+//! they share is the crossing. Triangles in one plane, or that only touch, do not cross, and nor do those so nearly in one
+//! plane that their crossing is made by rounding: decals, and copies of a surface.
 
 use super::gather::{Face, Shape};
 use super::seams::surface;
 use crate::drawing::in_order::in_order;
 use crate::drawing::visibility::{Aabb, Bvh};
 use glam::DVec3;
+
+/// Triangles nowhere farther than this from each other's planes are in one plane: in the distances that only touch.
+const FLAT: f64 = 512.0;
+
+/// The least sine of the angle between planes that cross: about one degree.
+const LEAST_SINE: f64 = 1.0 / 64.0;
 
 /// A crossing: its ends, and the lesser number of the faces' objects.
 pub(super) type Crossing = ([DVec3; 2], u32);
@@ -51,9 +58,13 @@ impl Triangle {
     }
 
     fn crosses(&self, other: &Self, touching: f64) -> Option<[DVec3; 2]> {
-        let ours = self.cut(self.heights(other, touching))?;
-        let theirs = other.cut(other.heights(self, touching))?;
+        let heights = [self.heights(other, touching), other.heights(self, touching)];
+        let (ours, theirs) = (self.cut(heights[0])?, other.cut(heights[1])?);
         let line = self.normal.cross(other.normal);
+        let is_flat = heights.as_flattened().iter().all(|height| height.abs() < FLAT * touching);
+        if is_flat || line.length() < LEAST_SINE {
+            return None;
+        }
         let along = |[a, b]: [DVec3; 2]| {
             let [s, t] = [line.dot(a), line.dot(b)];
             if s <= t { [(s, a), (t, b)] } else { [(t, b), (s, a)] }

@@ -12,9 +12,9 @@ use super::weld::renumber;
 use crate::drawing::visibility::{Aabb, Bvh};
 use glam::DVec3;
 
-/// Points of borders nearer than this are one, in diagonals of the smaller of their objects: what quantisation to 13 bits
+/// Points of borders nearer than this are one, in diagonals of the smaller of their objects: what quantisation to 12 bits
 /// may part.
-pub(super) const NEAR: f64 = 1.0 / 8192.0;
+pub(super) const NEAR: f64 = 1.0 / 4096.0;
 
 /// An edge that one face alone has, or a part of it.
 pub(super) type Border = ([u32; 2], Side);

@@ -66,7 +66,7 @@ impl Obstacles {
         let (mut pieces, mut boxes) = (Vec::new(), Vec::new());
         for triangle in triangles {
             let corners = triangle.map(Point::raw);
-            add(corners, corners.map(|c| sight.to_clip(c)), &sight, &tolerance, |piece, bounds| {
+            add(corners, corners.map(|c| sight.project(c)), &sight, &tolerance, |piece, bounds| {
                 pieces.push(piece);
                 boxes.push(bounds);
             });
@@ -170,7 +170,7 @@ fn add(
     let normal = normal * towards.signum();
     let offset = normal.dot(a);
     let mut add = |points: [HPoint<Clip>; 3]| {
-        let [Some(a), Some(b), Some(c)] = points.map(|point| sight.to_screen(point)) else {
+        let [Some(a), Some(b), Some(c)] = points.map(|point| sight.place(point)) else {
             return;
         };
         let bounds = Aabb::around([a, b, c]);

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 ///
 /// Places on it are named by s, the fraction of the way on the screen; the fraction of the way in the world, u, follows
 /// by IN-1, for lines go to lines.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Trace {
     /// The ends on the screen, in pixels.
     pub(crate) screen: [DVec2; 2],
@@ -25,7 +25,7 @@ impl Trace {
     /// `None` if nothing of the edge is in the view volume.
     pub(crate) fn of(ends: [DVec3; 2], sight: &Sight) -> Option<Self> {
         let kept = sight.within(ends)?;
-        let [a, b] = [sight.to_screen(kept.start)?, sight.to_screen(kept.end)?];
+        let [a, b] = [sight.place(kept.start)?, sight.place(kept.end)?];
         let place = |t: f64| match t {
             0.0 => ends[0],
             1.0 => ends[1],
