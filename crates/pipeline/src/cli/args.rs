@@ -123,6 +123,18 @@ pub(crate) enum StyleArg {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum OverlayArg {
+    /// The axes of the world
+    Axes,
+    /// A grid on the ground
+    Grid,
+    /// Where horizontal directions vanish
+    Horizon,
+    /// Where the axes vanish
+    VanishingPoints,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum ProjectionArg {
     /// What is farther away is smaller
     Perspective,

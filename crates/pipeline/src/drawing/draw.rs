@@ -68,7 +68,7 @@ impl Drawer {
 
 impl Shape {
     /// The faces as triangles of the world.
-    fn triangles(&self) -> impl Iterator<Item = [Point<homog::World>; 3]> {
+    pub(super) fn triangles(&self) -> impl Iterator<Item = [Point<homog::World>; 3]> {
         let corner = |corner: u32| Point::from_raw(self.points[corner as usize]);
         self.faces.iter().map(move |face| face.corners.map(corner))
     }
