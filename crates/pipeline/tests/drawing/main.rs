@@ -4,6 +4,7 @@
 //! in those units.
 
 #![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod edges;
 mod solids;
