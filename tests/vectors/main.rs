@@ -13,6 +13,7 @@
 
 mod chain;
 mod clipping;
+mod explained;
 mod lessons;
 mod lines;
 mod numbers;

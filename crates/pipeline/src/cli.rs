@@ -1,13 +1,19 @@
 //! The command line: what may be asked for, and who does it.
 
 mod args;
+mod batch;
 mod check;
+mod explain;
 mod failure;
+mod format;
 mod info;
 mod loading;
+mod look;
+mod matrix;
 mod pick;
 mod progress;
 mod render;
+mod sheet;
 
 pub(crate) use args::Args;
 pub(crate) use failure::Failure;
@@ -20,8 +26,12 @@ use std::process::ExitCode;
 pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
     match args.command {
         Command::Render(args) => render::run(&args)?,
+        Command::Sheet(args) => sheet::run(&args)?,
         Command::Info(args) => info::run(&args)?,
         Command::Check(args) => return check::run(&args),
+        Command::Matrix(args) => matrix::run(&args)?,
+        Command::Explain(args) => explain::run(&args)?,
+        Command::Batch(args) => return batch::run(&args),
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -17,6 +17,13 @@ pub(crate) fn linear_table() -> &'static [f32; 256] {
     TABLE.get_or_init(|| std::array::from_fn(|code| linear_of(code as f64 / 255.0) as f32))
 }
 
+/// The number, 0 to 1, of each 8-bit code of something that is no colour.
+#[must_use]
+pub(crate) fn unit_table() -> &'static [f32; 256] {
+    static TABLE: OnceLock<[f32; 256]> = OnceLock::new();
+    TABLE.get_or_init(|| std::array::from_fn(|code| (code as f64 / 255.0) as f32))
+}
+
 /// The bits of the least light that the encoder tells from 0: 2⁻¹³, which is less than half of the value 1.
 const LEAST: u32 = 0x3900_0000;
 
@@ -121,6 +128,12 @@ fn thresholds() -> [f32; 256] {
 /// Linear red, green and blue of a colour written `#rgb` or `#rrggbb`; `None` if it is written otherwise.
 #[must_use]
 pub(crate) fn parse_hex(text: &str) -> Option<[f32; 3]> {
+    Some(parse_hex_codes(text)?.map(|code| linear_table()[usize::from(code)]))
+}
+
+/// The 8-bit sRGB values of a colour written `#rgb` or `#rrggbb`; `None` if it is written otherwise.
+#[must_use]
+pub(crate) fn parse_hex_codes(text: &str) -> Option<[u8; 3]> {
     let digits = text.strip_prefix('#').filter(|d| d.bytes().all(|b| b.is_ascii_hexdigit()))?;
     let wide: String = match digits.len() {
         3 => digits.chars().flat_map(|digit| [digit, digit]).collect(),
@@ -129,7 +142,7 @@ pub(crate) fn parse_hex(text: &str) -> Option<[f32; 3]> {
     };
     let number = u32::from_str_radix(&wide, 16).ok()?;
     let [_, r, g, b] = number.to_be_bytes();
-    Some([r, g, b].map(|code| linear_table()[usize::from(code)]))
+    Some([r, g, b])
 }
 
 #[cfg(test)]

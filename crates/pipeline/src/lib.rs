@@ -3,6 +3,7 @@
 mod canvas;
 mod color;
 pub mod drawing;
+pub mod explain;
 pub mod import;
 pub mod model;
 mod output;
@@ -14,6 +15,6 @@ mod timings;
 
 pub use output::{OutputError, write_file};
 pub use picture::Picture;
-pub use render::{RenderError, render, render_timed};
+pub use render::{RenderError, Renderer, Textures, draw, render, render_timed};
 pub use scene::{Origin, ResolveError, Scene, SceneError, SceneFile};
 pub use timings::Timings;

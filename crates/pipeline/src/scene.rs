@@ -4,9 +4,11 @@
 //! radians, every default is decided, and what does not make sense has become an error that points at its place.
 
 mod bounds;
+mod classical;
 mod error;
 pub mod file;
 mod locate;
+mod look;
 #[cfg(test)]
 mod mistakes;
 mod number;
@@ -14,6 +16,7 @@ mod origin;
 mod parse;
 mod resolve;
 mod review;
+mod sheet;
 mod viewpoint;
 
 pub use error::SceneError;
@@ -23,11 +26,12 @@ pub use parse::parse;
 pub use resolve::{ResolveOptions, chosen_animation};
 pub use review::review;
 
+use crate::drawing::LineLook;
 use crate::import::ImportError;
 use crate::model::Model;
 use crate::render::Shot;
 use crate::shade::Light;
-use homog::{Affine, Model as ModelSpace, World};
+use homog::{Affine, Model as ModelSpace, Point, World};
 use raster::Samples;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -47,6 +51,26 @@ pub struct Scene {
     pub image: ImageSpec,
 }
 
+impl Scene {
+    /// Every vertex that some point, line or triangle of the scene uses, in the world.
+    #[must_use]
+    pub fn world_points(&self) -> Vec<Point<World>> {
+        bounds::world_points(&self.models)
+    }
+
+    /// The names of the models, each once.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let mut names: Vec<&str> = Vec::new();
+        for placed in &self.models {
+            if !names.contains(&placed.model.name.as_str()) {
+                names.push(&placed.model.name);
+            }
+        }
+        names.join(", ")
+    }
+}
+
 /// A model in its place.
 #[derive(Clone, Debug)]
 pub struct Placed {
@@ -57,7 +81,7 @@ pub struct Placed {
 }
 
 /// How surfaces are drawn.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Style {
     /// Lit, with smooth normals where the file has them.
     Shaded,
@@ -65,6 +89,8 @@ pub enum Style {
     Flat,
     /// The edges of all triangles.
     Wireframe,
+    /// A line drawing.
+    Lines(LineLook),
 }
 
 /// The picture to make.

@@ -1,27 +1,38 @@
 //! Shading: the colour of a fragment, from its material and the lights.
 //!
-//! Surfaces are matt (Lambert): the light that leaves one towards the eye is its colour times the light that
-//! arrives, over π. All sums are in linear light.
+//! Materials are those of glTF: metallic-roughness with its extensions ([`substance`], [`inputs`]). Lights are in photometric
+//! units: a white matt surface that faces a sun of π lux shows 1. All sums are in linear light.
 
+#![allow(clippy::needless_range_loop, reason = "lanes of several arrays are walked side by side")]
+
+mod albedo;
 mod corners;
 mod draw;
+mod inputs;
 mod light;
+mod maps;
+mod microfacet;
 mod normal;
 mod seen;
+mod substance;
 mod texture;
 
 pub use corners::Vertex;
 pub(crate) use corners::{NORMAL, PLACE, UV};
-pub use draw::{Draw, DrawList};
+pub use draw::{Draw, DrawList, Tangents};
 pub use light::Light;
-pub use texture::MipChain;
+pub use maps::{Map, Maps};
+pub use texture::{MipChain, Texels};
 
-use crate::model::{AlphaMode, Material, Topology};
-use corners::{Corners, blend};
+use crate::model::{AlphaMode, Topology};
+use corners::{Items, blend};
 use homog::{HPoint, World};
-use normal::turn_to_viewer;
-use raster::{Eight, Fragment, Fragments, Surface, WIDE};
-use seen::{Seen, Wide, in_all, scale};
+use inputs::Inputs;
+use normal::{Facing, bend, turn_to_viewer, views};
+use raster::{Eight, Fragment, Fragments, Instructions, Surface, WIDE, Work};
+use seen::{Seen, Wide};
+use std::f32::consts::FRAC_1_PI;
+use substance::Substance;
 
 /// What the fragments of a frame are shaded with.
 #[derive(Debug)]
@@ -32,25 +43,40 @@ pub struct Shading<'a> {
     pub lights: &'a [Light],
     /// Where the viewer is: the eye, or in parallel projection the direction towards it, at infinity.
     pub viewer: HPoint<World>,
+    /// The instructions that eight fragments at once are shaded with.
+    pub instructions: Instructions,
 }
 
 impl Surface for Shading<'_> {
     fn keeps(&self, fragment: &Fragment<'_>) -> bool {
         let (draw, _) = self.draws.of(fragment.id);
         let AlphaMode::Mask { cutoff } = draw.material.alpha_mode else { return true };
-        let corners = draw.corners(&[fragment.id], true);
-        let [_, _, _, [alpha]] = draw.own_colors(&corners, fragment, true, false).0;
-        alpha >= cutoff
+        draw.alpha(fragment) >= cutoff
     }
 
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
         let (draw, _) = self.draws.of(fragment.id);
-        let colors = self.colors(draw, &draw.corners(&[fragment.id], true), fragment);
+        let colors = self.colors(draw, &draw.items(&[fragment.id], true), fragment);
         colors.map(|[color]| color)
     }
 
-    #[inline(always)]
     fn shade_eight(&self, fragments: &Fragments<'_>) -> [Eight; 4] {
+        self.instructions.run(ShadeEight { shading: self, fragments })
+    }
+}
+
+/// The shading of eight fragments.
+struct ShadeEight<'a> {
+    shading: &'a Shading<'a>,
+    fragments: &'a Fragments<'a>,
+}
+
+impl Work for ShadeEight<'_> {
+    type Output = [Eight; 4];
+
+    #[inline(always)]
+    fn run(self) -> [Eight; 4] {
+        let Self { shading, fragments } = self;
         let wide = Wide::new(fragments);
         let is_one = fragments.are_of_one();
         let mut colors = [[0.0; WIDE]; 4];
@@ -58,7 +84,7 @@ impl Surface for Shading<'_> {
         // One draw after the other: most often there is only one.
         while let Some(first) = done.iter().position(|&is_done| !is_done) {
             let name = fragments.id(first);
-            let (draw, end) = self.draws.of(name);
+            let (draw, end) = shading.draws.of(name);
             // Fragments of other draws are shaded as if they were of this primitive, and not looked at.
             let (mut ids, mut own) = ([name; WIDE], [true; WIDE]);
             if !is_one {
@@ -68,7 +94,7 @@ impl Surface for Shading<'_> {
                     ids[lane] = if own[lane] { id } else { name };
                 }
             }
-            let of_draw = self.colors(draw, &draw.corners(&ids, is_one), &wide);
+            let of_draw = shading.colors(draw, &draw.items(&ids, is_one), &wide);
             for (color, of_draw) in colors.iter_mut().zip(&of_draw) {
                 for lane in 0..WIDE {
                     color[lane] = if own[lane] { of_draw[lane] } else { color[lane] };
@@ -88,19 +114,23 @@ impl Shading<'_> {
     fn colors<const N: usize>(
         &self,
         draw: &Draw<'_>,
-        corners: &Corners<N>,
+        items: &Items<N>,
         seen: &impl Seen<N>,
     ) -> [[f32; N]; 4] {
         let is_blended = draw.material.alpha_mode == AlphaMode::Blend;
-        let (mut colors, emitted) = draw.own_colors(corners, seen, is_blended, true);
+        let inputs = Inputs::of(draw, &draw.corners(items), seen, is_blended);
+        let mut sums = inputs.emitted;
         if draw.is_lit() {
-            scale(&mut colors, &self.arriving(draw, corners, &seen.weights()));
-        }
-        for (color, emitted) in colors.iter_mut().zip(&emitted) {
-            for lane in 0..N {
-                color[lane] += emitted[lane];
+            self.add_reflected(draw, items, seen, &inputs, &mut sums);
+        } else {
+            for (sum, color) in sums.iter_mut().zip(&inputs.base) {
+                for lane in 0..N {
+                    sum[lane] += color[lane];
+                }
             }
         }
+        let [r, g, b] = sums;
+        let mut colors = [r, g, b, inputs.base[3]];
         let [r, g, b, alpha] = &mut colors;
         if is_blended {
             for color in [r, g, b] {
@@ -114,37 +144,62 @@ impl Shading<'_> {
         colors
     }
 
-    /// The light that white surfaces send to the eye: the sum over all lights, over π.
+    /// Adds the light that surfaces reflect to the viewer.
     #[inline(always)]
-    fn arriving<const N: usize>(
+    fn add_reflected<const N: usize>(
         &self,
         draw: &Draw<'_>,
-        corners: &Corners<N>,
-        weights: &[[f32; N]; 3],
-    ) -> [[f32; N]; 3] {
-        let has_two_sides = draw.material.double_sided;
-        let (mut places, mut faces) = ([[0.0; N]; 3], [[0.0; N]; 3]);
-        // Backs of surfaces with one side are never drawn, and need not be told from fronts.
-        if has_two_sides || !draw.smooth || self.lights.iter().any(Light::is_near) {
-            let carried = draw.places(corners);
-            places = blend(&carried, weights);
-            faces = draw.face_normals(&carried);
-        }
-        let mut normals = draw.front_normals(corners, weights, &faces);
-        if has_two_sides {
-            let viewer = <[f64; 4]>::from(self.viewer).map(|c| c as f32);
-            turn_to_viewer(&mut normals, &faces, &places, viewer);
-        }
-        let mut sums = [[0.0; N]; 3];
+        items: &Items<N>,
+        seen: &impl Seen<N>,
+        inputs: &Inputs<N>,
+        sums: &mut [[f32; N]; 3],
+    ) {
+        let facing = self.facing(draw, items, seen, inputs);
+        let substance = Substance::of(draw.material, inputs, &facing);
+        let mut everywhere = [0.0; 3];
         for light in self.lights {
-            light.illuminate(&places, &normals, &mut sums);
-        }
-        for sum in &mut sums {
-            for illuminance in sum {
-                *illuminance *= std::f32::consts::FRAC_1_PI;
+            if let Some(lux) = light.ambient() {
+                everywhere = [0, 1, 2].map(|k: usize| everywhere[k] + lux[k]);
+            } else {
+                substance.reflect(&facing, &light.at(&facing.places), sums);
             }
         }
-        sums
+        for (channel, lux) in everywhere.into_iter().enumerate() {
+            for lane in 0..N {
+                let arriving = lux * FRAC_1_PI * inputs.occlusion[lane] * substance.through[lane];
+                sums[channel][lane] += substance.diffuse[channel][lane] * arriving;
+            }
+        }
+    }
+
+    /// How the surfaces lie to the viewer, with their slopes.
+    #[inline(always)]
+    fn facing<const N: usize>(
+        &self,
+        draw: &Draw<'_>,
+        items: &Items<N>,
+        seen: &impl Seen<N>,
+        inputs: &Inputs<N>,
+    ) -> Facing<N> {
+        let weights = &seen.weights();
+        let corners = draw.corners(items);
+        let carried = draw.places(&corners);
+        let places = blend(&carried, weights);
+        let views = views(&places, <[f64; 4]>::from(self.viewer).map(|c| c as f32));
+        let has_two_sides = draw.material.double_sided;
+        // Backs of surfaces with one side are never drawn, and need not be told from fronts.
+        let mut faces = [[0.0; N]; 3];
+        if has_two_sides || !draw.smooth {
+            faces = draw.face_normals(&carried);
+        }
+        let (mut normals, turns) = draw.front_normals(&corners, seen, &faces);
+        if !matches!(draw.tangents, Tangents::None) {
+            normals = bend(&normals, &draw.tangents(items, weights), &inputs.slope);
+        }
+        if has_two_sides {
+            turn_to_viewer(&mut normals, &faces, &views);
+        }
+        Facing { turns, ..Facing::with_normals(places, views, normals) }
     }
 }
 
@@ -154,33 +209,20 @@ impl Draw<'_> {
         !self.material.unlit && self.primitive.topology == Topology::Triangles
     }
 
-    /// The base colour with alpha, if that counts: factor × texture × vertex colour, linear (glTF 2.0 §3.9.2). And the light
-    /// that the surface gives off by itself, if that counts (§3.9.3): none where the base colour is all there is to see.
-    #[inline(always)]
-    fn own_colors<const N: usize>(
-        &self,
-        corners: &Corners<N>,
-        seen: &impl Seen<N>,
-        alpha_counts: bool,
-        emission_counts: bool,
-    ) -> ([[f32; N]; 4], [[f32; N]; 3]) {
-        let Material { base_color, emissive, unlit, .. } = self.material;
-        let emits = emission_counts && !*unlit && *emissive != [0.0; 3];
-        let mut base = in_all(*base_color);
-        let mut emitted = in_all(if emits { *emissive } else { [0.0; 3] });
+    /// The alpha of a fragment: factor × texture × vertex colour (glTF 2.0 §3.9.4).
+    fn alpha(&self, fragment: &Fragment<'_>) -> f32 {
+        let corners = self.corners(&self.items(&[fragment.id], true));
+        let mut alpha = self.material.base_color[3];
         if let Some(colors) = &self.colors {
-            scale(&mut base, &blend::<N, 4>(&corners.carried(colors, 0), &seen.weights()));
+            let [[carried]] =
+                blend::<1, 1>(&corners.carried(colors, 3), &fragment.weights.map(|w| [w]));
+            alpha *= carried;
         }
-        let textures = [
-            (self.base_color_texture, &self.material.base_color_texture),
-            (self.emissive_texture.filter(|_| emits), &self.material.emissive_texture),
-        ];
-        for (slot, (chain, used)) in textures.into_iter().enumerate() {
-            let (Some(chain), Some(used)) = (chain, used) else { continue };
-            let uvs = self.uvs(corners, seen, used, chain.wants_derivatives());
-            let texels = chain.sample(&uvs, alpha_counts && slot == 0);
-            scale(if slot == 0 { &mut base[..] } else { &mut emitted[..] }, &texels);
+        if let Some(map) = self.maps.of_base_color() {
+            let [_, _, _, [texel]] =
+                map.chain.sample(&self.uvs(&corners, fragment, &map.used), true);
+            alpha *= texel;
         }
-        (base, emitted)
+        alpha
     }
 }

@@ -4,6 +4,8 @@
 //! than its scalar counterpart.
 
 use fearless_simd::Level;
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+use fearless_simd::Simd;
 
 /// A set of vector instructions that this processor has.
 #[derive(Clone, Copy, Debug)]
@@ -52,7 +54,32 @@ impl Instructions {
         levels.into_iter().map(|level| Self { level }).collect()
     }
 
+    /// Does a piece of work, with vectors of eight where these instructions have them.
+    ///
+    /// It is compiled twice: for AVX2, and for what every processor has. Others would gain little and cost as much to compile.
+    #[inline(never)]
+    pub fn run<W: Work>(self, work: W) -> W::Output {
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        if let Some(avx2) = self.level.as_avx2() {
+            return avx2.vectorize(
+                #[inline(always)]
+                || work.run(),
+            );
+        }
+        work.run()
+    }
+
     pub(crate) const fn level(self) -> Level {
         self.level
     }
+}
+
+/// Work that is compiled once for each set of vector instructions, and called as a function: what is large, as shading is, need
+/// not be made part of each loop that asks for it.
+pub trait Work {
+    /// What it gives.
+    type Output;
+
+    /// Does it. To be marked `#[inline(always)]`, with all that it calls, and written as plain loops over lanes.
+    fn run(self) -> Self::Output;
 }

@@ -288,8 +288,9 @@ pub(super) fn warn_of_missing_texcoords(model: &Model, warnings: &mut Warnings) 
         for (part, primitive) in mesh.primitives.iter().enumerate() {
             let material = primitive.material.map(|material| &model.materials[material]);
             let mut used = material.into_iter().flat_map(Material::textures);
-            let missing = used.find(|used| used.uv_set >= primitive.uvs.len());
-            if let Some(TextureUse { uv_set, .. }) = missing.filter(|_| primitive.count() > 0) {
+            let missing = used.find(|(_, used)| used.uv_set >= primitive.uvs.len());
+            if let Some((_, TextureUse { uv_set, .. })) = missing.filter(|_| primitive.count() > 0)
+            {
                 let message = format!("its texture needs TEXCOORD_{uv_set}; it is shown without");
                 warnings.add(&format!("/meshes/{at}/primitives/{part}"), message);
             }

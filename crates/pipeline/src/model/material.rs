@@ -41,11 +41,6 @@ pub struct Material {
 }
 
 impl Material {
-    /// The textures that the surface shows: their images are decoded. A texture that shading learns to use goes here.
-    pub fn textures(&self) -> impl Iterator<Item = TextureUse> {
-        [self.base_color_texture, self.emissive_texture].into_iter().flatten()
-    }
-
     /// Whether a texture bends the surface's normals, so that its tangents count.
     #[must_use]
     pub fn needs_tangents(&self) -> bool {

@@ -75,6 +75,20 @@ impl TextureSlot {
         (Self::Anisotropy, "extensions/KHR_materials_anisotropy/anisotropyTexture"),
     ];
 
+    /// Whether the texture's red, green and blue are sRGB codes; alpha never is, nor are numbers that are no colours.
+    #[must_use]
+    pub const fn is_color(self) -> bool {
+        matches!(
+            self,
+            Self::BaseColor
+                | Self::Emissive
+                | Self::SpecularColor
+                | Self::Diffuse
+                | Self::SpecularGlossiness
+                | Self::SheenColor
+        )
+    }
+
     /// Its place in a glTF material: a JSON pointer without the first slash.
     #[must_use]
     pub fn path(self) -> &'static str {
@@ -83,11 +97,21 @@ impl TextureSlot {
 }
 
 impl Material {
-    /// All textures of the material, also those that nothing shows yet, each with its slot.
+    /// All textures of the material, each with its slot.
     pub fn all_textures(&self) -> impl Iterator<Item = (TextureSlot, TextureUse)> {
         let mut copy = self.clone();
         let slots = TextureSlot::PATHS.iter().map(|(slot, _)| *slot);
         slots.filter_map(move |slot| Some((slot, *copy.texture_mut(slot)?)))
+    }
+
+    /// The textures that the surface shows, each with its slot: their images are decoded. Without light there is only the base
+    /// colour to see, and where a body has no depth, its depth is not.
+    pub fn textures(&self) -> impl Iterator<Item = (TextureSlot, TextureUse)> {
+        let unlit = self.unlit;
+        self.all_textures().filter(move |(slot, _)| match slot {
+            TextureSlot::BaseColor | TextureSlot::Diffuse => true,
+            _ => !unlit,
+        })
     }
 
     /// The texture in a slot.

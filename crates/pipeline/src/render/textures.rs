@@ -1,37 +1,49 @@
 //! The textures of a scene, each with its mip chain, built once before drawing.
 
-use crate::model::{Image, Model, Texture};
-use crate::scene::Scene;
-use crate::shade::MipChain;
+use crate::model::{Image, Material, Model, Texture, TextureSlot};
+use crate::scene::Placed;
+use crate::shade::{MipChain, Texels};
 
-/// For each model of the scene, the chains of its textures; `None` for those that no material reads.
+/// For each model of a scene, the mip chains of its textures, as colours and as numbers; `None` for those that no material
+/// reads so.
+///
+/// They belong to the models, not to a picture: whoever renders several of the same models builds them once.
 #[derive(Debug)]
-pub(super) struct Textures<'a> {
-    chains: Vec<Vec<Option<MipChain<'a>>>>,
+pub struct Textures<'a> {
+    chains: Vec<Vec<[Option<MipChain<'a>>; 2]>>,
 }
 
 impl<'a> Textures<'a> {
-    pub(super) fn of(scene: &'a Scene) -> Self {
-        Self { chains: scene.models.iter().map(|placed| chains(&placed.model)).collect() }
+    /// Builds the chains.
+    #[must_use]
+    pub fn of(models: &'a [Placed]) -> Self {
+        Self { chains: models.iter().map(|placed| chains(&placed.model)).collect() }
     }
 
-    /// The chain of a texture of the scene's n-th model.
-    pub(super) fn chain(&self, model: usize, texture: usize) -> Option<&MipChain<'a>> {
-        self.chains.get(model)?.get(texture)?.as_ref()
+    /// The chain of a texture of the scene's n-th model, for a slot of a material.
+    pub(super) fn chain(
+        &self,
+        model: usize,
+        slot: TextureSlot,
+        texture: usize,
+    ) -> Option<&MipChain<'a>> {
+        self.chains.get(model)?.get(texture)?[usize::from(!slot.is_color())].as_ref()
     }
 }
 
-fn chains(model: &Model) -> Vec<Option<MipChain<'_>>> {
-    let mut used = vec![false; model.textures.len()];
-    for material in &model.materials {
-        for texture in material.textures() {
-            used[texture.texture] = true;
-        }
+fn chains(model: &Model) -> Vec<[Option<MipChain<'_>>; 2]> {
+    let mut used = vec![[false; 2]; model.textures.len()];
+    for (slot, texture) in model.materials.iter().flat_map(Material::textures) {
+        used[texture.texture][usize::from(!slot.is_color())] = true;
     }
     let image =
         |texture: &Texture| -> Option<&Image> { model.images.get(texture.image?)?.as_ref() };
-    let chain = |(texture, used): (&Texture, bool)| {
-        used.then(|| image(texture)).flatten().map(|image| MipChain::new(image, texture.sampler))
+    let chain = |texture: &Texture, texels: Texels, used: bool| {
+        let image = used.then(|| image(texture)).flatten();
+        image.map(|image| MipChain::new(image, texture.sampler, texels))
     };
-    model.textures.iter().zip(used).map(chain).collect()
+    let both = |(texture, [color, number]): (&Texture, [bool; 2])| {
+        [chain(texture, Texels::Srgb, color), chain(texture, Texels::Linear, number)]
+    };
+    model.textures.iter().zip(used).map(both).collect()
 }

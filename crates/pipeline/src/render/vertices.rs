@@ -1,10 +1,11 @@
 //! The vertex stage: what the vertices of one primitive carry to the shading, in the world.
 
 use super::stage::to_point;
-use crate::model::{Material, Primitive};
-use crate::shade::{NORMAL, PLACE, UV, Vertex};
+use crate::model::{self, Instance, Material, Posed, Primitive, Topology};
+use crate::shade::{NORMAL, PLACE, Tangents, UV, Vertex};
 use glam::{DMat3, DVec3};
 use homog::{Affine, Model, World};
+use std::borrow::Cow;
 
 /// The arrays that vertices are made of. What does not count is left out.
 #[derive(Clone, Copy, Debug)]
@@ -14,18 +15,41 @@ pub(super) struct Parts<'a> {
     pub(super) uvs: Option<&'a [[f32; 2]]>,
 }
 
+/// What a thread takes at once of many vertices: small models are done by one.
+const SHARE: usize = 8192;
+
 impl Parts<'_> {
-    /// The vertices; none if nothing counts.
+    /// Writes the vertices, by up to so many threads; none if nothing counts.
     pub(super) fn vertices(
         &self,
         count: usize,
         model_to_world: Affine<Model, World>,
-    ) -> Vec<Vertex> {
+        threads: usize,
+        vertices: &mut Vec<Vertex>,
+    ) {
         let Self { positions, normals, uvs } = *self;
+        vertices.clear();
         if positions.is_none() && normals.is_none() && uvs.is_none() {
-            return Vec::new();
+            return;
         }
-        let mut vertices = vec![[0.0; 8]; count];
+        vertices.resize(count, [0.0; 8]);
+        raster::share(threads, vertices.chunks_mut(SHARE).enumerate(), |(number, vertices)| {
+            self.from(number * SHARE).write(model_to_world, vertices);
+        });
+    }
+
+    /// The same without the first so many.
+    fn from(&self, first: usize) -> Self {
+        Self {
+            positions: self.positions.and_then(|all| all.get(first..)),
+            normals: self.normals.and_then(|all| all.get(first..)),
+            uvs: self.uvs.and_then(|all| all.get(first..)),
+        }
+    }
+
+    /// Writes the first vertices.
+    fn write(&self, model_to_world: Affine<Model, World>, vertices: &mut [Vertex]) {
+        let Self { positions, normals, uvs } = *self;
         for (vertex, &position) in vertices.iter_mut().zip(positions.unwrap_or_default()) {
             let place = model_to_world.point(to_point(position)).raw().as_vec3();
             vertex[PLACE..PLACE + 3].copy_from_slice(&place.to_array());
@@ -37,14 +61,59 @@ impl Parts<'_> {
         for (vertex, uv) in vertices.iter_mut().zip(uvs.unwrap_or_default()) {
             vertex[UV..UV + 2].copy_from_slice(uv);
         }
-        vertices
     }
 }
 
 /// The set of texture coordinates that a material's textures are read by, or the first of them.
 pub(super) fn uv_set(material: &Material, primitive: &Primitive) -> Option<usize> {
-    let used = material.base_color_texture.or(material.emissive_texture)?;
+    let (_, used) = material.textures().next()?;
     (used.uv_set < primitive.uvs.len()).then_some(used.uv_set)
+}
+
+/// The tangents of a primitive's vertices or corners in the world, where its material asks for them: those of the file, or else
+/// those that belong to the posed triangles (glTF 2.0 §3.7.2.1).
+pub(super) fn tangents(
+    model: &model::Model,
+    instance: Instance,
+    primitive: &Primitive,
+    material: &Material,
+    posed: &Posed<'_>,
+    model_to_world: Affine<Model, World>,
+) -> Tangents {
+    if !material.needs_tangents() || primitive.topology != Topology::Triangles {
+        return Tangents::None;
+    }
+    let turned = |tangents: &[[f32; 4]]| turned_tangents(tangents, model_to_world);
+    if let Some(given) = model.posed_tangents(instance, primitive) {
+        return Tangents::OfVertices(turned(&given));
+    }
+    let uv_set = material.normal_texture.map_or(0, |normal| normal.texture.uv_set);
+    let derived = match (&posed.positions, &posed.normals) {
+        (Cow::Borrowed(_), None | Some(Cow::Borrowed(_))) => primitive.derived_tangents(uv_set),
+        (positions, normals) => Primitive {
+            indices: primitive.indices.clone(),
+            positions: positions.to_vec(),
+            normals: normals.as_ref().map(|normals| normals.to_vec()),
+            uvs: primitive.uvs.clone(),
+            ..Primitive::default()
+        }
+        .derived_tangents(uv_set),
+    };
+    derived.map_or(Tangents::None, |derived| Tangents::OfCorners(turned(&derived)))
+}
+
+/// Tangents in the world. In a mirror the bitangent, which is the product of normal and tangent, is on the other side.
+fn turned_tangents(tangents: &[[f32; 4]], model_to_world: Affine<Model, World>) -> Vec<[f32; 4]> {
+    let map = model_to_world.raw();
+    let side = if model_to_world.determinant() < 0.0 { -1.0 } else { 1.0 };
+    let turned = |&[x, y, z, w]: &[f32; 4]| {
+        let along = map.transform_vector3(DVec3::new(f64::from(x), f64::from(y), f64::from(z)));
+        let length = along.length();
+        let unit = if length > 0.0 && length.is_finite() { along / length } else { DVec3::ZERO };
+        let [x, y, z] = unit.as_vec3().to_array();
+        [x, y, z, w * side]
+    };
+    tangents.iter().map(turned).collect()
 }
 
 /// The map of normals that belongs to a map of points, times a positive number: the inverse transposed, by cofactors.

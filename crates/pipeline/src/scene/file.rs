@@ -5,13 +5,19 @@
 
 mod camera;
 mod light;
+mod lines;
 mod look;
+mod projection;
+mod sheet;
 
-pub use self::camera::{
-    CameraChoice, CameraFile, FromFile, ProjectionFile, USUAL_PADDING, ViewFile,
-};
+pub use self::camera::{CameraChoice, CameraFile, FromFile, USUAL_PADDING, ViewFile};
 pub use self::light::LightFile;
+pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, WidthFile};
 pub use self::look::{BackgroundFile, ImageFile, StyleFile};
+pub use self::projection::{PrincipalFile, ProjectionFile};
+pub use self::sheet::{
+    AngleFile, AxonometricFile, OrientationFile, PaperFile, SheetFile, SideFile, UnitFile,
+};
 pub use super::number::Finite;
 use super::number::{Scale, Triple};
 use crate::import;
@@ -34,6 +40,8 @@ pub struct SceneFile {
     /// The picture. Default: 960 × 720 pixels, transparent.
     #[serde(default)]
     pub image: ImageFile,
+    /// How `alberti sheet` puts the models on paper. Default: as its flags say.
+    pub sheet: Option<SheetFile>,
 }
 
 /// A glTF file and where it goes: scaled, then turned, then moved.
@@ -98,6 +106,7 @@ impl SceneFile {
             lights: None,
             style: StyleFile::default(),
             image: ImageFile::default(),
+            sheet: None,
         }
     }
 }

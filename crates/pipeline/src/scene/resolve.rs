@@ -1,10 +1,11 @@
 //! From what a person wrote to what drawing needs, or to an error that points.
 
-use super::file::{BackgroundFile, Choice, Finite, LightFile, ModelFile, StyleFile};
+use super::file::{BackgroundFile, Choice, Finite, LightFile, ModelFile};
 use super::locate::Step::{Field, Index};
+use super::look::resolve_style;
 use super::parse::suggestion;
 use super::viewpoint::resolve_shot;
-use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile, Style};
+use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile};
 use crate::color::parse_hex;
 use crate::import::{FaultKind, ImportError, ImportOptions, load};
 use crate::model::Model;
@@ -52,11 +53,7 @@ impl Scene {
         let image = resolve_image(origin, file)?;
         let shot = resolve_shot(origin, &file.camera, &models, image)?;
         let lights = resolve_lights(origin, file, &shot)?;
-        let style = match file.style {
-            StyleFile::Shaded => Style::Shaded,
-            StyleFile::Flat => Style::Flat,
-            StyleFile::Wireframe => Style::Wireframe,
-        };
+        let style = resolve_style(origin, &file.style)?;
         Ok(Self { models, shot, lights, style, image })
     }
 }
@@ -278,6 +275,7 @@ pub(super) fn resolve_light(
         LightFile::Point { position, candela, color } => Light::Point {
             position: position.0.map(|c| c as f32),
             candela: times(candela.value(), color.0),
+            range: f32::INFINITY,
         },
         LightFile::Ambient { lux, color } => Light::Ambient { lux: times(lux.value(), color.0) },
     })

@@ -2,10 +2,12 @@
 
 use super::error::SceneError;
 use super::file::SceneFile;
+use super::look::resolve_style;
 use super::origin::Origin;
 use super::resolve::{ModelFault, load_model, placement, resolve_image, resolve_light};
 use super::viewpoint::resolve_shot;
 use super::{Placed, ResolveOptions};
+use crate::drawing::Sheet;
 use std::sync::Arc;
 
 /// Everything that makes no sense in a scene file that has been parsed. Faults of the models' own files are not among
@@ -36,6 +38,9 @@ pub fn review(origin: &Origin, file: &SceneFile, options: &ResolveOptions) -> Ve
     }
     let lights = file.lights.iter().flatten().enumerate();
     mistakes.extend(lights.filter_map(|(at, light)| resolve_light(origin, at, light).err()));
+    mistakes.extend(resolve_style(origin, &file.style).err());
+    let sheet = file.sheet.iter();
+    mistakes.extend(sheet.filter_map(|sheet| Sheet::resolve(origin, sheet).err()));
     mistakes.sort_by_key(|mistake| mistake.span.start);
     mistakes
 }

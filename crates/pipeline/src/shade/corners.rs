@@ -25,6 +25,32 @@ pub(super) enum Corners<const N: usize> {
     Each([[usize; 3]; N]),
 }
 
+/// The places of some fragments' primitives among those of their draw.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Items<const N: usize> {
+    /// All fragments are of one primitive.
+    One(usize),
+    /// Each fragment may be of a primitive of its own.
+    Each([usize; N]),
+}
+
+impl<const N: usize> Items<N> {
+    /// What `number` says of the corners of each.
+    #[inline(always)]
+    pub(super) fn corners(&self, number: impl Fn(usize) -> [usize; 3]) -> Corners<N> {
+        match self {
+            Self::One(item) => Corners::One(number(*item)),
+            Self::Each(items) => {
+                let mut corners = [[0; 3]; N];
+                for lane in 0..N {
+                    corners[lane] = number(items[lane]);
+                }
+                Corners::Each(corners)
+            }
+        }
+    }
+}
+
 impl<const N: usize> Corners<N> {
     /// `K` numbers of each corner, from the one at `first` on.
     #[inline(always)]

@@ -3,8 +3,8 @@
 //! The rasteriser knows a triangle by a number and says how much each corner counts at a pixel. A draw holds what the
 //! corners carry, for a run of such numbers: one primitive of one instance of one mesh.
 
-use super::MipChain;
-use super::corners::{Corners, UV, Vertex, blend};
+use super::Maps;
+use super::corners::{Corners, Items, UV, Vertex, blend};
 use super::seen::Seen;
 use crate::model::{Material, Primitive, TextureUse, Topology};
 use std::borrow::Cow;
@@ -18,12 +18,12 @@ pub struct Draw<'a> {
     pub primitive: &'a Primitive,
     /// What it is made of.
     pub material: &'a Material,
-    /// The texture of its base colour.
-    pub base_color_texture: Option<&'a MipChain<'a>>,
-    /// The texture of the light it gives off.
-    pub emissive_texture: Option<&'a MipChain<'a>>,
+    /// The textures of the material.
+    pub maps: Maps<'a>,
     /// What its vertices carry; nothing where nothing of it counts.
     pub vertices: Vec<Vertex>,
+    /// Which way textures of slopes lie on the surface.
+    pub tangents: Tangents,
     /// Whether the vertices have normals that are to be seen; otherwise each triangle has one of its own.
     pub smooth: bool,
     /// The set of the texture coordinates that the vertices carry, if they carry any.
@@ -32,6 +32,18 @@ pub struct Draw<'a> {
     pub colors: Option<Cow<'a, [[f32; 4]]>>,
     /// Whether the way to the world mirrors, so that triangles run the other way round.
     pub mirrored: bool,
+}
+
+/// Which way the u of textures runs on a surface: unit vectors in the world, and in w the side of the bitangent, 1 or −1.
+#[derive(Clone, Debug, Default)]
+pub enum Tangents {
+    /// Nothing asks for them.
+    #[default]
+    None,
+    /// One for each vertex.
+    OfVertices(Vec<[f32; 4]>),
+    /// One for each corner of each triangle.
+    OfCorners(Vec<[f32; 4]>),
 }
 
 /// All draws of a frame, in the order of their names.
@@ -52,40 +64,61 @@ impl<'a> DrawList<'a> {
 }
 
 impl Draw<'_> {
-    /// The vertices of a named point, line or triangle. Corners that it lacks repeat its last one; their weights are 0.
+    /// The vertices of a point, line or triangle. Corners that it lacks repeat its last one; their weights are 0.
     #[inline(always)]
-    fn corners_of_one(&self, id: u32) -> [usize; 3] {
+    fn vertices_of(&self, item: usize) -> [usize; 3] {
         let indices = &self.primitive.indices;
-        let nth = (id - self.first_id) as usize;
         if self.primitive.topology == Topology::Triangles {
-            let [a, b, c] = indices.as_chunks::<3>().0[nth];
+            let [a, b, c] = indices.as_chunks::<3>().0[item];
             return [a as usize, b as usize, c as usize];
         }
         let count = self.primitive.topology.corners();
-        [0, 1, 2].map(|k: usize| indices[nth * count + k.min(count - 1)] as usize)
+        [0, 1, 2].map(|k: usize| indices[item * count + k.min(count - 1)] as usize)
     }
 
-    /// The vertices of fragments of the named primitives, all of this draw.
+    /// The primitives with these names, all of this draw.
     #[inline(always)]
-    pub(super) fn corners<const N: usize>(&self, ids: &[u32; N], are_of_one: bool) -> Corners<N> {
+    pub(super) fn items<const N: usize>(&self, ids: &[u32; N], are_of_one: bool) -> Items<N> {
         if are_of_one {
-            return Corners::One(self.corners_of_one(ids[0]));
+            return Items::One((ids[0] - self.first_id) as usize);
         }
-        let mut corners = [[0; 3]; N];
+        let mut items = [0; N];
         for lane in 0..N {
-            corners[lane] = self.corners_of_one(ids[lane]);
+            items[lane] = (ids[lane] - self.first_id) as usize;
         }
-        Corners::Each(corners)
+        Items::Each(items)
     }
 
-    /// The texture's coordinates and, if the chain wants them, their derivatives by the pixel's column and row.
+    /// The vertices of fragments of these primitives.
+    #[inline(always)]
+    pub(super) fn corners<const N: usize>(&self, items: &Items<N>) -> Corners<N> {
+        items.corners(|item| self.vertices_of(item))
+    }
+
+    /// The tangents at fragments of these primitives, of any length; none where nothing is known of them.
+    #[inline(always)]
+    pub(super) fn tangents<const N: usize>(
+        &self,
+        items: &Items<N>,
+        weights: &[[f32; N]; 3],
+    ) -> [[f32; N]; 4] {
+        match &self.tangents {
+            Tangents::None => [[0.0; N]; 4],
+            Tangents::OfVertices(all) => blend(&self.corners(items).carried(all, 0), weights),
+            Tangents::OfCorners(all) => {
+                let corners = items.corners(|item| [3 * item, 3 * item + 1, 3 * item + 2]);
+                blend(&corners.carried(all, 0), weights)
+            }
+        }
+    }
+
+    /// The texture's coordinates, and their derivatives by the pixel's column and row.
     #[inline(always)]
     pub(super) fn uvs<const N: usize>(
         &self,
         corners: &Corners<N>,
         seen: &impl Seen<N>,
         used: &TextureUse,
-        with_derivatives: bool,
     ) -> [[[f32; N]; 2]; 3] {
         let mut uvs = [[[0.0; N]; 2]; 3];
         let carried = if self.uv_set == Some(used.uv_set) {
@@ -101,10 +134,8 @@ impl Draw<'_> {
                 uvs[0][axis][lane] = map[0] * u[lane] + map[1] * v[lane] + map[2];
             }
         }
-        if with_derivatives {
-            uvs[1] = turned(&used.uv_map, &blend(&carried, &seen.weights_dx()));
-            uvs[2] = turned(&used.uv_map, &blend(&carried, &seen.weights_dy()));
-        }
+        uvs[1] = turned(&used.uv_map, &blend(&carried, &seen.weights_dx()));
+        uvs[2] = turned(&used.uv_map, &blend(&carried, &seen.weights_dy()));
         uvs
     }
 }

@@ -1,6 +1,6 @@
 //! Lights, resolved: in the world, in the units of photometry.
 
-use super::seen::dots;
+use super::seen::{dot, in_all, lane_of};
 
 /// A light of the resolved scene. Colours are linear and already multiplied by the light's strength.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -18,68 +18,127 @@ pub enum Light {
         position: [f32; 3],
         /// The luminous intensity in candela: lux at distance 1.
         candela: [f32; 3],
+        /// The distance at which nothing arrives any more; infinite if the light goes on for ever.
+        range: f32,
     },
-    /// The same light from everywhere.
+    /// Light from a point into a cone.
+    Spot {
+        /// Where it is.
+        position: [f32; 3],
+        /// The unit direction of the cone's axis, away from the light.
+        axis: [f32; 3],
+        /// The luminous intensity along the axis in candela.
+        candela: [f32; 3],
+        /// As for a point.
+        range: f32,
+        /// The cosines of the angles from the axis up to which the light is full, and at which it ends.
+        cosines: [f32; 2],
+    },
+    /// The same light from everywhere. It scatters and makes no highlights.
     Ambient {
         /// The illuminance of every surface, in lux.
         lux: [f32; 3],
     },
 }
 
+/// Light that arrives at some fragments.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arriving<const N: usize> {
+    /// The unit vectors to where it comes from.
+    pub(super) towards: [[f32; N]; 3],
+    /// The illuminance of surfaces that face it, in lux.
+    pub(super) lux: [[f32; N]; 3],
+}
+
 impl Light {
-    /// Whether the place of a surface counts, not only the way it faces.
-    #[inline(always)]
-    pub(super) const fn is_near(&self) -> bool {
-        matches!(self, Self::Point { .. })
+    /// The illuminance that it gives every surface alike.
+    pub(crate) const fn ambient(&self) -> Option<[f32; 3]> {
+        match self {
+            Self::Ambient { lux } => Some(*lux),
+            _ => None,
+        }
     }
 
-    /// Adds the illuminance, at `places`, of surfaces with the given unit normals. `places` are read only if the light
-    /// [is near](Self::is_near).
+    /// What of a light with a direction arrives at places in the world.
     #[inline(always)]
-    pub(super) fn illuminate<const N: usize>(
-        &self,
-        places: &[[f32; N]; 3],
-        normals: &[[f32; N]; 3],
-        sums: &mut [[f32; N]; 3],
-    ) {
-        let (color, mut shares) = match *self {
-            Self::Sun { towards: [x, y, z], lux } => {
-                (lux, dots(normals, &[[x; N], [y; N], [z; N]]))
+    pub(super) fn at<const N: usize>(&self, places: &[[f32; N]; 3]) -> Arriving<N> {
+        match *self {
+            Self::Sun { towards, lux } => Arriving { towards: in_all(towards), lux: in_all(lux) },
+            Self::Point { position, candela, range } => {
+                from(position, places, candela, range, |_| 1.0)
             }
-            Self::Point { position, candela } => (candela, falloff(position, places, normals)),
-            Self::Ambient { lux } => (lux, [1.0; N]),
-        };
-        for share in &mut shares {
-            *share = share.max(0.0);
-        }
-        for (sum, color) in sums.iter_mut().zip(color) {
-            for lane in 0..N {
-                sum[lane] += color * shares[lane];
+            Self::Spot { position, axis, candela, range, cosines: [full, end] } => {
+                // The share between the two angles is the square of a line over the cosine (KHR_lights_punctual).
+                let per = 1.0 / (full - end).max(0.001);
+                from(position, places, candela, range, |towards| {
+                    let share = ((-dot(axis, towards) - end) * per).clamp(0.0, 1.0);
+                    share * share
+                })
             }
+            Self::Ambient { .. } => Arriving { towards: in_all([0.0; 3]), lux: in_all([0.0; 3]) },
         }
     }
 }
 
-/// What a light of one candela at `position` gives, in lux; not above 0 where surfaces face away from it, or are at it.
+/// What arrives from a point: less with the square of the distance, and nothing from the range on, to which it falls off smoothly
+/// (KHR_lights_punctual). `share` is how much goes this way.
 #[inline(always)]
-fn falloff<const N: usize>(
+fn from<const N: usize>(
     position: [f32; 3],
     places: &[[f32; N]; 3],
-    normals: &[[f32; N]; 3],
-) -> [f32; N] {
-    let mut ways = *places;
-    for (axis, from) in ways.iter_mut().zip(position) {
-        for place in axis {
-            *place = from - *place;
+    candela: [f32; 3],
+    range: f32,
+    share: impl Fn([f32; 3]) -> f32,
+) -> Arriving<N> {
+    let mut arriving = Arriving { towards: in_all([0.0; 3]), lux: in_all([0.0; 3]) };
+    let per_range = 1.0 / range;
+    for lane in 0..N {
+        let place = lane_of(places, lane);
+        let way = [position[0] - place[0], position[1] - place[1], position[2] - place[2]];
+        let square = dot(way, way);
+        let per = if square > 0.0 { 1.0 / square.sqrt() } else { 0.0 };
+        let towards = [way[0] * per, way[1] * per, way[2] * per];
+        let reach = square * per_range * per_range;
+        let window = (1.0 - reach * reach).clamp(0.0, 1.0);
+        let strength = window * per * per * share(towards);
+        for axis in 0..3 {
+            arriving.towards[axis][lane] = towards[axis];
+            arriving.lux[axis][lane] = candela[axis] * strength;
         }
     }
-    let squares = dots(&ways, &ways);
-    let mut shares = dots(normals, &ways);
-    for lane in 0..N {
-        let distance = squares[lane].sqrt();
-        // The cosine is dot / distance, and the illuminance goes with the inverse square of the distance.
-        let share = shares[lane] / (distance * distance * distance);
-        shares[lane] = if distance > 0.0 { share } else { 0.0 };
+    arriving
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(light: &Light, place: [f32; 3]) -> f32 {
+        light.at(&place.map(|c| [c])).lux[0][0]
     }
-    shares
+
+    #[test]
+    fn points_weaken_with_the_square_of_the_distance_and_end_at_their_range() {
+        let light =
+            |range| Light::Point { position: [0.0, 2.0, 0.0], candela: [8.0, 0.0, 0.0], range };
+        assert_eq!(at(&light(f32::INFINITY), [0.0; 3]), 2.0);
+        assert_eq!(at(&light(f32::INFINITY), [0.0, 2.0, 4.0]), 0.5);
+        // 1 − (d / range)⁴ times 1 / d².
+        assert_eq!(at(&light(4.0), [0.0; 3]), 2.0 * (1.0 - 1.0 / 16.0));
+        assert_eq!(at(&light(2.0), [0.0; 3]), 0.0);
+        assert_eq!(at(&light(1.0), [0.0; 3]), 0.0);
+        assert_eq!(at(&light(4.0), [0.0, 2.0, 0.0]), 0.0, "nothing is lit at the light itself");
+    }
+
+    #[test]
+    fn spots_fall_off_between_their_two_angles() {
+        let cosines = [0.8, 0.6];
+        let (position, candela) = ([0.0; 3], [1.0; 3]);
+        let axis = [0.0, 0.0, -1.0];
+        let light = Light::Spot { position, axis, candela, range: f32::INFINITY, cosines };
+        let along = |cosine: f32| at(&light, [(1.0 - cosine * cosine).sqrt(), 0.0, -cosine]);
+        for (cosine, due) in [(1.0, 1.0), (0.8, 1.0), (0.7, 0.25), (0.6, 0.0), (-1.0, 0.0)] {
+            assert!((along(cosine) - due).abs() < 1e-5, "{cosine}: {}", along(cosine));
+        }
+    }
 }

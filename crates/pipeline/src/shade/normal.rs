@@ -2,10 +2,37 @@
 
 use super::Draw;
 use super::corners::{Carried, Corners, NORMAL, PLACE, blend};
-use super::seen::dots;
+use super::seen::{Seen, cross, dot, dots, lane_of};
 
 /// Some vectors, or places, in lanes.
 type Vectors<const N: usize> = [[f32; N]; 3];
+
+/// How surfaces lie to the viewer at some fragments.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Facing<const N: usize> {
+    /// Where they are, in the world.
+    pub(super) places: Vectors<N>,
+    /// The unit vectors to the viewer.
+    pub(super) views: Vectors<N>,
+    /// The unit normals on the side that is seen, bent by the material's slopes.
+    pub(super) normals: Vectors<N>,
+    /// The cosines between the two, not below 0.
+    pub(super) cosines: [f32; N],
+    /// How far the surface's own normals turn from one pixel to the next, in radians, at most 1.
+    pub(super) turns: [f32; N],
+}
+
+impl<const N: usize> Facing<N> {
+    /// The same surfaces with other normals.
+    #[inline(always)]
+    pub(super) fn with_normals(places: Vectors<N>, views: Vectors<N>, normals: Vectors<N>) -> Self {
+        let mut cosines = dots(&normals, &views);
+        for cosine in &mut cosines {
+            *cosine = cosine.clamp(0.0, 1.0);
+        }
+        Self { places, views, normals, cosines, turns: [0.0; N] }
+    }
+}
 
 impl Draw<'_> {
     /// What the corners carry of places in the world.
@@ -14,31 +41,33 @@ impl Draw<'_> {
         corners.carried(&self.vertices, PLACE)
     }
 
-    /// The unit normals on the front side; `faces` are those of the triangles, which count where there are no others.
+    /// The unit normals on the front side, and how far they turn from pixel to pixel; `faces` are those of the triangles, which count where there are no others.
     #[inline(always)]
     pub(super) fn front_normals<const N: usize>(
         &self,
         corners: &Corners<N>,
-        weights: &[[f32; N]; 3],
+        seen: &impl Seen<N>,
         faces: &Vectors<N>,
-    ) -> Vectors<N> {
+    ) -> (Vectors<N>, [f32; N]) {
         let mut normals = *faces;
+        let mut turned = [0.0; N];
+        let squares;
         if self.smooth {
-            normals = blend(&corners.carried(&self.vertices, NORMAL), weights);
-        }
-        let squares = dots(&normals, &normals);
-        let mut all_are_long = true;
-        for lane in 0..N {
-            let length = squares[lane].sqrt();
-            all_are_long &= length > 0.0 && length < f32::INFINITY;
-            for axis in &mut normals {
-                axis[lane] /= length;
+            let carried = corners.carried(&self.vertices, NORMAL);
+            normals = blend(&carried, &seen.weights());
+            squares = dots(&normals, &normals);
+            let steps = [blend(&carried, &seen.weights_dx()), blend(&carried, &seen.weights_dy())];
+            if !normalize(&mut normals, &squares) {
+                self.stand_in(corners, &squares, &mut normals);
+            }
+            turned = turns(&normals, &squares, &steps);
+        } else {
+            squares = dots(&normals, &normals);
+            if !normalize(&mut normals, &squares) {
+                self.stand_in(corners, &squares, &mut normals);
             }
         }
-        if !all_are_long {
-            self.stand_in(corners, &squares, &mut normals);
-        }
-        normals
+        (normals, turned)
     }
 
     /// Where the normal is too short or too long to have a direction, that of the face, or any.
@@ -79,24 +108,102 @@ impl Draw<'_> {
     }
 }
 
-/// Turns those normals round whose faces are seen from behind.
-///
-/// The face's own normal decides which side is seen: a smooth one may lean away from the viewer near the outline of a body
-/// and is right to do so. `viewer` is the eye, homogeneous.
+/// Brings vectors to length 1, given the squares of their lengths, and tells whether all could be: none was too short or too long.
 #[inline(always)]
-pub(super) fn turn_to_viewer<const N: usize>(
-    normals: &mut Vectors<N>,
-    faces: &Vectors<N>,
-    places: &Vectors<N>,
-    viewer: [f32; 4],
-) {
+pub(super) fn normalize<const N: usize>(vectors: &mut Vectors<N>, squares: &[f32; N]) -> bool {
+    let mut all_could = true;
+    for lane in 0..N {
+        let length = squares[lane].sqrt();
+        all_could &= length > 0.0 && length < f32::INFINITY;
+        let per = 1.0 / length;
+        for axis in &mut *vectors {
+            axis[lane] *= per;
+        }
+    }
+    all_could
+}
+
+/// How far normals that were `blended` to these squares of lengths turn from one pixel to the next, at most: what smooth
+/// normals are of unit length turns by the part of the step that is square to it.
+#[inline(always)]
+pub(super) fn turns<const N: usize>(
+    normals: &Vectors<N>,
+    squares: &[f32; N],
+    steps: &[Vectors<N>; 2],
+) -> [f32; N] {
+    let mut most = [0.0; N];
+    for lane in 0..N {
+        let n = lane_of(normals, lane);
+        let mut square: f32 = 0.0;
+        for step in steps {
+            let step = lane_of(step, lane);
+            let along = dot(n, step);
+            square = square.max(dot(step, step) - along * along);
+        }
+        let turn = (square / squares[lane]).sqrt();
+        most[lane] = if turn < 1.0 { turn } else { 1.0 };
+    }
+    most
+}
+
+/// The normals that a texture of slopes makes of the surface's own: red along the tangent, green along the bitangent, blue along
+/// the normal (glTF 2.0 §3.9.3). Where there is no tangent, or the sum has no direction, the normals stay.
+#[inline(always)]
+pub(super) fn bend<const N: usize>(
+    normals: &Vectors<N>,
+    tangents: &[[f32; N]; 4],
+    slope: &Vectors<N>,
+) -> Vectors<N> {
+    let mut bent = *normals;
+    for lane in 0..N {
+        let [n, t, s] =
+            [normals, &[tangents[0], tangents[1], tangents[2]], slope].map(|v| lane_of(v, lane));
+        let bitangent = cross(n, t);
+        let (across, along) = (dot(bitangent, bitangent), dot(t, t));
+        let side = if tangents[3][lane] < 0.0 { -1.0 } else { 1.0 };
+        let (u, v) = (s[0] / along.sqrt(), side * s[1] / across.sqrt());
+        let sum = [0, 1, 2].map(|k: usize| t[k] * u + bitangent[k] * v + n[k] * s[2]);
+        let square = dot(sum, sum);
+        let per = 1.0 / square.sqrt();
+        let is_good = across > 0.0 && square > 1e-12 && square < f32::INFINITY;
+        for axis in 0..3 {
+            bent[axis][lane] = if is_good { sum[axis] * per } else { n[axis] };
+        }
+    }
+    bent
+}
+
+/// The unit vectors from places to the viewer, who is homogeneous: an eye, or a direction.
+#[inline(always)]
+pub(super) fn views<const N: usize>(places: &Vectors<N>, viewer: [f32; 4]) -> Vectors<N> {
     let mut ways = *places;
     for axis in 0..3 {
         for lane in 0..N {
             ways[axis][lane] = viewer[axis] - places[axis][lane] * viewer[3];
         }
     }
-    let towards = dots(faces, &ways);
+    for lane in 0..N {
+        let way = lane_of(&ways, lane);
+        let square = dot(way, way);
+        let per = if square > 0.0 { 1.0 / square.sqrt() } else { 0.0 };
+        for axis in &mut ways {
+            axis[lane] *= per;
+        }
+    }
+    ways
+}
+
+/// Turns those normals round whose faces are seen from behind.
+///
+/// The face's own normal decides which side is seen: a smooth one may lean away from the viewer near the outline of a body
+/// and is right to do so.
+#[inline(always)]
+pub(super) fn turn_to_viewer<const N: usize>(
+    normals: &mut Vectors<N>,
+    faces: &Vectors<N>,
+    views: &Vectors<N>,
+) {
+    let towards = dots(faces, views);
     for axis in normals {
         for lane in 0..N {
             axis[lane] = if towards[lane] < 0.0 { -axis[lane] } else { axis[lane] };

@@ -87,3 +87,19 @@ pub(super) fn dots<const N: usize>(a: &[[f32; N]; 3], b: &[[f32; N]; 3]) -> [f32
     }
     dots
 }
+
+/// The vector of one lane.
+#[inline(always)]
+pub(super) fn lane_of<const N: usize>(vectors: &[[f32; N]; 3], lane: usize) -> [f32; 3] {
+    [vectors[0][lane], vectors[1][lane], vectors[2][lane]]
+}
+
+#[inline(always)]
+pub(super) fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[inline(always)]
+pub(super) fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}

@@ -6,20 +6,30 @@
 
 mod sample;
 
-use crate::color::linear_table;
+use crate::color::{linear_table, unit_table};
 use crate::model::{Image, Mipmap, Sampler};
 use std::borrow::Cow;
+use std::sync::OnceLock;
 
 /// An image at all its sizes, with the way to read it.
 #[derive(Clone, Debug)]
 pub struct MipChain<'a> {
     levels: Vec<Level<'a>>,
     sampler: Sampler,
-    /// The linear light of the codes of texels.
+    /// The numbers that the codes of texels stand for.
     to_linear: &'static [f32; 256],
 }
 
-/// One size of an image: sRGB texels with straight alpha, rows from the top.
+/// What the codes of texels mean.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Texels {
+    /// Red, green and blue are sRGB, alpha is linear.
+    Srgb,
+    /// All four are linear, from 0 to 1.
+    Linear,
+}
+
+/// One size of an image: texels with straight alpha, rows from the top.
 #[derive(Clone, Debug)]
 struct Level<'a> {
     width: i32,
@@ -30,7 +40,7 @@ struct Level<'a> {
 impl<'a> MipChain<'a> {
     /// Builds the chain; only the full image if the sampler asks for no others.
     #[must_use]
-    pub fn new(image: &'a Image, sampler: Sampler) -> Self {
+    pub fn new(image: &'a Image, sampler: Sampler, texels: Texels) -> Self {
         let full = Level {
             width: image.width as i32,
             height: image.height as i32,
@@ -38,23 +48,27 @@ impl<'a> MipChain<'a> {
         };
         let mut levels = vec![full];
         if sampler.mipmap != Mipmap::None {
-            while let Some(half) = levels.last().and_then(Level::half) {
+            let tables = MeanTables::of(texels);
+            while let Some(half) = levels.last().and_then(|level| level.half(tables)) {
                 levels.push(half);
             }
         }
-        Self { levels, sampler, to_linear: linear_table() }
+        let to_linear = match texels {
+            Texels::Srgb => linear_table(),
+            Texels::Linear => unit_table(),
+        };
+        Self { levels, sampler, to_linear }
     }
 }
 
 impl Level<'_> {
     /// This level at half size: each texel the mean of four, in linear light; `None` if it is a single texel.
     /// Of an odd number of rows or columns the last one is left out.
-    fn half<'b>(&self) -> Option<Level<'b>> {
+    fn half<'b>(&self, codes: &MeanTables) -> Option<Level<'b>> {
         if self.width == 1 && self.height == 1 {
             return None;
         }
         let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
-        let codes = MeanTables::shared();
         let mut texels = Vec::with_capacity(width as usize * height as usize);
         let row = |y: i32| {
             let start = y.min(self.height - 1) as usize * self.width as usize;
@@ -73,7 +87,7 @@ impl Level<'_> {
     }
 }
 
-/// Tables for means of sRGB texels: 16-bit linear light of each value, and back.
+/// Tables for means of texels: 16-bit linear numbers of each code, and back.
 #[derive(Debug)]
 struct MeanTables {
     linear: [u32; 256],
@@ -81,14 +95,23 @@ struct MeanTables {
 }
 
 impl MeanTables {
-    fn shared() -> &'static Self {
-        static TABLES: std::sync::OnceLock<MeanTables> = std::sync::OnceLock::new();
-        TABLES.get_or_init(|| {
-            let linear = linear_table().map(|light| (light * 65535.0 + 0.5) as u32);
-            let encoder = crate::color::SrgbEncoder::shared();
-            let codes = (0..=65535_u16).map(|l| encoder.encode(f32::from(l) / 65535.0)).collect();
-            Self { linear, codes }
-        })
+    fn of(texels: Texels) -> &'static Self {
+        static SRGB: OnceLock<MeanTables> = OnceLock::new();
+        static LINEAR: OnceLock<MeanTables> = OnceLock::new();
+        let numbers = || 0..=65535_u16;
+        match texels {
+            Texels::Srgb => SRGB.get_or_init(|| {
+                let linear = linear_table().map(|light| (light * 65535.0 + 0.5) as u32);
+                let encoder = crate::color::SrgbEncoder::shared();
+                let codes = numbers().map(|l| encoder.encode(f32::from(l) / 65535.0)).collect();
+                Self { linear, codes }
+            }),
+            Texels::Linear => LINEAR.get_or_init(|| {
+                let linear = std::array::from_fn(|code| code as u32 * 257);
+                let codes = numbers().map(|l| ((u32::from(l) + 128) / 257) as u8).collect();
+                Self { linear, codes }
+            }),
+        }
     }
 
     fn mean(&self, four: [[u8; 4]; 4]) -> [u8; 4] {
@@ -121,7 +144,7 @@ mod tests {
     #[test]
     fn a_checker_from_afar_is_grey_in_linear_light() {
         let image = checker(16);
-        let chain = MipChain::new(&image, Sampler::default());
+        let chain = MipChain::new(&image, Sampler::default(), Texels::Srgb);
         let uvs = [[0.4, 0.4], [1.0, 0.0], [0.0, 1.0]];
         let [r, g, b, a] = sample(&chain, uvs);
         assert!((r - 0.5).abs() < 0.003 && r == g && g == b && a == 1.0, "{r}");
@@ -131,7 +154,7 @@ mod tests {
     fn linear_filtering_passes_through_texel_centres_and_halves_between() {
         let image = Image { width: 2, height: 1, rgba: vec![[0, 0, 0, 0], [255; 4]] };
         let sampler = Sampler { wrap_u: Wrap::Clamp, ..Sampler::default() };
-        let chain = MipChain::new(&image, sampler);
+        let chain = MipChain::new(&image, sampler, Texels::Srgb);
         let at = |u: f32| sample(&chain, [[u, 0.5], [0.0; 2], [0.0; 2]])[0];
         assert_eq!([at(0.25), at(0.5), at(0.75), at(1.5)], [0.0, 0.5, 1.0, 1.0]);
     }
@@ -139,7 +162,7 @@ mod tests {
     #[test]
     fn coordinates_that_are_no_numbers_read_some_texel() {
         let image = checker(4);
-        let chain = MipChain::new(&image, Sampler::default());
+        let chain = MipChain::new(&image, Sampler::default(), Texels::Srgb);
         for u in [f32::NAN, f32::INFINITY, f32::MAX] {
             let texel = sample(&chain, [[u, 0.5]; 3]);
             assert!(texel.iter().all(|c| c.is_nan() || c.is_finite()));
@@ -157,7 +180,7 @@ mod tests {
             for (magnify, minify) in filters.into_iter().flat_map(|a| filters.map(|b| (a, b))) {
                 for (wrap_u, wrap_v) in wraps.into_iter().flat_map(|a| wraps.map(|b| (a, b))) {
                     let sampler = Sampler { wrap_u, wrap_v, magnify, minify, mipmap };
-                    eight_are_as_one_by_one(&MipChain::new(&image, sampler));
+                    eight_are_as_one_by_one(&MipChain::new(&image, sampler, Texels::Srgb));
                 }
             }
         }

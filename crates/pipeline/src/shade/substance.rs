@@ -1,0 +1,158 @@
+//! Substance: what of the light that arrives at a surface leaves it towards the viewer (glTF 2.0, Appendix B).
+//!
+//! ```text
+//!  dielectric = (1 − F) · base / π  +  F · D V          metal = F(base) · D V          surface = mix(dielectric, metal, metallic)
+//! ```
+//!
+//! Highlights are multiplied by what [`Albedo`] says they lack. Light from everywhere loses to the highlights what they reflect
+//! in all, as light from one direction loses F.
+
+use super::albedo::{Albedo, compensation};
+use super::inputs::{Inputs, Layers};
+use super::light::Arriving;
+use super::microfacet::{LEAST_ROUGHNESS, Meeting, alpha_of, fifth};
+use super::normal::Facing;
+use super::seen::lane_of;
+use crate::model::{Material, MaterialExtensions};
+use std::f32::consts::FRAC_1_PI;
+
+/// What surfaces do with light at some fragments.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Substance<const N: usize> {
+    /// The share of light that is scattered, before highlights take theirs.
+    pub(super) diffuse: [[f32; N]; 3],
+    /// The share of light that is mirrored straight back, and at grazing angles.
+    f0: [[f32; N]; 3],
+    f90: [f32; N],
+    /// The same for the interface over what scatters; colours take their largest channel.
+    over0: [f32; N],
+    over90: [f32; N],
+    /// The perceptual roughness, and α.
+    pub(super) roughness: [f32; N],
+    alpha: [f32; N],
+    /// What highlights are multiplied by.
+    gain: [[f32; N]; 3],
+    /// The share of white surroundings that is mirrored.
+    pub(super) mirrored: [[f32; N]; 3],
+    /// The share of light from everywhere that gets through to what scatters.
+    pub(super) through: [f32; N],
+}
+
+impl<const N: usize> Substance<N> {
+    #[inline(always)]
+    pub(super) fn of(material: &Material, inputs: &Inputs<N>, facing: &Facing<N>) -> Self {
+        let mut roughness = inputs.roughness;
+        let mut alpha = [0.0; N];
+        for lane in 0..N {
+            // Where a pixel sees many directions of a curved surface, its highlight is as wide as they are.
+            let least = roughness[lane].clamp(LEAST_ROUGHNESS, 1.0);
+            roughness[lane] = (least + facing.turns[lane]).min(1.0);
+            alpha[lane] = alpha_of(roughness[lane]);
+        }
+        let zero = [0.0; N];
+        let mut substance = Self {
+            diffuse: [zero; 3],
+            f0: [zero; 3],
+            f90: [1.0; N],
+            over0: zero,
+            over90: zero,
+            roughness,
+            alpha,
+            gain: [[1.0; N]; 3],
+            mirrored: [zero; 3],
+            through: zero,
+        };
+        let extensions = &material.extensions;
+        if extensions.specular_glossiness.is_some() {
+            substance.older(inputs);
+        } else {
+            substance.metallic_roughness(extensions, inputs);
+        }
+        substance.balance(&Albedo::of(&substance.roughness, &facing.cosines));
+        substance
+    }
+
+    /// Metalness mixes what reflects like glass or paint and what reflects like metal (KHR_materials_ior, KHR_materials_specular).
+    #[inline(always)]
+    fn metallic_roughness(&mut self, extensions: &MaterialExtensions, inputs: &Inputs<N>) {
+        let Layers { specular, specular_color, .. } = &inputs.layers;
+        let root = (extensions.ior - 1.0) / (extensions.ior + 1.0);
+        let usual = root * root;
+        for lane in 0..N {
+            let metallic = inputs.metallic[lane];
+            self.over90[lane] = specular[lane];
+            self.f90[lane] = specular[lane] + (1.0 - specular[lane]) * metallic;
+            for channel in 0..3 {
+                let base = inputs.base[channel][lane];
+                let dielectric = (usual * specular_color[channel][lane]).min(1.0) * specular[lane];
+                self.over0[lane] = self.over0[lane].max(dielectric);
+                self.diffuse[channel][lane] = base * (1.0 - metallic);
+                self.f0[channel][lane] = dielectric + (base - dielectric) * metallic;
+            }
+        }
+    }
+
+    /// What highlights do not take is scattered (KHR_materials_pbrSpecularGlossiness).
+    #[inline(always)]
+    fn older(&mut self, inputs: &Inputs<N>) {
+        let specular = &inputs.layers.specular_color;
+        for lane in 0..N {
+            let most = specular[0][lane].max(specular[1][lane]).max(specular[2][lane]).min(1.0);
+            self.over0[lane] = most;
+            self.over90[lane] = 1.0;
+            for channel in 0..3 {
+                self.diffuse[channel][lane] = inputs.base[channel][lane] * (1.0 - most);
+                self.f0[channel][lane] = specular[channel][lane].min(1.0);
+            }
+        }
+    }
+
+    /// What follows from the albedo.
+    #[inline(always)]
+    fn balance(&mut self, albedo: &Albedo<N>) {
+        for lane in 0..N {
+            let (a, b) = (albedo.a[lane], albedo.b[lane]);
+            let taken = (self.over0[lane] * a + self.over90[lane] * b)
+                * compensation(self.over0[lane], a + b);
+            self.through[lane] = 1.0 - taken;
+            for channel in 0..3 {
+                let f0 = self.f0[channel][lane];
+                self.gain[channel][lane] = compensation(f0, a + b);
+                self.mirrored[channel][lane] =
+                    (f0 * a + self.f90[lane] * b) * self.gain[channel][lane];
+            }
+        }
+    }
+
+    /// Adds what leaves of the light from one direction.
+    #[inline(always)]
+    pub(super) fn reflect(
+        &self,
+        facing: &Facing<N>,
+        arriving: &Arriving<N>,
+        sums: &mut [[f32; N]; 3],
+    ) {
+        let (mut lobes, mut grazing, mut scattered) = ([0.0; N], [0.0; N], [0.0; N]);
+        for lane in 0..N {
+            let meeting = Meeting::of(
+                lane_of(&facing.normals, lane),
+                lane_of(&facing.views, lane),
+                lane_of(&arriving.towards, lane),
+            );
+            lobes[lane] = meeting.lobe(self.alpha[lane]);
+            let share = fifth(1.0 - meeting.vh);
+            grazing[lane] = share;
+            let over = self.over0[lane] + (self.over90[lane] - self.over0[lane]) * share;
+            scattered[lane] = meeting.nl * FRAC_1_PI * (1.0 - over);
+        }
+        for channel in 0..3 {
+            for lane in 0..N {
+                let f0 = self.f0[channel][lane];
+                let fresnel = f0 + (self.f90[lane] - f0) * grazing[lane];
+                let mirrored = fresnel * self.gain[channel][lane] * lobes[lane];
+                let leaving = self.diffuse[channel][lane] * scattered[lane] + mirrored;
+                sums[channel][lane] += arriving.lux[channel][lane] * leaving;
+            }
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! The distance of two pictures: `score.py` of the reference pictures, in Rust.
+//!
+//! Edges of surfaces may lie half a pixel apart, so each pixel is held against the nearest in colour of its 3 × 3 neighbours in
+//! the other picture, and that in both directions.
+
+use crate::picture::Picture;
+
+/// How far apart two pictures of one size are.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Score {
+    /// The mean difference of all channels, 0 to 255.
+    pub mean: f64,
+    /// The 95th percentile of the pixels' differences, each with its nearest neighbour.
+    pub p95: f64,
+    /// The share of pixels whose difference is above 8.
+    pub share: f64,
+    /// The share of pixels that only one of the pictures covers. The colour of the background is that of the reference's
+    /// upper left corner.
+    pub silhouette: f64,
+}
+
+/// The score of a picture against its reference; `None` if their sizes differ.
+pub fn score(ours: &Picture, reference: &Picture) -> Option<Score> {
+    if (ours.width, ours.height) != (reference.width, reference.height) {
+        return None;
+    }
+    let count = ours.pixels.len();
+    let there = nearest(ours, reference);
+    let back = nearest(reference, ours);
+    let mut differences: Vec<u8> = there.into_iter().zip(back).map(|(a, b)| a.max(b)).collect();
+    let above = differences.iter().filter(|&&d| d > 8).count();
+    differences.sort_unstable();
+    let pairs = || ours.pixels.iter().zip(&reference.pixels);
+    let step = |a: u8, b: u8| u64::from(a.abs_diff(b));
+    let sum: u64 = pairs().flat_map(|(a, b)| [0, 1, 2].map(|k| step(a[k], b[k]))).sum();
+    let background = reference.pixels[0];
+    let is_covered = |pixel: &[u8; 3]| largest_step(*pixel, background) > 2;
+    let one_sided = pairs().filter(|(a, b)| is_covered(a) != is_covered(b)).count();
+    Some(Score {
+        mean: sum as f64 / (3 * count) as f64,
+        p95: percentile(&differences, 0.95),
+        share: above as f64 / count as f64,
+        silhouette: one_sided as f64 / count as f64,
+    })
+}
+
+/// The largest difference of a channel.
+pub fn largest_step(a: [u8; 3], b: [u8; 3]) -> u8 {
+    a.into_iter().zip(b).map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0)
+}
+
+/// For each pixel of `a` the least difference to one of the neighbours of its place in `b`. Beyond the border the border's
+/// pixels are repeated.
+fn nearest(a: &Picture, b: &Picture) -> Vec<u8> {
+    let (width, height) = (a.width as usize, a.height as usize);
+    let mut least = vec![255; width * height];
+    for (at, least) in least.iter_mut().enumerate() {
+        let (x, y) = (at % width, at / width);
+        for row in y.saturating_sub(1)..=(y + 1).min(height - 1) {
+            for column in x.saturating_sub(1)..=(x + 1).min(width - 1) {
+                *least = largest_step(a.pixels[at], b.pixels[row * width + column]).min(*least);
+            }
+        }
+    }
+    least
+}
+
+/// A percentile of sorted numbers, between two of them by their distances, as numpy has it.
+fn percentile(sorted: &[u8], share: f64) -> f64 {
+    let place = share * (sorted.len() - 1) as f64;
+    let (below, rest) = (place as usize, place - place.floor());
+    let above = sorted[(below + 1).min(sorted.len() - 1)];
+    f64::from(sorted[below]) + (f64::from(above) - f64::from(sorted[below])) * rest
+}
+
+/// What `score.py` prints for the pairs below.
+const PRINTED: [&str; 3] = [
+    "mean 0.0000 p95 0.0000 share 0.0000 silhouette 0.0000",
+    "mean 31.5927 p95 0.0000 share 0.0104 silhouette 0.1250",
+    "mean 25.0403 p95 52.0000 share 0.2397 silhouette 0.0000",
+];
+
+/// The figures that `score.py` prints for some made-up pictures.
+///
+/// # Errors
+/// If ours are others.
+pub fn is_that_of_the_script() -> Result<(), String> {
+    let made = |width: u32, height: u32, seed: u32, shift: u32| {
+        let pixel = |n: u32| {
+            let (x, y) = (n % width + shift, n / width);
+            let inside = (x / 5 + y / 4 + seed).is_multiple_of(3);
+            let channel = |k: u32| ((x * x * 3 + y * 7 + k * 31 + seed * x * y) % 61 * 4) as u8;
+            if n > 0 && inside { [0, 1, 2].map(channel) } else { [51; 3] }
+        };
+        Picture { width, height, pixels: (0..width * height).map(pixel).collect() }
+    };
+    for (number, (ours, reference, printed)) in [
+        (made(64, 48, 0, 0), made(64, 48, 0, 0), PRINTED[0]),
+        (made(64, 48, 0, 0), made(64, 48, 0, 1), PRINTED[1]),
+        (made(37, 23, 2, 0), made(37, 23, 5, 0), PRINTED[2]),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let found = score(&ours, &reference).map_or_else(String::new, |score| score.to_string());
+        if found != printed {
+            return Err(format!("pair {number}: score.py prints {printed}, we have {found}"));
+        }
+    }
+    Ok(())
+}
+
+impl std::fmt::Display for Score {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { mean, p95, share, silhouette } = self;
+        write!(f, "mean {mean:.4} p95 {p95:.4} share {share:.4} silhouette {silhouette:.4}")
+    }
+}
