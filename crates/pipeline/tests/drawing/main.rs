@@ -5,7 +5,6 @@
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panics")]
 #![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod edges;
 mod solids;
