@@ -20,20 +20,30 @@ const LEAST_SINE: f64 = 1.0 / 64.0;
 /// A crossing: its ends, and the lesser number of the faces' objects.
 pub(super) type Crossing = ([DVec3; 2], u32);
 
+/// About as many crossings are found at most.
+const MOST: usize = 1 << 22;
+
 /// All crossings of a shape's faces, in the order of the faces. What is nearer than `touching` only touches.
 pub(super) fn crossings(shape: &Shape, touching: f64, threads: usize) -> Vec<Crossing> {
     let triangles: Vec<Triangle> =
         shape.faces.iter().map(|face| Triangle::of(shape, face)).collect();
     let boxes: Vec<Aabb> = triangles.iter().map(|t| Aabb::around(t.corners)).collect();
     let tree = Bvh::new(&boxes, surface);
-    in_order(shape.faces.len(), threads, |range, open: &mut Vec<u32>, found| {
+    // The lesser of two asks for the greater, of which there are few where it is.
+    let size = |at: usize| (surface(boxes[at].max - boxes[at].min), at);
+    let count = shape.faces.len();
+    let (most, most_crossed) = (Bvh::fair_share(count), (MOST / count.max(1)).max(16));
+    in_order(count, threads, |range, open: &mut Vec<u32>, found| {
         for one in range {
-            tree.for_each_near(&boxes[one], open, |other| {
-                let faces = [&shape.faces[one], &shape.faces[other as usize]];
-                if other as usize <= one || share_an_edge(faces) {
+            let before = found.len();
+            tree.for_each_near(&boxes[one], most, open, |other| {
+                let other = other as usize;
+                let faces = [&shape.faces[one], &shape.faces[other]];
+                let is_asked = size(one) < size(other) && found.len() - before < most_crossed;
+                if !is_asked || share_an_edge(faces) {
                     return;
                 }
-                let crossing = triangles[one].crosses(&triangles[other as usize], touching);
+                let crossing = triangles[one].crosses(&triangles[other], touching);
                 found.extend(crossing.map(|ends| (ends, faces[0].object.min(faces[1].object))));
             });
         }
