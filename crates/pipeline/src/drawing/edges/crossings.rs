@@ -6,7 +6,7 @@
 //! plane that their crossing is made by rounding: decals, and copies of a surface.
 
 use super::gather::{Face, Shape};
-use super::seams::surface;
+use super::seams::{Border, Reach, surface};
 use crate::drawing::in_order::in_order;
 use crate::drawing::visibility::{Aabb, Bvh};
 use glam::DVec3;
@@ -23,10 +23,21 @@ pub(super) type Crossing = ([DVec3; 2], u32);
 /// About as many crossings are found at most.
 const MOST: usize = 1 << 22;
 
-/// All crossings of a shape's faces, in the order of the faces. What is nearer than `touching` only touches.
-pub(super) fn crossings(shape: &Shape, touching: f64, threads: usize) -> Vec<Crossing> {
-    let triangles: Vec<Triangle> =
+/// All crossings of a shape's faces, in the order of the faces. What is nearer than `touching` only touches. Crossings along
+/// borders of both, nearer than twice what may be welded, are left out: the borders are drawn.
+pub(super) fn crossings(
+    shape: &Shape,
+    (borders, reach): (&[Border], &Reach),
+    touching: f64,
+    threads: usize,
+) -> Vec<Crossing> {
+    let mut triangles: Vec<Triangle> =
         shape.faces.iter().map(|face| Triangle::of(shape, face)).collect();
+    for (ends, side) in borders {
+        let triangle = &mut triangles[side.face as usize];
+        triangle.borders[usize::from(side.number)] = true;
+        triangle.near = 2.0 * reach.of_edge(*ends);
+    }
     let boxes: Vec<Aabb> = triangles.iter().map(|t| Aabb::around(t.corners)).collect();
     let tree = Bvh::new(&boxes, surface);
     // The lesser of two asks for the greater, of which there are few where it is.
@@ -58,13 +69,18 @@ fn share_an_edge([one, other]: [&Face; 2]) -> bool {
 struct Triangle {
     corners: [DVec3; 3],
     normal: DVec3,
+    /// Which sides are borders.
+    borders: [bool; 3],
+    /// What is nearer than this to a border is on it.
+    near: f64,
 }
 
 impl Triangle {
     fn of(shape: &Shape, face: &Face) -> Self {
         let corners = face.corners.map(|corner| shape.points[corner as usize]);
         let [a, b, c] = corners;
-        Self { corners, normal: (b - a).cross(c - a).normalize_or_zero() }
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        Self { corners, normal, borders: [false; 3], near: 0.0 }
     }
 
     fn crosses(&self, other: &Self, touching: f64) -> Option<[DVec3; 2]> {
@@ -83,7 +99,19 @@ impl Triangle {
         let from = if a.0 >= c.0 { a } else { c };
         let to = if b.0 <= d.0 { b } else { d };
         let is_long = to.0 > from.0 && (to.1 - from.1).length() > touching;
-        is_long.then_some([from.1, to.1])
+        let ends = [from.1, to.1];
+        let is_seam = || self.has_as_border(ends) && other.has_as_border(ends);
+        (is_long && !is_seam()).then_some(ends)
+    }
+
+    /// Whether a segment runs along a border.
+    fn has_as_border(&self, ends: [DVec3; 2]) -> bool {
+        let is_on = |k: usize| {
+            let (from, to) = (self.corners[k], self.corners[(k + 1) % 3]);
+            let along = (to - from).normalize_or_zero();
+            ends.iter().all(|&end| (end - from).reject_from_normalized(along).length() < self.near)
+        };
+        (0..3).any(|k| self.borders[k] && is_on(k))
     }
 
     /// How far the corners are above another triangle's plane.

@@ -38,6 +38,11 @@ impl Reach {
         }
         Self(reach)
     }
+
+    /// The lesser of those of two ends.
+    pub(super) fn of_edge(&self, [a, b]: [u32; 2]) -> f64 {
+        self.0[a as usize].min(self.0[b as usize])
+    }
 }
 
 /// The edges that one face alone has.
@@ -95,7 +100,7 @@ pub(super) fn cut(
     let (mut parts, mut fillings) = (Vec::with_capacity(borders.len()), Vec::new());
     for &([a, b], side) in borders {
         let (from, along) = (place(a), place(b) - place(a));
-        let near = reach.0[a as usize].min(reach.0[b as usize]);
+        let near = reach.of_edge([a, b]);
         cuts.clear();
         let area = Aabb::around([place(a), place(b)]).grown(DVec3::splat(near));
         tree.for_each_near(&area, most, &mut open, |item| {
