@@ -3,7 +3,7 @@
 //! A scene is written in a file ([`SceneFile`], RON, by people) and resolved ([`Scene`]): models are loaded, angles are
 //! radians, every default is decided, and what does not make sense has become an error that points at its place.
 
-mod bounds;
+pub(crate) mod bounds;
 mod classical;
 mod error;
 pub mod file;
@@ -26,7 +26,7 @@ pub use parse::parse;
 pub use resolve::{ResolveOptions, chosen_animation};
 pub use review::review;
 
-use crate::drawing::LineLook;
+use crate::drawing::{LineLook, Overlay};
 use crate::import::ImportError;
 use crate::model::Model;
 use crate::render::Shot;
@@ -49,6 +49,8 @@ pub struct Scene {
     pub style: Style,
     /// The picture to make.
     pub image: ImageSpec,
+    /// What is drawn over it.
+    pub overlays: Vec<Overlay>,
 }
 
 impl Scene {

@@ -7,6 +7,7 @@ mod camera;
 mod light;
 mod lines;
 mod look;
+mod overlay;
 mod projection;
 mod sheet;
 
@@ -14,6 +15,7 @@ pub use self::camera::{CameraChoice, CameraFile, FromFile, USUAL_PADDING, ViewFi
 pub use self::light::LightFile;
 pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, WidthFile};
 pub use self::look::{BackgroundFile, ImageFile, StyleFile};
+pub use self::overlay::OverlayFile;
 pub use self::projection::{PrincipalFile, ProjectionFile};
 pub use self::sheet::{
     AngleFile, AxonometricFile, OrientationFile, PaperFile, SheetFile, SideFile, UnitFile,
@@ -40,6 +42,9 @@ pub struct SceneFile {
     /// The picture. Default: 960 × 720 pixels, transparent.
     #[serde(default)]
     pub image: ImageFile,
+    /// What is drawn over the picture. Default: nothing.
+    #[serde(default)]
+    pub overlays: Vec<OverlayFile>,
     /// How `alberti sheet` puts the models on paper. Default: as its flags say.
     pub sheet: Option<SheetFile>,
 }
@@ -106,6 +111,7 @@ impl SceneFile {
             lights: None,
             style: StyleFile::default(),
             image: ImageFile::default(),
+            overlays: Vec::new(),
             sheet: None,
         }
     }

@@ -1,12 +1,14 @@
 //! From what a person wrote to what drawing needs, or to an error that points.
 
-use super::file::{BackgroundFile, Choice, Finite, LightFile, ModelFile};
+use super::file::{BackgroundFile, Choice, Finite, LightFile, ModelFile, OverlayFile};
 use super::locate::Step::{Field, Index};
 use super::look::resolve_style;
+use super::number::Positive;
 use super::parse::suggestion;
 use super::viewpoint::resolve_shot;
 use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile};
 use crate::color::parse_hex;
+use crate::drawing::Overlay;
 use crate::import::{FaultKind, ImportError, ImportOptions, load};
 use crate::model::Model;
 use crate::render::Shot;
@@ -54,7 +56,8 @@ impl Scene {
         let shot = resolve_shot(origin, &file.camera, &models, image)?;
         let lights = resolve_lights(origin, file, &shot)?;
         let style = resolve_style(origin, &file.style)?;
-        Ok(Self { models, shot, lights, style, image })
+        let overlays = resolve_overlays(origin, &file.overlays, &models, image)?;
+        Ok(Self { models, shot, lights, style, image, overlays })
     }
 }
 
@@ -231,6 +234,26 @@ pub(super) fn placement(entry: &ModelFile) -> Affine<ModelSpace, World> {
         .then(Affine::<ModelSpace, ModelSpace>::rotation_y(ry))
         .then(Affine::<ModelSpace, ModelSpace>::rotation_z(rz))
         .then(Affine::translation(Vector::from(entry.translate.0)))
+}
+
+pub(super) fn resolve_overlays(
+    origin: &Origin,
+    overlays: &[OverlayFile],
+    models: &[Placed],
+    image: ImageSpec,
+) -> Result<Vec<Overlay>, SceneError> {
+    let resolve = |overlay: &OverlayFile| {
+        Ok(match overlay {
+            OverlayFile::Axes { length } => Overlay::Axes(length.map(Positive::value)),
+            OverlayFile::Grid { step } => Overlay::Grid(step.map(Positive::value)),
+            OverlayFile::Horizon => Overlay::Horizon,
+            OverlayFile::VanishingPoints => Overlay::VanishingPoints,
+            OverlayFile::Volume(camera) => {
+                Overlay::Volume(resolve_shot(origin, camera, models, image)?)
+            }
+        })
+    };
+    overlays.iter().map(resolve).collect()
 }
 
 fn resolve_lights(

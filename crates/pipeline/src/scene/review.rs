@@ -4,7 +4,9 @@ use super::error::SceneError;
 use super::file::SceneFile;
 use super::look::resolve_style;
 use super::origin::Origin;
-use super::resolve::{ModelFault, load_model, placement, resolve_image, resolve_light};
+use super::resolve::{
+    ModelFault, load_model, placement, resolve_image, resolve_light, resolve_overlays,
+};
 use super::viewpoint::resolve_shot;
 use super::{Placed, ResolveOptions};
 use crate::drawing::Sheet;
@@ -33,6 +35,7 @@ pub fn review(origin: &Origin, file: &SceneFile, options: &ResolveOptions) -> Ve
         Err(mistake) => mistakes.push(mistake),
         Ok(image) if !models.is_empty() && models.len() == file.models.len() => {
             mistakes.extend(resolve_shot(origin, &file.camera, &models, image).err());
+            mistakes.extend(resolve_overlays(origin, &file.overlays, &models, image).err());
         }
         Ok(_) => {}
     }

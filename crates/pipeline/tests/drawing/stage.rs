@@ -39,6 +39,7 @@ pub fn scene(model: Model, shot: Shot) -> Scene {
             background: [0.0; 4],
             samples: raster::Samples::One,
         },
+        overlays: Vec::new(),
     }
 }
 
