@@ -11,6 +11,7 @@ mod files;
 mod info;
 mod matrix;
 mod messages;
+mod overlays;
 mod pictures;
 mod real;
 mod variants;
