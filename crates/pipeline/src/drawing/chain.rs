@@ -48,7 +48,8 @@ struct Network {
 impl Network {
     fn of(pieces: &[&Piece]) -> Self {
         let on_grid = |piece: &&Piece| piece.ends.map(micrometres);
-        let sides = once(pieces.iter().map(on_grid).filter(|[a, b]| a != b).collect());
+        let sides: Vec<_> = pieces.iter().map(on_grid).filter(|[a, b]| a != b).collect();
+        let sides = once(&sides);
         let mut ends: Vec<_> = (0_u32..)
             .zip(&sides)
             .flat_map(|(side, [a, b])| [(*a, side, 0), (*b, side, 1)])
@@ -111,7 +112,7 @@ impl Network {
 }
 
 /// The sides without those that are there before, in either direction.
-fn once(sides: Vec<[Place; 2]>) -> Vec<[Place; 2]> {
+fn once(sides: &[[Place; 2]]) -> Vec<[Place; 2]> {
     let sorted = |side: &[Place; 2]| [side[0].min(side[1]), side[0].max(side[1])];
     let mut order: Vec<u32> = (0..sides.len() as u32).collect();
     order.sort_by_key(|&at| (sorted(&sides[at as usize]), at));

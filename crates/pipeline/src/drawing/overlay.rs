@@ -26,7 +26,7 @@ use homog::{Bounds, Clip, Point, Projective, Vector, World};
 use viewport::Viewport;
 
 /// Something drawn over a picture.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum Overlay {
     /// The axes of the world from its origin, of this length; `None` for one that goes with the models.
     Axes(Option<f64>),
@@ -37,7 +37,7 @@ pub enum Overlay {
     /// Where the axes vanish, with lines from the corners of the box around the models.
     VanishingPoints,
     /// What another camera sees: its view volume, and the eye.
-    Volume(Shot),
+    Volume(Box<Shot>),
 }
 
 const RED: Ink = [179, 38, 30];
@@ -66,9 +66,9 @@ pub fn overlays(scene: &Scene) -> Vec<Layer> {
     }
     let Some(glass) = Glass::of(scene) else { return Vec::new() };
     let layers = scene.overlays.iter().enumerate().flat_map(|(number, overlay)| {
-        let layers = match *overlay {
-            Overlay::Axes(length) => glass.axes(length),
-            Overlay::Grid(step) => glass.grid(step),
+        let layers = match overlay {
+            Overlay::Axes(length) => glass.axes(*length),
+            Overlay::Grid(step) => glass.grid(*step),
             Overlay::Horizon => glass.horizon(),
             Overlay::VanishingPoints => glass.vanishing_points(),
             Overlay::Volume(shot) => glass.volume(shot),

@@ -96,7 +96,7 @@ impl Resolver<'_> {
 
     /// The middle of the box around everything.
     pub(super) fn middle(&self) -> Option<Point<World>> {
-        homog::Bounds::of(self.points.iter().copied()).map(|bounds| bounds.center())
+        homog::Bounds::of(self.points.iter().copied()).map(homog::Bounds::center)
     }
 
     /// A camera in its place with a projection; `height` is that of a parallel window whose file leaves it open.

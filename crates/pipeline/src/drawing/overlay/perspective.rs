@@ -45,7 +45,7 @@ impl Glass {
         let foot = normal * (-line.z / normal.length_squared());
         // Straight down there is none, or only one far beyond the picture.
         let reach = foot.length() + 4.0;
-        if !(reach < 1e6) {
+        if !reach.is_finite() || reach > 1e6 {
             return None;
         }
         let along = DVec2::new(normal.y, -normal.x).normalize_or(DVec2::X) * reach;
