@@ -79,6 +79,7 @@ pub fn scene(model: &Arc<Model>, kind: Kind, side: usize) -> Result<Scene, Strin
         lights: Vec::new(),
         style: Style::Flat,
         image: ImageSpec { width, height, background: [0.0; 4], samples },
+        overlays: Vec::new(),
     })
 }
 

@@ -3,7 +3,7 @@
 //! A scene is written in a file ([`SceneFile`], RON, by people) and resolved ([`Scene`]): models are loaded, angles are
 //! radians, every default is decided, and what does not make sense has become an error that points at its place.
 
-mod bounds;
+pub(crate) mod bounds;
 mod classical;
 mod error;
 pub mod file;

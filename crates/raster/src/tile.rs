@@ -171,11 +171,20 @@ impl Tile {
         let piece = frame.pieces.at(index);
         let Some(setup) = Setup::new(piece, rect, frame.samples.reach()) else { return };
         let lanes = Lanes::new(simd, &setup.functions);
+        // Whether the piece is there is a matter of the pixel: it is asked once, not for each of its samples.
+        let (mut asked, mut kept) = ([0_u64; TILE as usize], [0_u64; TILE as usize]);
         for (plane, offset) in self.planes.iter_mut().zip(frame.samples.offsets()) {
             plane.visit(simd, &lanes, &setup.start(offset), false, |plane, at, x, y, depth| {
-                let (px, py) = (rect.x + x as u32, rect.y + y as u32);
-                let fragment = Fragment::new(piece, &frame.source_weights, px, py);
-                if rect.shows(x, y) && surface.keeps(&fragment) {
+                let pixel = 1 << x;
+                if asked[y] & pixel == 0 {
+                    asked[y] |= pixel;
+                    let (px, py) = (rect.x + x as u32, rect.y + y as u32);
+                    let fragment = Fragment::new(piece, &frame.source_weights, px, py);
+                    if rect.shows(x, y) && surface.keeps(&fragment) {
+                        kept[y] |= pixel;
+                    }
+                }
+                if kept[y] & pixel != 0 {
                     plane.put(at, depth, index);
                 }
             });

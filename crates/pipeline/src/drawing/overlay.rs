@@ -12,13 +12,13 @@
 mod perspective;
 mod volume;
 
-use super::edges::Shape;
+use super::edges::Surface;
 use super::label::{Align, Label};
 use super::linetype::LineType;
 use super::look::HiddenLines;
 use super::page::{Cap, Group, Ink, Layer, MILLIMETRES_PER_PIXEL, Pen, Polyline};
 use super::sight::Sight;
-use super::visibility::{Obstacles, Tolerance};
+use super::visibility::Obstacles;
 use crate::render::Shot;
 use crate::scene::Scene;
 use glam::{DMat4, DVec2, DVec3, DVec4};
@@ -240,9 +240,8 @@ fn obstacles(scene: &Scene) -> Option<Obstacles> {
     let deep = DMat4::from_diagonal(DVec4::new(1.0, 1.0, 1.0 / REACH, 1.0));
     let view_to_clip = Projective::from_raw(deep * scene.shot.view_to_clip.raw());
     let sight = Sight::new(&Shot { view_to_clip, ..scene.shot }, &viewport);
-    let shape = Shape::of(scene);
-    let tolerance = Tolerance::of_scene(shape.diagonal());
-    Some(Obstacles::new(shape.triangles(), sight, tolerance))
+    let surface = Surface::of(scene);
+    Some(Obstacles::new(surface.triangles(), sight, surface.tolerance()))
 }
 
 /// x, y and w.

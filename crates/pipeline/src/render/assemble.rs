@@ -141,10 +141,10 @@ impl<'a> Assembler<'a> {
             mirrored: model_to_world.determinant() < 0.0,
         };
         if whereabouts == Whereabouts::Inside {
-            self.memory.images.inside(&self.stage, model_to_clip, &positions, self.threads);
+            self.memory.images.inside(&self.stage, model_to_clip, positions, self.threads);
             self.mesh(&draw);
         } else {
-            self.memory.images.anywhere(&self.stage, model_to_clip, &positions);
+            self.memory.images.anywhere(&self.stage, model_to_clip, positions);
             self.submit(&draw);
         }
         let uvs = draw.uv_set.and_then(|set| model.posed_uvs(instance, primitive, set));
