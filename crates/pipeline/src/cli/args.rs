@@ -74,6 +74,9 @@ pub(crate) struct RenderArgs {
     /// Tell how long each stage took
     #[arg(long)]
     pub(crate) timings: bool,
+    /// Compare the line drawing with a z-buffer image, and tell how much of what is drawn as visible that hides
+    #[arg(long)]
+    pub(crate) verify: bool,
     #[command(flatten)]
     pub(crate) load: LoadArgs,
 }
