@@ -1,6 +1,6 @@
 //! Shading: the colour of a fragment, from its material and the lights.
 //!
-//! Materials are those of glTF: metallic-roughness with its extensions ([`substance`], [`inputs`]). Lights are in photometric
+//! Materials are those of glTF: metallic-roughness with its extensions (`substance`, `inputs`). Lights are in photometric
 //! units: a white matt surface that faces a sun of π lux shows 1. All sums are in linear light.
 
 #![allow(clippy::needless_range_loop, reason = "lanes of several arrays are walked side by side")]
