@@ -71,6 +71,8 @@ fn surfaces(scene: &Scene, threads: usize, timings: &Timings) -> Result<Picture,
     let shading = Shading {
         draws: &draws,
         lights: &scene.lights,
+        environment: scene.environment.as_deref(),
+        develop: scene.develop,
         viewer: scene.shot.viewer(),
         instructions: frame.instructions(),
     };

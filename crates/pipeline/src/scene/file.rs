@@ -4,14 +4,16 @@
 //! field but the models' paths may be left out. Unknown fields are errors, so that a slip of the pen is found.
 
 mod camera;
+mod environment;
 mod light;
 mod look;
 
 pub use self::camera::{
     CameraChoice, CameraFile, FromFile, ProjectionFile, USUAL_PADDING, ViewFile,
 };
+pub use self::environment::EnvironmentFile;
 pub use self::light::LightFile;
-pub use self::look::{BackgroundFile, ImageFile, StyleFile};
+pub use self::look::{BackgroundFile, ImageFile, StyleFile, ToneMappingFile};
 pub use super::number::Finite;
 use super::number::{Scale, Triple};
 use crate::import;
@@ -26,8 +28,11 @@ pub struct SceneFile {
     /// From where, and by which projection. Default: framed from a named direction, in perspective.
     #[serde(default)]
     pub camera: CameraFile,
-    /// The lights. Default: a key light from above the viewer's left shoulder, and ambient light.
+    /// The lights. Default: those of the models; where they have none and there is no environment either, a key light from above
+    /// the viewer's left shoulder, and ambient light.
     pub lights: Option<Vec<LightFile>>,
+    /// Light from all around. Default: none.
+    pub environment: Option<EnvironmentFile>,
     /// How surfaces are drawn. Default: `Shaded`.
     #[serde(default)]
     pub style: StyleFile,
@@ -96,6 +101,7 @@ impl SceneFile {
             models: vec![model],
             camera: CameraFile::default(),
             lights: None,
+            environment: None,
             style: StyleFile::default(),
             image: ImageFile::default(),
         }

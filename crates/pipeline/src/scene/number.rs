@@ -55,6 +55,8 @@ checked_number! {
 }
 
 impl NonNegative {
+    /// 1, the usual strength.
+    pub const ONE: Self = Self(1.0);
     /// 5, the usual margin in per cent.
     pub const FIVE: Self = Self(5.0);
 }

@@ -2,8 +2,10 @@
 
 use super::error::SceneError;
 use super::file::SceneFile;
+use super::lights::resolve_light;
 use super::origin::Origin;
-use super::resolve::{ModelFault, load_model, placement, resolve_image, resolve_light};
+use super::resolve::{ModelFault, load_model, placement, resolve_image};
+use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
 use super::{Placed, ResolveOptions};
 use std::sync::Arc;
@@ -36,6 +38,7 @@ pub fn review(origin: &Origin, file: &SceneFile, options: &ResolveOptions) -> Ve
     }
     let lights = file.lights.iter().flatten().enumerate();
     mistakes.extend(lights.filter_map(|(at, light)| resolve_light(origin, at, light).err()));
+    mistakes.extend(resolve_environment(origin, file, &options.import.allow_outside).err());
     mistakes.sort_by_key(|mistake| mistake.span.start);
     mistakes
 }
