@@ -61,6 +61,23 @@ fn warns(problem: &str) -> Expected {
     Expected::Warns(format!("/images/0 {problem}; the surface is shown without it"))
 }
 
+/// Headers of JPEG files with nothing after them, some of a kind that is not read.
+fn jpegs() -> [Case; 4] {
+    [
+        textured("JPEG for printing", &jpeg_header(8, 8, &[0x11; 4]), Expected::Loads),
+        textured("JPEG, 65,500 squared", &jpeg_header(65_500, 65_500, &[0x11; 3]), Expected::Loads),
+        textured(
+            "JPEG with colour finer than brightness",
+            &jpeg_header(64, 64, &[0x11, 0x11, 0x22]),
+            warns(
+                "the JPEG has more samples of its colour than of its brightness; save it with the \
+                 usual sampling (4:4:4, 4:2:2 or 4:2:0)",
+            ),
+        ),
+        textured("JPEG without data", &jpeg_header(64, 64, &[0x11; 3]), Expected::Loads),
+    ]
+}
+
 /// WebP files whose sizes lie.
 fn webps() -> [Case; 2] {
     [
@@ -105,18 +122,8 @@ pub fn cases() -> Vec<Case> {
             b"\xABKTX 20\xBB\r\n\x1A\n",
             warns("this is a KTX image; only PNG, JPEG and WebP are read"),
         ),
-        textured("JPEG for printing", &jpeg_header(8, 8, &[0x11; 4]), Expected::Loads),
-        textured("JPEG, 65,500 squared", &jpeg_header(65_500, 65_500, &[0x11; 3]), Expected::Loads),
-        textured(
-            "JPEG with colour finer than brightness",
-            &jpeg_header(64, 64, &[0x11, 0x11, 0x22]),
-            warns(
-                "the JPEG has more samples of its colour than of its brightness; save it with the \
-                 usual sampling (4:4:4, 4:2:2 or 4:2:0)",
-            ),
-        ),
-        textured("JPEG without data", &jpeg_header(64, 64, &[0x11; 3]), Expected::Loads),
     ];
+    cases.extend(jpegs());
     cases.extend(webps());
     for depth in [0, 1, 2, 3, 4, 8, 16, 32] {
         for color in 0..8 {

@@ -1,6 +1,7 @@
 //! The chain from the world to the screen and back: CA-1, CA-2, PL-1, UN-1, UN-2.
 
 use crate::Runner;
+use crate::explained::explained;
 use crate::numbers::{TOLERANCE, close, close_all, close_matrix, field, judge, matrix, numbers};
 use crate::numbers::{pairs, point, point4, text};
 use crate::projection::build;
@@ -103,7 +104,12 @@ fn points_through(chain: &Chain, case: &Value, out: &Value) -> Result<(), String
     let size = theirs.to_cols_array().into_iter().fold(1.0, |size: f64, x| size.max(x.abs()));
     close_matrix("matrix / its size", whole.raw() * (1.0 / size), theirs * (1.0 / size), 1e-13)?;
     for (p, theirs) in pairs(&case["points"], &out["points"])? {
-        one_point(chain, point(p)?.into(), theirs)?;
+        let world = point(p)?.into();
+        one_point(chain, world, theirs)?;
+        if matches!(text(&case["projection"], "kind")?, "per" | "orth") {
+            let shot = (chain.camera, chain.view_to_clip.raw(), chain.kind.sign);
+            explained(shot, &chain.viewport, world, theirs)?;
+        }
     }
     Ok(())
 }

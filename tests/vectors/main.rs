@@ -13,7 +13,9 @@
 
 mod chain;
 mod clipping;
+mod explained;
 mod lessons;
+mod lines;
 mod numbers;
 mod points;
 mod projection;
@@ -32,6 +34,7 @@ const RUNNERS: &[&[(&str, Runner)]] = &[
     chain::RUNNERS,
     clipping::RUNNERS,
     lessons::RUNNERS,
+    lines::RUNNERS,
     points::RUNNERS,
     projection::RUNNERS,
     raster::RUNNERS,
@@ -39,7 +42,7 @@ const RUNNERS: &[&[(&str, Runner)]] = &[
 ];
 
 /// Files whose subject is not built yet, and why.
-const PENDING: &[(&str, &str)] = &[("hidden_lines", "line drawing's issue")];
+const PENDING: &[(&str, &str)] = &[];
 
 /// How many failing cases of a file are printed in full.
 const SHOWN: usize = 5;

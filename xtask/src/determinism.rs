@@ -76,14 +76,19 @@ fn draw(program: &Program, way: &Way, folder: &Path) -> Result<PathBuf, String> 
     make_folder(&folder)?;
     let flags: Vec<&str> = way.flags.iter().map(String::as_str).collect();
     for scene in scenes()? {
-        program.render(&scene.path, &picture(&folder, &scene), &flags)?;
+        for ending in ENDINGS {
+            program.render(&scene.path, &drawn_as(&folder, &scene, ending), &flags)?;
+        }
     }
     println!("{:18} drawn", way.name);
     Ok(folder)
 }
 
-fn picture(folder: &Path, scene: &Scene) -> PathBuf {
-    folder.join(format!("{}.png", scene.name))
+/// What each scene is drawn as: a picture, and as a line drawing both kinds of vectors.
+const ENDINGS: [&str; 3] = ["png", "svg", "pdf"];
+
+fn drawn_as(folder: &Path, scene: &Scene, ending: &str) -> PathBuf {
+    folder.join(format!("{}.{ending}", scene.name))
 }
 
 /// Compares every way's pictures with those of the first.
@@ -94,10 +99,13 @@ fn compare(drawn: &[(PathBuf, String)]) -> Outcome {
     let mut differences = Vec::new();
     let scenes = scenes()?;
     for scene in &scenes {
-        let expected = bytes(picture(first, scene))?;
-        for (folder, name) in others {
-            if bytes(picture(folder, scene))? != expected {
-                differences.push(format!("{}: {name} is not {first_name}", scene.name));
+        for ending in ENDINGS {
+            let expected = bytes(drawn_as(first, scene, ending))?;
+            for (folder, name) in others {
+                if bytes(drawn_as(folder, scene, ending))? != expected {
+                    let scene = &scene.name;
+                    differences.push(format!("{scene}.{ending}: {name} is not {first_name}"));
+                }
             }
         }
     }

@@ -1,13 +1,20 @@
 //! The command line: what may be asked for, and who does it.
 
+mod animate;
 mod args;
+mod batch;
 mod check;
+mod explain;
 mod failure;
+mod format;
 mod info;
 mod loading;
+mod look;
+mod matrix;
 mod pick;
 mod progress;
 mod render;
+mod sheet;
 
 pub(crate) use args::Args;
 pub(crate) use failure::Failure;
@@ -20,8 +27,13 @@ use std::process::ExitCode;
 pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
     match args.command {
         Command::Render(args) => render::run(&args)?,
+        Command::Sheet(args) => sheet::run(&args)?,
         Command::Info(args) => info::run(&args)?,
         Command::Check(args) => return check::run(&args),
+        Command::Matrix(args) => matrix::run(&args)?,
+        Command::Explain(args) => explain::run(&args)?,
+        Command::Animate(args) => animate::run(&args)?,
+        Command::Batch(args) => return batch::run(&args),
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -128,6 +128,12 @@ fn thresholds() -> [f32; 256] {
 /// Linear red, green and blue of a colour written `#rgb` or `#rrggbb`; `None` if it is written otherwise.
 #[must_use]
 pub(crate) fn parse_hex(text: &str) -> Option<[f32; 3]> {
+    Some(parse_hex_codes(text)?.map(|code| linear_table()[usize::from(code)]))
+}
+
+/// The 8-bit sRGB values of a colour written `#rgb` or `#rrggbb`; `None` if it is written otherwise.
+#[must_use]
+pub(crate) fn parse_hex_codes(text: &str) -> Option<[u8; 3]> {
     let digits = text.strip_prefix('#').filter(|d| d.bytes().all(|b| b.is_ascii_hexdigit()))?;
     let wide: String = match digits.len() {
         3 => digits.chars().flat_map(|digit| [digit, digit]).collect(),
@@ -136,7 +142,7 @@ pub(crate) fn parse_hex(text: &str) -> Option<[f32; 3]> {
     };
     let number = u32::from_str_radix(&wide, 16).ok()?;
     let [_, r, g, b] = number.to_be_bytes();
-    Some([r, g, b].map(|code| linear_table()[usize::from(code)]))
+    Some([r, g, b])
 }
 
 #[cfg(test)]

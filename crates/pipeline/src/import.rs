@@ -23,6 +23,7 @@ mod check;
 mod choice;
 mod container;
 mod decode;
+mod decoding;
 mod draco;
 mod edges;
 mod elements;

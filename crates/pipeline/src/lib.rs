@@ -3,6 +3,8 @@
 mod canvas;
 mod color;
 pub mod drawing;
+pub mod explain;
+pub mod film;
 pub mod import;
 pub mod model;
 mod output;
@@ -12,8 +14,8 @@ pub mod scene;
 pub mod shade;
 mod timings;
 
-pub use output::{OutputError, write_file};
+pub use output::{Draft, OutputError, write_file};
 pub use picture::Picture;
-pub use render::{RenderError, render, render_timed};
+pub use render::{RenderError, Renderer, Textures, draw, render, render_timed};
 pub use scene::{Origin, ResolveError, Scene, SceneError, SceneFile};
 pub use timings::Timings;

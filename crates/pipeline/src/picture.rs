@@ -1,7 +1,7 @@
 //! Pictures: what a render returns and a file holds.
 
 /// A picture of 8-bit sRGB pixels with straight alpha, rows from the top.
-#[derive(Clone, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq, Default)]
 pub struct Picture {
     /// Width in pixels.
     pub width: u32,
@@ -17,6 +17,18 @@ impl Picture {
     pub fn pixel(&self, x: u32, y: u32) -> Option<[u8; 4]> {
         let inside = x < self.width && y < self.height;
         inside.then(|| self.pixels[y as usize * self.width as usize + x as usize])
+    }
+
+    /// Gives it another size; the pixels are any.
+    pub(crate) fn resize(&mut self, width: u32, height: u32) {
+        (self.width, self.height) = (width, height);
+        let area = width as usize * height as usize;
+        if self.pixels.capacity() < area {
+            // Fresh memory is zero already.
+            self.pixels = vec![[0; 4]; area];
+        } else {
+            self.pixels.resize(area, [0; 4]);
+        }
     }
 
     /// Whether every pixel is opaque.

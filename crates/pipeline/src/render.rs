@@ -7,23 +7,23 @@
 //! ```
 
 mod assemble;
+mod lines;
+mod renderer;
 mod shot;
 mod stage;
 #[cfg(test)]
 mod tests;
 mod textures;
 mod vertices;
-mod wireframe;
 
+pub use lines::draw;
+pub use renderer::Renderer;
 pub use shot::Shot;
+pub use textures::Textures;
 
-use crate::canvas::Canvas;
-use crate::color::SrgbEncoder;
+use crate::drawing::overlays;
 use crate::scene::{Scene, Style};
-use crate::shade::Shading;
 use crate::{Picture, Timings};
-use assemble::Assembly;
-use textures::Textures;
 
 /// A scene that cannot be rendered.
 #[derive(Debug, thiserror::Error)]
@@ -58,38 +58,17 @@ pub fn render_timed(
     timings: &Timings,
 ) -> Result<Picture, RenderError> {
     match scene.style {
-        Style::Shaded | Style::Flat => surfaces(scene, threads, timings),
-        Style::Wireframe => timings.measure("lines", || lines(scene)),
+        Style::Shaded | Style::Flat => {
+            let picture = surfaces(scene, threads, timings)?;
+            Ok(picture.under(&overlays(scene)))
+        }
+        Style::Wireframe | Style::Lines(_) => lines::picture(scene, threads, timings),
     }
 }
 
 fn surfaces(scene: &Scene, threads: usize, timings: &Timings) -> Result<Picture, RenderError> {
-    let image = scene.image;
-    let textures = timings.measure("mip chains", || Textures::of(scene));
-    let assembled = timings.measure("vertices", || Assembly::of(scene, &textures))?;
-    let Assembly { frame, draws } = assembled;
-    let shading = Shading {
-        draws: &draws,
-        lights: &scene.lights,
-        environment: scene.environment.as_deref(),
-        develop: scene.develop,
-        viewer: scene.shot.viewer(),
-        instructions: frame.instructions(),
-    };
-    let mut pixels = vec![[0; 4]; image.width as usize * image.height as usize];
-    let encoder = SrgbEncoder::shared();
-    timings.measure("pixels", || {
-        frame.draw(&shading, image.background, threads, &mut pixels, encoder);
-    });
-    Ok(Picture { width: image.width, height: image.height, pixels })
-}
-
-fn lines(scene: &Scene) -> Result<Picture, RenderError> {
-    let image = scene.image;
-    let segments = wireframe::segments(scene)?;
-    let (width, height) = (image.width, image.height);
-    let too_large = raster::RasterError::Size { x: 0, y: 0, width, height };
-    let mut canvas = Canvas::new(width, height, image.background).ok_or(too_large)?;
-    canvas.lines(&segments, wireframe::LINE_WIDTH, wireframe::ink(image.background));
-    Ok(canvas.into_picture())
+    let textures = timings.measure("mip chains", || Textures::of(&scene.models));
+    let mut picture = Picture::default();
+    Renderer::default().render(scene, &textures, threads, timings, &mut picture)?;
+    Ok(picture)
 }

@@ -3,11 +3,13 @@
 //! A scene is written in a file ([`SceneFile`], RON, by people) and resolved ([`Scene`]): models are loaded, angles are
 //! radians, every default is decided, and what does not make sense has become an error that points at its place.
 
-mod bounds;
+pub(crate) mod bounds;
+mod classical;
 mod error;
 pub mod file;
 mod lights;
 mod locate;
+mod look;
 #[cfg(test)]
 mod mistakes;
 mod number;
@@ -16,6 +18,7 @@ mod parse;
 mod radiance;
 mod resolve;
 mod review;
+mod sheet;
 mod surroundings;
 mod viewpoint;
 
@@ -26,11 +29,12 @@ pub use parse::parse;
 pub use resolve::{ResolveOptions, chosen_animation};
 pub use review::review;
 
+use crate::drawing::{LineLook, Overlay};
 use crate::import::ImportError;
 use crate::model::Model;
 use crate::render::Shot;
 use crate::shade::{Develop, Environment, Light};
-use homog::{Affine, Model as ModelSpace, World};
+use homog::{Affine, Model as ModelSpace, Point, World};
 use raster::Samples;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -52,6 +56,28 @@ pub struct Scene {
     pub style: Style,
     /// The picture to make.
     pub image: ImageSpec,
+    /// What is drawn over it.
+    pub overlays: Vec<Overlay>,
+}
+
+impl Scene {
+    /// Every vertex that some point, line or triangle of the scene uses, in the world.
+    #[must_use]
+    pub fn world_points(&self) -> Vec<Point<World>> {
+        bounds::world_points(&self.models)
+    }
+
+    /// The names of the models, each once.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let mut names: Vec<&str> = Vec::new();
+        for placed in &self.models {
+            if !names.contains(&placed.model.name.as_str()) {
+                names.push(&placed.model.name);
+            }
+        }
+        names.join(", ")
+    }
 }
 
 /// A model in its place.
@@ -64,7 +90,7 @@ pub struct Placed {
 }
 
 /// How surfaces are drawn.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Style {
     /// Lit, with smooth normals where the file has them.
     Shaded,
@@ -72,6 +98,8 @@ pub enum Style {
     Flat,
     /// The edges of all triangles.
     Wireframe,
+    /// A line drawing.
+    Lines(LineLook),
 }
 
 /// The picture to make.

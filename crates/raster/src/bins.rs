@@ -1,54 +1,112 @@
 //! Bins: which pieces touch which tile, in the order in which they were given.
+//!
+//! Pieces are sorted in groups, each of which has bins of its own, so that threads can share the work. A tile's pieces are
+//! those of its bin in each group, one group after the other: the order of all pieces.
 
 use crate::grid::{Part, TILE};
+use crate::pieces::{CHUNK, Pieces};
 use crate::primitive::Piece;
+use crate::threads::share;
 use crate::vertex::SUBPIXEL_BITS;
 
+/// The least number of chunks that a group is made of, so that its bins are worth their room.
+const LEAST_CHUNKS: usize = 4;
+
 /// For each tile that a part of a picture touches, row by row, the pieces whose bounds touch it.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Bins {
+    grid: Grid,
+    groups: Vec<Group>,
+    /// How many of the groups are in use.
+    used: usize,
+}
+
+/// The tiles of a part.
+#[derive(Clone, Copy, Debug, Default)]
+struct Grid {
     columns: (u32, u32),
     rows: (u32, u32),
+}
+
+/// The bins of a run of chunks.
+#[derive(Debug, Default)]
+struct Group {
     /// Where each tile's part of `pieces` begins; one more at the end.
     starts: Vec<u32>,
+    /// Where the next piece of each tile goes, while they are sorted.
+    next: Vec<u32>,
     pieces: Vec<u32>,
 }
 
 impl Bins {
-    /// Sorts pieces into the tiles they touch: count, then place (a counting sort keeps the order).
-    pub(crate) fn sort(pieces: &[Piece], part: Part) -> Self {
-        let (columns, rows) = (part.columns(), part.rows());
-        let tiles = ((columns.1 - columns.0) * (rows.1 - rows.0)) as usize;
-        let mut bins = Self { columns, rows, starts: vec![0; tiles + 1], pieces: Vec::new() };
-        for piece in pieces {
-            for tile in bins.tiles_of(piece) {
-                bins.starts[tile + 1] += 1;
-            }
+    /// Sorts pieces into the tiles they touch, in the memory of the last time.
+    pub(crate) fn sort(&mut self, pieces: &Pieces, part: Part, threads: usize) {
+        self.grid = Grid { columns: part.columns(), rows: part.rows() };
+        let chunks: usize = pieces.chunks().len();
+        let per_group = (4 * self.grid.tiles()).div_ceil(CHUNK).max(LEAST_CHUNKS);
+        self.used = chunks.div_ceil(per_group);
+        if self.groups.len() < self.used {
+            self.groups.resize_with(self.used, Group::default);
         }
-        for tile in 1..bins.starts.len() {
-            bins.starts[tile] += bins.starts[tile - 1];
-        }
-        let mut next = bins.starts.clone();
-        bins.pieces = vec![0; bins.starts[tiles] as usize];
-        for (index, piece) in pieces.iter().enumerate() {
-            for tile in bins.tiles_of(piece) {
-                bins.pieces[next[tile] as usize] = index as u32;
-                next[tile] += 1;
-            }
-        }
-        bins
+        let grid = self.grid;
+        share(threads, self.groups[..self.used].iter_mut().enumerate(), |(at, group)| {
+            let chunks = || pieces.chunks().skip(at * per_group).take(per_group);
+            group.sort(chunks, grid);
+        });
     }
 
-    /// The pieces of the tile in the given column and row of the picture, by their numbers.
-    pub(crate) fn of(&self, column: u32, row: u32) -> &[u32] {
-        let tile =
-            (row - self.rows.0) * (self.columns.1 - self.columns.0) + column - self.columns.0;
-        let tile = tile as usize;
-        &self.pieces[self.starts[tile] as usize..self.starts[tile + 1] as usize]
+    /// Appends the pieces of the tile in the given column and row of the picture to a list, by their numbers.
+    pub(crate) fn list(&self, column: u32, row: u32, pieces: &mut Vec<u32>) {
+        let Grid { columns, rows } = self.grid;
+        let tile = ((row - rows.0) * (columns.1 - columns.0) + column - columns.0) as usize;
+        for Group { starts, pieces: sorted, .. } in &self.groups[..self.used] {
+            pieces.extend_from_slice(&sorted[starts[tile] as usize..starts[tile + 1] as usize]);
+        }
+    }
+}
+
+impl Group {
+    /// Count, then place: a counting sort keeps the order.
+    fn sort<'a, I: Iterator<Item = (u32, &'a [Piece])>>(
+        &mut self,
+        chunks: impl Fn() -> I,
+        grid: Grid,
+    ) {
+        let Self { starts, next, pieces } = self;
+        starts.clear();
+        starts.resize(grid.tiles() + 1, 0);
+        for piece in chunks().flat_map(|(_, chunk)| chunk) {
+            for tile in grid.tiles_of(piece) {
+                starts[tile + 1] += 1;
+            }
+        }
+        let mut sum = 0;
+        for start in starts.iter_mut() {
+            sum += *start;
+            *start = sum;
+        }
+        next.clone_from(starts);
+        // What was there before is overwritten.
+        pieces.resize(sum as usize, 0);
+        for (first, chunk) in chunks() {
+            for (number, piece) in (first..).zip(chunk) {
+                for tile in grid.tiles_of(piece) {
+                    pieces[next[tile] as usize] = number;
+                    next[tile] += 1;
+                }
+            }
+        }
+    }
+}
+
+impl Grid {
+    fn tiles(self) -> usize {
+        ((self.columns.1 - self.columns.0) * (self.rows.1 - self.rows.0)) as usize
     }
 
     /// The places of the tiles that a piece's bounds touch.
-    fn tiles_of(&self, piece: &Piece) -> impl Iterator<Item = usize> + use<> {
+    #[inline(always)]
+    fn tiles_of(self, piece: &Piece) -> impl Iterator<Item = usize> + use<> {
         const TILE_BITS: u32 = SUBPIXEL_BITS + TILE.ilog2();
         let span = |[a, b, c]: [i32; 3], (begin, end): (u32, u32)| {
             let first = (a.min(b).min(c) >> TILE_BITS).max(begin as i32);

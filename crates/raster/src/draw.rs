@@ -4,11 +4,12 @@
 
 use crate::bins::Bins;
 use crate::fragments::{Eight, WIDE};
-use crate::resolve::{Resolve, Scratch};
-use crate::tile::Tile;
+use crate::grid::Part;
+use crate::memory::{Memory, Worker};
+use crate::resolve::Resolve;
+use crate::threads::share_among;
 use crate::{Fragment, Fragments, Frame};
 use fearless_simd::dispatch;
-use std::sync::Mutex;
 
 /// What the primitives of a frame look like.
 pub trait Surface: Sync {
@@ -73,43 +74,72 @@ impl Frame {
         target: &mut [P],
         encode: impl Encode<P>,
     ) {
-        let bins = Bins::sort(&self.pieces, self.part);
-        let level = self.instructions.level();
-        let bands = Mutex::new(self.bands(target).into_iter());
-        let work = || {
-            let mut tile = Tile::default();
-            let mut scratch = Scratch::default();
-            loop {
-                let next = bands.lock().unwrap_or_else(std::sync::PoisonError::into_inner).next();
-                let Some((row, pixels)) = next else { return };
-                let (left, right) = self.part.columns();
-                for column in left..right {
-                    let rect = self.part.tile(column, row);
-                    tile.fill(self, rect, bins.of(column, row), surface);
-                    let tile = Resolve { frame: self, surface, background, tile: &tile, rect };
-                    dispatch!(level, _simd => tile.write(pixels, &mut scratch, &encode));
-                }
-            }
-        };
-        let (top, bottom) = self.part.rows();
-        std::thread::scope(|scope| {
-            for _ in 1..threads.min((bottom - top) as usize) {
-                scope.spawn(work);
-            }
-            work();
+        let Memory { mut bins, mut workers } = self.kept.take();
+        bins.sort(&self.pieces, self.part, threads);
+        workers.resize_with(threads.max(1), Worker::default);
+        let bands = Bands { part: self.part, rows: self.part.rows(), target };
+        share_among(&mut workers, bands, |worker, (row, pixels)| {
+            // Memory takes whole rows faster than tiles, and what tiles write is then in a cache already.
+            pixels.fill(encode.pixel(background));
+            self.draw_band(row, pixels, &bins, worker, surface, background, &encode);
         });
+        self.kept.put(Memory { bins, workers });
     }
 
-    /// The rows of tiles, each with its pixels.
-    fn bands<'a, P>(&self, mut target: &'a mut [P]) -> Vec<(u32, &'a mut [P])> {
-        let (top, bottom) = self.part.rows();
-        let band = |row: u32| {
-            let length = self.part.rows_of(row) * self.part.width as usize;
-            let all = std::mem::take(&mut target);
-            let (band, rest) = all.split_at_mut(length.min(all.len()));
-            target = rest;
-            (row, band)
-        };
-        (top..bottom).map(band).collect()
+    /// Draws a row of tiles into its pixels, which show the background.
+    #[expect(clippy::too_many_arguments, reason = "a row, and all that drawing it depends on")]
+    fn draw_band<S: Surface, P: Copy>(
+        &self,
+        row: u32,
+        pixels: &mut [P],
+        bins: &Bins,
+        Worker { list, tile, scratch }: &mut Worker,
+        surface: &S,
+        background: [f32; 4],
+        encode: &impl Encode<P>,
+    ) {
+        let (left, right) = self.part.columns();
+        for column in left..right {
+            let rect = self.part.tile(column, row);
+            list.clear();
+            bins.list(column, row, list);
+            if list.is_empty() {
+                continue;
+            }
+            tile.fill(self, rect, list, surface);
+            let tile = Resolve { frame: self, surface, background, tile, rect };
+            dispatch!(self.instructions.level(), _simd => tile.write(pixels, scratch, encode));
+        }
     }
 }
+
+/// The rows of tiles of a part that are left, each with its pixels.
+struct Bands<'a, P> {
+    part: Part,
+    rows: (u32, u32),
+    target: &'a mut [P],
+}
+
+impl<'a, P> Iterator for Bands<'a, P> {
+    type Item = (u32, &'a mut [P]);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let (row, end) = self.rows;
+        if row == end {
+            return None;
+        }
+        self.rows.0 += 1;
+        let length = self.part.rows_of(row) * self.part.width as usize;
+        let all = std::mem::take(&mut self.target);
+        let (band, rest) = all.split_at_mut(length.min(all.len()));
+        self.target = rest;
+        Some((row, band))
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        let count = (self.rows.1 - self.rows.0) as usize;
+        (count, Some(count))
+    }
+}
+
+impl<P> ExactSizeIterator for Bands<'_, P> {}

@@ -154,12 +154,10 @@ impl Plane {
         let old = f32x8::from_slice(simd, depths);
         let nearer = depth.simd_gt(old);
         let seen = inside.map_or(nearer, |inside| inside & nearer);
-        if inside.is_none() || seen.any_true() {
-            seen.select(depth, old).store_slice(depths);
-            let pieces: &mut [u32] = &mut self.piece[first..first + LANES];
-            let old = u32x8::from_slice(simd, pieces);
-            seen.select(u32x8::splat(simd, piece), old).store_slice(pieces);
-        }
+        seen.select(depth, old).store_slice(depths);
+        let pieces: &mut [u32] = &mut self.piece[first..first + LANES];
+        let old = u32x8::from_slice(simd, pieces);
+        seen.select(u32x8::splat(simd, piece), old).store_slice(pieces);
     }
 
     /// Calls `each(array index, x, y, depth)` for every sample of the triangle that is nearer than what is there, or as near

@@ -2,7 +2,10 @@
 
 use crate::edge::signed_area;
 use crate::grid::Part;
+use crate::memory::Kept;
+use crate::pieces::{CHUNK, Pieces};
 use crate::primitive::{Piece, Source, line_pieces, point_pieces, with_usual_w};
+use crate::threads::share;
 use crate::vertex::SUBPIXEL_BITS;
 use crate::{Cover, Cull, Instructions, RasterError, Samples, ScreenVertex, SourceWeights};
 
@@ -18,9 +21,15 @@ pub struct Frame {
     pub(crate) part: Part,
     pub(crate) samples: Samples,
     pub(crate) instructions: Instructions,
-    pub(crate) pieces: Vec<Piece>,
+    pub(crate) pieces: Pieces,
     pub(crate) source_weights: Vec<SourceWeights>,
+    threads: usize,
+    /// What the last drawing left behind for the next.
+    pub(crate) kept: Kept,
 }
+
+/// Meshes of fewer triangles are added by one thread: starting another takes as long.
+const MANY: usize = 8 * CHUNK;
 
 impl Frame {
     /// An empty frame of `width` × `height` pixels.
@@ -39,16 +48,16 @@ impl Frame {
     /// # Errors
     /// [`RasterError::Size`] unless both sides are at least 1 and the part ends within [`MAX_SIDE`].
     pub fn part(corner: [u32; 2], size: [u32; 2], samples: Samples) -> Result<Self, RasterError> {
-        let ([x, y], [width, height]) = (corner, size);
-        let fits = |from: u32, side: u32| {
-            side > 0 && from.checked_add(side).is_some_and(|end| end <= MAX_SIDE)
-        };
-        if !fits(x, width) || !fits(y, height) {
-            return Err(RasterError::Size { x, y, width, height });
-        }
-        let (pieces, source_weights) = (Vec::new(), Vec::new());
-        let (part, instructions) = (Part { x, y, width, height }, Instructions::best());
-        Ok(Self { part, samples, instructions, pieces, source_weights })
+        let part = checked(corner, size)?;
+        Ok(Self {
+            part,
+            samples,
+            instructions: Instructions::best(),
+            pieces: Pieces::default(),
+            source_weights: Vec::new(),
+            threads: 1,
+            kept: Kept::default(),
+        })
     }
 
     /// The same frame, drawn with the given instructions: for measurements, and for proofs that they do not matter.
@@ -57,10 +66,33 @@ impl Frame {
         Self { instructions, ..self }
     }
 
+    /// The same frame, whose large [`mesh`](Self::mesh)es are added by up to so many threads; 1 unless told otherwise. The
+    /// frame does not depend on it.
+    #[must_use]
+    pub fn with_threads(self, threads: usize) -> Self {
+        Self { threads, ..self }
+    }
+
     /// The instructions that it is drawn with.
     #[must_use]
     pub const fn instructions(&self) -> Instructions {
         self.instructions
+    }
+
+    /// Takes all primitives out again for a picture of another size, or of other samples, and keeps the memory.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); the frame is then as it was.
+    pub fn restart(
+        &mut self,
+        width: u32,
+        height: u32,
+        samples: Samples,
+    ) -> Result<(), RasterError> {
+        self.part = checked([0, 0], [width, height])?;
+        self.samples = samples;
+        self.clear();
+        Ok(())
     }
 
     /// Takes all primitives out again and keeps the memory for the next picture.
@@ -98,13 +130,24 @@ impl Frame {
         cover: Cover,
         cull: Cull,
     ) {
-        let vertex = |n: u32| vertices.get(n as usize).copied().flatten();
-        for (id, &[p, q, r]) in (first_id..).zip(triangles) {
-            let (Some(p), Some(q), Some(r)) = (vertex(p), vertex(q), vertex(r)) else { continue };
-            let area = signed_area([p, q, r]);
-            if cull.keeps(area) {
-                self.push_whole([p, q, r], area, id, cover);
-            }
+        let mesh = Mesh { vertices, reach: self.samples.reach(), cover, cull };
+        if self.threads > 1 && triangles.len() >= MANY {
+            let first = self.pieces.used();
+            let chunks = self.pieces.fresh(triangles.len().div_ceil(CHUNK)).iter_mut();
+            let shares = chunks.zip(triangles.chunks(CHUNK)).enumerate();
+            share(self.threads, shares, |(number, (chunk, triangles))| {
+                mesh.pieces(triangles, first_id.wrapping_add((number * CHUNK) as u32), chunk);
+            });
+            self.pieces.close_up(first);
+            return;
+        }
+        let (mut id, mut rest) = (first_id, triangles);
+        while !rest.is_empty() {
+            let (chunk, room) = self.pieces.room();
+            let now;
+            (now, rest) = rest.split_at(room.min(rest.len()));
+            mesh.pieces(now, id, chunk);
+            id = id.wrapping_add(now.len() as u32);
         }
     }
 
@@ -150,14 +193,10 @@ impl Frame {
         }
     }
 
-    #[inline(always)]
-    fn push_whole(&mut self, [p, q, r]: [ScreenVertex; 3], area: i64, id: u32, cover: Cover) {
-        if area == 0 || !self.may_touch_a_sample([p, q, r]) {
-            return;
+    fn push_whole(&mut self, corners: [ScreenVertex; 3], area: i64, id: u32, cover: Cover) {
+        if let Some(piece) = whole(corners, area, id, cover, self.samples.reach()) {
+            self.pieces.push(piece);
         }
-        let (corners, source) =
-            if area > 0 { ([p, q, r], Source::Whole) } else { ([p, r, q], Source::Turned) };
-        self.pieces.push(Piece { corners: with_usual_w(corners), id, source, cover });
     }
 
     fn push_piece(
@@ -173,22 +212,77 @@ impl Frame {
             1.. => (corners, [at_p, at_q, at_r]),
             _ => ([p, r, q], [at_p, at_r, at_q]),
         };
-        if self.may_touch_a_sample(corners) {
+        if may_touch_a_sample(corners, self.samples.reach()) {
             let source = Source::Weights(self.source_weights.len() as u32);
             self.source_weights.push(weights);
             self.pieces.push(Piece { corners: with_usual_w(corners), id, source, cover });
         }
     }
+}
 
-    /// Whether the triangle's bounds may hold a sample: of meshes finer than the pixels most triangles hold none.
-    #[inline(always)]
-    fn may_touch_a_sample(&self, [p, q, r]: [ScreenVertex; 3]) -> bool {
-        let (least, greatest) = self.samples.reach();
-        let holds = |a: i32, b: i32, c: i32| {
-            let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-            // Pixels from the first whose last sample is not before the bounds to the last whose first is not behind.
-            (low - greatest + 255) >> SUBPIXEL_BITS <= (high - least) >> SUBPIXEL_BITS
-        };
-        holds(p.x, q.x, r.x) && holds(p.y, q.y, r.y)
+/// The part of a picture from the pixel `corner` on, if there is one of this size.
+fn checked(corner: [u32; 2], size: [u32; 2]) -> Result<Part, RasterError> {
+    let ([x, y], [width, height]) = (corner, size);
+    let fits = |from: u32, side: u32| {
+        side > 0 && from.checked_add(side).is_some_and(|end| end <= MAX_SIDE)
+    };
+    if !fits(x, width) || !fits(y, height) {
+        return Err(RasterError::Size { x, y, width, height });
     }
+    Ok(Part { x, y, width, height })
+}
+
+/// A mesh on its way into a frame.
+struct Mesh<'a> {
+    vertices: &'a [Option<ScreenVertex>],
+    reach: (i32, i32),
+    cover: Cover,
+    cull: Cull,
+}
+
+impl Mesh<'_> {
+    /// Appends the pieces of some of its triangles.
+    fn pieces(&self, triangles: &[[u32; 3]], first_id: u32, pieces: &mut Vec<Piece>) {
+        let vertex = |n: u32| self.vertices.get(n as usize).copied().flatten();
+        pieces.reserve(triangles.len());
+        for (id, &[p, q, r]) in (first_id..).zip(triangles) {
+            let (Some(p), Some(q), Some(r)) = (vertex(p), vertex(q), vertex(r)) else { continue };
+            let area = signed_area([p, q, r]);
+            if !self.cull.keeps(area) {
+                continue;
+            }
+            if let Some(piece) = whole([p, q, r], area, id, self.cover, self.reach) {
+                pieces.push(piece);
+            }
+        }
+    }
+}
+
+/// A whole triangle as a piece; `None` if it can hold no sample.
+#[inline(always)]
+fn whole(
+    [p, q, r]: [ScreenVertex; 3],
+    area: i64,
+    id: u32,
+    cover: Cover,
+    reach: (i32, i32),
+) -> Option<Piece> {
+    if area == 0 || !may_touch_a_sample([p, q, r], reach) {
+        return None;
+    }
+    let (corners, source) =
+        if area > 0 { ([p, q, r], Source::Whole) } else { ([p, r, q], Source::Turned) };
+    Some(Piece { corners: with_usual_w(corners), id, source, cover })
+}
+
+/// Whether the triangle's bounds may hold a sample, by the least and the greatest offset of samples: of meshes finer than the
+/// pixels most triangles hold none.
+#[inline(always)]
+fn may_touch_a_sample([p, q, r]: [ScreenVertex; 3], (least, greatest): (i32, i32)) -> bool {
+    let holds = |a: i32, b: i32, c: i32| {
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        // Pixels from the first whose last sample is not before the bounds to the last whose first is not behind.
+        (low - greatest + 255) >> SUBPIXEL_BITS <= (high - least) >> SUBPIXEL_BITS
+    };
+    holds(p.x, q.x, r.x) && holds(p.y, q.y, r.y)
 }

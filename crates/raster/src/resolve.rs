@@ -54,7 +54,7 @@ impl Run<'_> {
 }
 
 impl<S: Surface> Resolve<'_, S> {
-    /// Writes the tile into its band: the rows of the frame that the tile's row shows.
+    /// Writes what the tile shows into its band: the rows of the frame that the tile's row shows, filled with the background.
     #[inline(always)]
     pub(crate) fn write<P: Copy>(
         &self,
@@ -65,15 +65,10 @@ impl<S: Surface> Resolve<'_, S> {
         let TileRect { x, left, top, right, bottom, .. } = self.rect;
         let Part { x: from, width, .. } = self.frame.part;
         let empty = encode.pixel(self.background);
-        let is_empty = self.tile.is_empty();
         let mut layers = self.tile.layers.as_slice();
         for y in top..bottom {
             let start = (y - top) as usize * width as usize + (x + left - from) as usize;
             let Some(row) = band.get_mut(start..start + (right - left) as usize) else { return };
-            if is_empty {
-                row.fill(empty);
-                continue;
-            }
             let over;
             (over, layers) = split_before(layers, ((y + 1) * TILE) as usize);
             self.write_row(y, over, row, empty, encode, scratch);
@@ -143,7 +138,6 @@ impl<S: Surface> Resolve<'_, S> {
             differs |= piece ^ pieces[0];
         }
         if differs == 0 && pieces[0] == NOTHING {
-            targets.fill(empty);
             return;
         }
         let (x, y) = (self.rect.x + run.block(), self.rect.y + run.y);
@@ -189,7 +183,7 @@ impl<S: Surface> Resolve<'_, S> {
 
     #[inline(always)]
     fn piece(&self, number: u32) -> &Piece {
-        &self.frame.pieces[number as usize]
+        self.frame.pieces.at(number)
     }
 
     /// Lists what is seen in each pixel of a run: each solid piece once, then the layers, the farthest first. A pixel where

@@ -26,18 +26,11 @@ pub(crate) struct Tile {
     pub(crate) layers: Vec<Layer>,
     /// A depth that no sample of any plane is farther than: what lies behind it is hidden.
     hidden: f32,
-    /// Whether nothing was drawn; the planes are then not to be read.
-    is_empty: bool,
     /// Where the functions of eight triangles start, for each plane.
     starts: Vec<Starts>,
 }
 
 impl Tile {
-    /// Whether nothing was drawn; there is then nothing else to ask for.
-    pub(crate) const fn is_empty(&self) -> bool {
-        self.is_empty
-    }
-
     /// The piece seen by a sample of a pixel ([`index_of`](crate::plane::index_of) says where it is); [`NOTHING`](crate::plane::NOTHING) for the background.
     pub(crate) fn piece(&self, sample: usize, at: usize) -> u32 {
         self.planes[sample].piece[at]
@@ -64,11 +57,6 @@ impl Tile {
         bin: &[u32],
         surface: &impl Surface,
     ) {
-        self.is_empty = bin.is_empty();
-        if self.is_empty {
-            self.layers.clear();
-            return;
-        }
         self.planes.resize_with(frame.samples.count(), Plane::new);
         self.planes.iter_mut().for_each(|plane| plane.clear(rect));
         self.hidden = f32::NEG_INFINITY;
@@ -87,10 +75,14 @@ impl Tile {
         surface: &impl Surface,
     ) {
         let mut translucent = false;
-        for some in bin.chunks(batch::COUNT) {
-            let mut pieces = [&frame.pieces[some[0] as usize]; batch::COUNT];
+        let mut rest = bin.iter();
+        let mut indices = [0; batch::COUNT];
+        loop {
+            let some = self.next_seen(frame, &mut rest, &mut indices, &mut translucent);
+            let [first, ..] = some else { break };
+            let mut pieces = [frame.pieces.at(*first); batch::COUNT];
             for (piece, &index) in pieces.iter_mut().zip(some) {
-                *piece = &frame.pieces[index as usize];
+                *piece = frame.pieces.at(index);
             }
             let batch = Batch::new(pieces, rect, frame.samples.reach());
             self.starts.clear();
@@ -99,18 +91,43 @@ impl Tile {
                 match pieces[lane].cover {
                     Cover::Solid if batch.has(lane) => self.small(simd, &batch, lane, index),
                     Cover::Solid => self.solid(simd, frame, rect, index),
-                    Cover::Masked => self.masked(simd, frame, rect, index, surface),
-                    Cover::Translucent => translucent = true,
+                    _ => self.masked(simd, frame, rect, index, surface),
                 }
             }
         }
         if translucent {
             for &index in bin {
-                if frame.pieces[index as usize].cover == Cover::Translucent {
+                if frame.pieces.at(index).cover == Cover::Translucent {
                     self.translucent(simd, frame, rect, index);
                 }
             }
         }
+    }
+
+    /// The next few pieces of a list that may hide something: translucent ones are only taken note of, and what lies behind
+    /// everything in the tile is left out before any work is done on it.
+    #[inline(always)]
+    fn next_seen<'a>(
+        &self,
+        frame: &Frame,
+        list: &mut core::slice::Iter<'_, u32>,
+        indices: &'a mut [u32; batch::COUNT],
+        translucent: &mut bool,
+    ) -> &'a [u32] {
+        let mut count = 0;
+        for &index in list {
+            let piece = frame.pieces.at(index);
+            if piece.cover == Cover::Translucent {
+                *translucent = true;
+            } else if piece.nearest() > self.hidden {
+                indices[count] = index;
+                count += 1;
+                if count == batch::COUNT {
+                    break;
+                }
+            }
+        }
+        &indices[..count]
     }
 
     /// One of eight small triangles that were prepared at once.
@@ -128,7 +145,7 @@ impl Tile {
 
     #[inline(always)]
     fn solid<S: Simd>(&mut self, simd: S, frame: &Frame, rect: TileRect, index: u32) {
-        let piece = &frame.pieces[index as usize];
+        let piece = frame.pieces.at(index);
         if piece.nearest() <= self.hidden {
             return;
         }
@@ -151,14 +168,23 @@ impl Tile {
         index: u32,
         surface: &impl Surface,
     ) {
-        let piece = &frame.pieces[index as usize];
+        let piece = frame.pieces.at(index);
         let Some(setup) = Setup::new(piece, rect, frame.samples.reach()) else { return };
         let lanes = Lanes::new(simd, &setup.functions);
+        // Whether the piece is there is a matter of the pixel: it is asked once, not for each of its samples.
+        let (mut asked, mut kept) = ([0_u64; TILE as usize], [0_u64; TILE as usize]);
         for (plane, offset) in self.planes.iter_mut().zip(frame.samples.offsets()) {
             plane.visit(simd, &lanes, &setup.start(offset), false, |plane, at, x, y, depth| {
-                let (px, py) = (rect.x + x as u32, rect.y + y as u32);
-                let fragment = Fragment::new(piece, &frame.source_weights, px, py);
-                if rect.shows(x, y) && surface.keeps(&fragment) {
+                let pixel = 1 << x;
+                if asked[y] & pixel == 0 {
+                    asked[y] |= pixel;
+                    let (px, py) = (rect.x + x as u32, rect.y + y as u32);
+                    let fragment = Fragment::new(piece, &frame.source_weights, px, py);
+                    if rect.shows(x, y) && surface.keeps(&fragment) {
+                        kept[y] |= pixel;
+                    }
+                }
+                if kept[y] & pixel != 0 {
                     plane.put(at, depth, index);
                 }
             });
@@ -168,7 +194,7 @@ impl Tile {
     /// Notes a layer for each pixel in which a sample of the triangle is not behind something solid.
     #[inline(always)]
     fn translucent<S: Simd>(&mut self, simd: S, frame: &Frame, rect: TileRect, index: u32) {
-        let piece = &frame.pieces[index as usize];
+        let piece = frame.pieces.at(index);
         let Some(setup) = Setup::new(piece, rect, frame.samples.reach()) else { return };
         let lanes = Lanes::new(simd, &setup.functions);
         let first = self.layers.len();
@@ -197,7 +223,7 @@ impl Tile {
 /// Joins the layers of one piece, from `first` on, that are samples of the same pixel. The pixel's depth is that of its
 /// first sample.
 fn merge_samples(layers: &mut Vec<Layer>, first: usize) {
-    layers[first..].sort_by_key(|layer| layer.pixel);
+    layers[first..].sort_unstable_by_key(|layer| (layer.pixel, layer.mask));
     let mut kept = first;
     for next in first..layers.len() {
         let layer = layers[next];

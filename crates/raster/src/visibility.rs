@@ -1,10 +1,9 @@
 //! Visibility without shading: which primitive is seen in each pixel, and how near it is.
 
-use crate::bins::Bins;
 use crate::grid::Part;
+use crate::memory::{Memory, Worker};
 use crate::plane::index_of;
 use crate::primitive::Piece;
-use crate::tile::Tile;
 use crate::{Fragment, Frame, Surface};
 
 /// What is seen at the first sample of each pixel (its centre, with one sample), rows from the top.
@@ -52,23 +51,28 @@ impl Frame {
     }
 
     fn each_seen(&self, mut each: impl FnMut(u32, u32, f32, &Piece)) {
-        let bins = Bins::sort(&self.pieces, self.part);
-        let mut tile = Tile::default();
+        let Memory { mut bins, mut workers } = self.kept.take();
+        bins.sort(&self.pieces, self.part, 1);
+        workers.resize_with(workers.len().max(1), Worker::default);
+        let Worker { list, tile, .. } = &mut workers[0];
         let ((left, right), (top, bottom)) = (self.part.columns(), self.part.rows());
         for (column, row) in (top..bottom).flat_map(|row| (left..right).map(move |c| (c, row))) {
             let rect = self.part.tile(column, row);
-            tile.fill(self, rect, bins.of(column, row), &Whole);
-            if tile.is_empty() {
+            list.clear();
+            bins.list(column, row, list);
+            if list.is_empty() {
                 continue;
             }
+            tile.fill(self, rect, list, &Whole);
             for (x, y) in
                 (rect.top..rect.bottom).flat_map(|y| (rect.left..rect.right).map(move |x| (x, y)))
             {
                 let at = index_of(x as usize, y as usize);
-                if let Some(piece) = self.pieces.get(tile.piece(0, at) as usize) {
+                if let Some(piece) = self.pieces.get(tile.piece(0, at)) {
                     each(rect.x + x, rect.y + y, tile.depth(0, at), piece);
                 }
             }
         }
+        self.kept.put(Memory { bins, workers });
     }
 }

@@ -1,5 +1,6 @@
 //! What can go wrong in the program.
 
+use pipeline::drawing::SheetError;
 use pipeline::import::ImportError;
 use pipeline::{OutputError, RenderError, ResolveError};
 
@@ -12,6 +13,8 @@ pub(crate) enum Failure {
     Import(#[from] ImportError),
     #[error(transparent)]
     Render(#[from] RenderError),
+    #[error(transparent)]
+    Sheet(#[from] SheetError),
     #[error(transparent)]
     Output(#[from] OutputError),
     #[error("cannot write to the standard output: {0}")]

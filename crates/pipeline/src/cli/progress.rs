@@ -1,6 +1,7 @@
 //! Progress on a terminal: what is being done, once it takes longer than a moment. Silent in a pipe.
 
 use std::io::{IsTerminal, Write};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -57,5 +58,35 @@ impl Drop for Progress {
             drop(sender);
             let _ = watcher.join();
         }
+    }
+}
+
+/// How many of many jobs are done, and how long the rest may take.
+#[derive(Debug)]
+pub(crate) struct Counter {
+    all: usize,
+    done: AtomicUsize,
+    begin: Instant,
+    speaks: bool,
+}
+
+impl Counter {
+    /// Starts to count, aloud if there is a terminal.
+    pub(crate) fn start(all: usize) -> Self {
+        let speaks = std::io::stderr().is_terminal();
+        Self { all, done: AtomicUsize::new(0), begin: Instant::now(), speaks }
+    }
+
+    /// One more is done.
+    pub(crate) fn count(&self) {
+        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        if !self.speaks {
+            return;
+        }
+        let each = self.begin.elapsed().as_secs_f64() / done as f64;
+        let left = each * self.all.saturating_sub(done) as f64;
+        let end = if done == self.all { "\r\x1b[K" } else { "" };
+        let all = self.all;
+        let _ = write!(std::io::stderr(), "\r\x1b[K{done} of {all}, {left:.0} s left{end}");
     }
 }

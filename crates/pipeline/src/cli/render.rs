@@ -1,14 +1,13 @@
-//! `alberti render`: a scene or a bare model becomes a PNG.
+//! `alberti render`: a scene or a bare model becomes a PNG, or as a line drawing an SVG or a PDF.
 
-use super::args::{ProjectionArg, RenderArgs, StyleArg};
+use super::args::RenderArgs;
+use super::format::Format;
 use super::progress::Progress;
 use super::{Failure, complain};
 use pipeline::import::ImportOptions;
 use pipeline::scene::ResolveOptions;
-use pipeline::scene::file::{
-    BackgroundFile, CameraChoice, ProjectionFile, SceneFile, StyleFile, ViewFile,
-};
-use pipeline::{Origin, Scene, Timings, render_timed};
+use pipeline::scene::file::SceneFile;
+use pipeline::{Origin, Scene, Timings, draw, render_timed};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -18,18 +17,27 @@ const MOST_WARNINGS: usize = 8;
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let output = output_of(args)?;
+    let format = Format::of(&output)?;
     let progress = Progress::start("loading");
     let (origin, mut file) = open(&args.input)?;
-    override_with(&mut file, args);
+    args.look.override_in(&mut file);
     let timings = if args.timings { Timings::measuring() } else { Timings::default() };
     let import = ImportOptions { timings: timings.clone(), ..args.load.options() };
     let options = ResolveOptions { import };
     let scene = Scene::resolve(&origin, &file, &options)?;
     progress.stage("rendering");
-    let picture = render_timed(&scene, threads(args), &timings)?;
+    let bytes = match format {
+        Format::Png => {
+            let picture = render_timed(&scene, threads(args.threads), &timings)?;
+            timings.measure("encode", || picture.to_png())
+        }
+        Format::Svg | Format::Pdf => {
+            let page = draw(&scene, threads(args.threads), &timings)?;
+            timings.measure("encode", || format.vectors(&[page]))
+        }
+    };
     progress.stage("writing");
-    let png = timings.measure("encode", || picture.to_png());
-    timings.measure("write", || pipeline::write_file(&output, &png))?;
+    timings.measure("write", || pipeline::write_file(&output, &bytes))?;
     drop(progress);
     tell(&timings);
     warn(&scene);
@@ -53,15 +61,14 @@ pub(super) fn is_scene(input: &Path) -> bool {
     input.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"))
 }
 
-fn open(input: &Path) -> Result<(Origin, SceneFile), Failure> {
+/// A scene file, or the scene of a bare model.
+pub(super) fn open(input: &Path) -> Result<(Origin, SceneFile), Failure> {
     if is_scene(input) { Ok(Origin::read(input)?) } else { Ok(Origin::bare_model(input)) }
 }
 
 fn output_of(args: &RenderArgs) -> Result<PathBuf, Failure> {
     if let Some(output) = &args.output {
-        let is_png = output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
-        let fault = || format!("the output {} does not end in .png", output.display());
-        return is_png.then(|| output.clone()).ok_or_else(|| Failure::Usage(fault()));
+        return Ok(output.clone());
     }
     let stem = args.input.file_stem();
     let stem = stem.ok_or_else(|| Failure::Usage("name the output with -o FILE".to_owned()))?;
@@ -70,53 +77,13 @@ fn output_of(args: &RenderArgs) -> Result<PathBuf, Failure> {
     Ok(PathBuf::from(name))
 }
 
-fn threads(args: &RenderArgs) -> usize {
+/// As many threads as are wanted, or as there are cores.
+pub(super) fn threads(wanted: Option<u16>) -> usize {
     let all = || std::thread::available_parallelism().map_or(1, Into::into);
-    args.threads.map_or_else(all, usize::from)
+    wanted.map_or_else(all, usize::from)
 }
 
-/// What the flags say goes before what the scene says.
-fn override_with(file: &mut SceneFile, args: &RenderArgs) {
-    if let Some(size) = args.size {
-        file.image.size = size;
-    }
-    if let Some(samples) = args.samples {
-        file.image.samples = samples;
-    }
-    if let Some(text) = &args.background {
-        let transparent = text.eq_ignore_ascii_case("transparent");
-        let color = BackgroundFile::Color(text.clone());
-        file.image.background = if transparent { BackgroundFile::Transparent } else { color };
-    }
-    if let Some(style) = args.style {
-        file.style = match style {
-            StyleArg::Shaded => StyleFile::Shaded,
-            StyleArg::Flat => StyleFile::Flat,
-            StyleArg::Wireframe => StyleFile::Wireframe,
-        };
-    }
-    file.models.iter_mut().for_each(|model| args.pick.override_in(model));
-    if let Some(camera) = &args.camera {
-        let by_name = || CameraChoice::Name(camera.clone());
-        let choice = camera.parse().map_or_else(|_| by_name(), CameraChoice::Index);
-        file.camera.view = ViewFile::FromModel(choice);
-    }
-    if let Some(view) = args.view {
-        let padding_percent = match &file.camera.view {
-            ViewFile::Frame { padding_percent, .. } => *padding_percent,
-            _ => pipeline::scene::file::USUAL_PADDING,
-        };
-        file.camera.view = ViewFile::Frame { from: view.into(), padding_percent };
-    }
-    if let Some(projection) = args.projection {
-        file.camera.projection = Some(match projection {
-            ProjectionArg::Perspective => ProjectionFile::PERSPECTIVE,
-            ProjectionArg::Orthographic => ProjectionFile::ORTHOGRAPHIC,
-        });
-    }
-}
-
-fn warn(scene: &Scene) {
+pub(super) fn warn(scene: &Scene) {
     let mut told: Vec<&str> = Vec::new();
     for placed in &scene.models {
         let model = &placed.model;

@@ -2,32 +2,45 @@
 
 use super::accessor::Source;
 use super::animation::{self, Targets};
+use super::decoding::decode_beside;
 use super::error::Fault;
+use super::image::Found;
 use super::json::Document;
 use super::warnings::Warnings;
 use super::{
-    ImportOptions, camera, choice, image, instancing, lights, material, primitive, scene, skin,
-    texture,
+    Images, ImportOptions, camera, choice, image, instancing, lights, material, primitive, scene,
+    skin, texture,
 };
 use crate::model::{Model, Node};
 
-/// Builds the model of a document.
+/// Builds the model of a document. The images are decoded while the meshes are read.
 pub(super) fn build(
     document: &Document,
     source: &Source<'_>,
     options: &ImportOptions,
     warnings: &mut Warnings,
 ) -> Result<Model, Fault> {
-    let geometry = || geometry(document, source, options, warnings);
-    let mut model = options.timings.measure("geometry", geometry)?;
-    let meshes = shown_meshes(&model);
-    let images = || image::images(source, &mut model, &meshes, options.images, warnings);
-    options.timings.measure("images", images);
+    let timings = &options.timings;
+    let outline = || outline(document, source, options, warnings);
+    let mut model = timings.measure("geometry", outline)?;
+    let early = timings.measure("images", || early_images(source, &model, options.images));
+    let geometry = || timings.measure("geometry", || shape(document, source, &mut model, warnings));
+    let ((), decoded) = decode_beside(&early.encoded, timings, geometry)?;
+    let early = (early, decoded);
+    let place = || image::images(source, &mut model, early, options.images, warnings);
+    timings.measure("images", place);
     Ok(model)
 }
 
-/// Everything but the images.
-fn geometry(
+fn early_images<'a>(source: &'a Source<'_>, model: &Model, what: Images) -> Found<'a> {
+    match what {
+        Images::Decode => Found::read(source, image::announced(source.root, model, model.variant)),
+        Images::Headers => Found::default(),
+    }
+}
+
+/// Everything but the meshes and the images.
+fn outline(
     document: &Document,
     source: &Source<'_>,
     options: &ImportOptions,
@@ -54,9 +67,8 @@ fn geometry(
     };
     animate(document, source, &mut model, warnings)?;
     drop_lost_references(&mut model, &usable);
-    shape(document, source, options, &mut model, warnings)?;
-    instancing::read(source, &mut model.nodes, warnings)?;
-    scene::check_items(&model, source.limits)?;
+    let chosen = options.variant.as_ref().map(|choice| choice::variant(&model.variants, choice));
+    model.variant = chosen.transpose()?;
     Ok(model)
 }
 
@@ -78,16 +90,13 @@ fn animate(
     Ok(())
 }
 
-/// The meshes, in the materials of the chosen variant.
+/// The meshes, in the materials of the chosen variant, and where they stand.
 fn shape(
     document: &Document,
     source: &Source<'_>,
-    options: &ImportOptions,
     model: &mut Model,
     warnings: &mut Warnings,
 ) -> Result<(), Fault> {
-    let chosen = options.variant.as_ref().map(|choice| choice::variant(&model.variants, choice));
-    model.variant = chosen.transpose()?;
     let context = primitive::Context {
         materials: &model.materials,
         variants: model.variants.len(),
@@ -98,7 +107,8 @@ fn shape(
         choice::dress(&mut model.meshes, variant);
     }
     material::warn_of_missing_texcoords(model, warnings);
-    Ok(())
+    instancing::read(source, &mut model.nodes, warnings)?;
+    scene::check_items(model, source.limits)
 }
 
 /// Nodes do not name skins and cameras that have been left out.
@@ -108,17 +118,6 @@ fn drop_lost_references(model: &mut Model, usable_cameras: &[bool]) {
         *skin = skin.filter(|&at| !skins[at].joints.is_empty());
         *camera = camera.filter(|&at| usable_cameras[at]);
     }
-}
-
-/// For each mesh, whether the shown scene shows it.
-fn shown_meshes(model: &Model) -> Vec<bool> {
-    let mut shown = vec![false; model.meshes.len()];
-    for instance in model.instances() {
-        if let Some(mesh) = model.nodes[instance.node].mesh {
-            shown[mesh] = true;
-        }
-    }
-    shown
 }
 
 fn sorted(names: &[String]) -> Vec<String> {

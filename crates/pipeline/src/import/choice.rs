@@ -109,6 +109,12 @@ pub(super) fn variant_materials(
     found
 }
 
+/// The material that a primitive has in a variant, if the variant says anything of it.
+pub(super) fn dressed(root: &Root, json: &mesh::Primitive, variant: usize) -> Option<usize> {
+    let all = variant_materials(root, json, "", variant + 1, &mut Warnings::default());
+    all.iter().find(|found| found.variant == variant).map(|found| found.material)
+}
+
 /// Gives the primitives the materials they have in a variant; those it says nothing of keep theirs.
 pub(super) fn dress(meshes: &mut [Mesh], variant: usize) {
     for primitive in meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {

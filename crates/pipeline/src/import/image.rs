@@ -1,50 +1,131 @@
-//! Images: which ones are needed, their bytes, and decoding them in parallel.
+//! Images: which ones are needed, and their bytes.
 //!
-//! Only images that a visible surface uses are read. A broken image costs a warning, never the model. Which thread
-//! decodes which image makes no difference: results are kept by number, and the budget of texels is spent in the order
-//! of the file, from the sizes in the headers, before any decoder runs.
+//! Only images that a visible surface uses are read. A broken image costs a warning, never the model. The budget of texels
+//! is spent in the order of the file, from the sizes in the headers, before any decoder runs.
 
 use super::Images;
 use super::accessor::Source;
+use super::choice;
 use super::decode;
+use super::decoding::{Decoded, decode_all};
 use super::error::Fault;
 use super::limits::Limits;
 use super::warnings::Warnings;
-use crate::model::{Image, ImageFile, ImageHeader, Material, Mesh, Model, Texture};
+use crate::model::{ImageFile, ImageHeader, Material, Model};
+use gltf::json::Root;
 use gltf::json::image::Image as JsonImage;
 use std::borrow::Cow;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
 
 /// An encoded image.
-struct Encoded<'a> {
+pub(super) struct Encoded<'a> {
     number: usize,
-    bytes: Cow<'a, [u8]>,
+    pub(super) bytes: Cow<'a, [u8]>,
     /// Width and height in texels.
     size: (u32, u32),
 }
 
-/// Reads the images of a file into its model, whose meshes marked in `shown` are visible.
+/// Images of a file that have been read but not decoded.
+#[derive(Default)]
+pub(super) struct Found<'a> {
+    /// For each image of the file, whether it was looked for.
+    needed: Vec<bool>,
+    pub(super) encoded: Vec<Encoded<'a>>,
+    warnings: Warnings,
+}
+
+impl<'a> Found<'a> {
+    pub(super) fn read(source: &'a Source<'_>, needed: Vec<bool>) -> Self {
+        let mut warnings = Warnings::default();
+        let encoded = read(&needed, source, &mut warnings);
+        Self { needed, encoded, warnings }
+    }
+}
+
+/// The images that the surfaces of a model will show whose meshes are not read yet, by what the file says of them.
+pub(super) fn announced(root: &Root, model: &Model, variant: Option<usize>) -> Vec<bool> {
+    let mut needed = vec![false; root.images.len()];
+    for (mesh, _) in root.meshes.iter().zip(shown(model, root.meshes.len())).filter(|at| at.1) {
+        for primitive in &mesh.primitives {
+            let usual = primitive.material.map(|material| material.value());
+            let dressed = variant.and_then(|variant| choice::dressed(root, primitive, variant));
+            note(dressed.or(usual), model, &mut needed);
+        }
+    }
+    needed
+}
+
+/// The images that visible surfaces show.
+fn needed(model: &Model, images: usize) -> Vec<bool> {
+    let mut needed = vec![false; images];
+    let shown = shown(model, model.meshes.len());
+    let meshes = model.meshes.iter().zip(shown).filter(|(_, shown)| *shown);
+    for primitive in meshes.flat_map(|(mesh, _)| &mesh.primitives).filter(|p| p.count() > 0) {
+        note(primitive.material, model, &mut needed);
+    }
+    needed
+}
+
+/// For each mesh, whether the shown scene shows it.
+fn shown(model: &Model, meshes: usize) -> Vec<bool> {
+    let mut shown = vec![false; meshes];
+    for instance in model.instances() {
+        if let Some(flag) = model.nodes[instance.node].mesh.and_then(|mesh| shown.get_mut(mesh)) {
+            *flag = true;
+        }
+    }
+    shown
+}
+
+/// Notes the images of a material.
+fn note(material: Option<usize>, model: &Model, needed: &mut [bool]) {
+    let material = material.and_then(|at| model.materials.get(at));
+    for (_, used) in material.into_iter().flat_map(Material::textures) {
+        let image = model.textures.get(used.texture).and_then(|texture| texture.image);
+        if let Some(flag) = image.and_then(|image| needed.get_mut(image)) {
+            *flag = true;
+        }
+    }
+}
+
+/// Gives a model that is otherwise complete its images. What was found before and `decoded` meanwhile is used, unless the
+/// meshes turned out to need other images than the file announced.
 pub(super) fn images(
     source: &Source<'_>,
     model: &mut Model,
-    shown: &[bool],
+    (early, decoded): (Found<'_>, Vec<Decoded>),
     what: Images,
     warnings: &mut Warnings,
 ) {
-    let count = source.root.images.len();
-    let mut needed = needed(&model.meshes, shown, &model.materials, &model.textures, count);
+    let needed = needed(model, source.root.images.len());
     model.image_files = source.root.images.iter().map(file).collect();
-    let encoded = read(&needed, source, warnings);
-    note_headers(&encoded, &mut model.image_files);
+    model.images = vec![None; needed.len()];
     match what {
-        Images::Decode => model.images = decode_all(&encoded, count, warnings),
+        Images::Decode if early.needed == needed => place(model, early, decoded, warnings),
+        Images::Decode => {
+            let found = Found::read(source, needed);
+            let decoded = decode_all(&found.encoded);
+            place(model, found, decoded, warnings);
+        }
         Images::Headers => {
-            model.images = vec![None; count];
             // Nobody sees the others, so that nobody needs to be warned of them.
-            needed.iter_mut().for_each(|needed| *needed = !*needed);
-            note_headers(&read(&needed, source, &mut Warnings::default()), &mut model.image_files);
+            let others = needed.iter().map(|needed| !needed).collect();
+            note_headers(&Found::read(source, others).encoded, &mut model.image_files);
+            place(model, Found::read(source, needed), Vec::new(), warnings);
+        }
+    }
+}
+
+/// Puts decoded images into a model, and the faults into its warnings.
+fn place(model: &mut Model, found: Found<'_>, decoded: Vec<Decoded>, warnings: &mut Warnings) {
+    warnings.append(found.warnings);
+    note_headers(&found.encoded, &mut model.image_files);
+    for (image, decoded) in found.encoded.iter().zip(decoded) {
+        match decoded {
+            Ok(decoded) => model.images[image.number] = Some(decoded),
+            Err(problem) => {
+                let fault = Fault::invalid(&format!("/images/{}", image.number), problem);
+                warnings.soft(&fault, LEFT_OUT);
+            }
         }
     }
 }
@@ -60,28 +141,6 @@ fn note_headers(encoded: &[Encoded<'_>], files: &mut [ImageFile]) {
         let (format, bytes) = (decode::format(bytes), bytes.len());
         files[*number].header = Some(ImageHeader { format, width: *width, height: *height, bytes });
     }
-}
-
-/// Which images the primitives of the given meshes need, by number.
-fn needed(
-    meshes: &[Mesh],
-    shown: &[bool],
-    materials: &[Material],
-    textures: &[Texture],
-    images: usize,
-) -> Vec<bool> {
-    let mut needed = vec![false; images];
-    let visible = meshes.iter().zip(shown).filter(|(_, shown)| **shown).map(|(mesh, _)| mesh);
-    for primitive in visible.flat_map(|mesh| &mesh.primitives).filter(|p| p.count() > 0) {
-        let material = primitive.material.and_then(|at| materials.get(at));
-        for (_, used) in material.into_iter().flat_map(Material::textures) {
-            let image = textures.get(used.texture).and_then(|texture| texture.image);
-            if let Some(flag) = image.and_then(|image| needed.get_mut(image)) {
-                *flag = true;
-            }
-        }
-    }
-    needed
 }
 
 /// The bytes of the needed images; those that cannot be had are a warning.
@@ -140,44 +199,4 @@ fn check_size(
         None => return Err(Fault::limit(pointer, &what, "image_texels", limits.image_texels)),
     }
     Ok(())
-}
-
-/// Decodes the images on all processors; the result has an entry for each of the file's `count` images.
-fn decode_all(
-    encoded: &[Encoded<'_>],
-    count: usize,
-    warnings: &mut Warnings,
-) -> Vec<Option<Image>> {
-    let results: Vec<Mutex<Option<Result<Image, String>>>> =
-        encoded.iter().map(|_| Mutex::new(None)).collect();
-    let next = AtomicUsize::new(0);
-    let work = || {
-        loop {
-            let at = next.fetch_add(1, Ordering::Relaxed);
-            let Some(image) = encoded.get(at) else { break };
-            let result = decode::decode(&image.bytes);
-            if let Ok(mut slot) = results[at].lock() {
-                *slot = Some(result);
-            }
-        }
-    };
-    let processors = thread::available_parallelism().map_or(1, usize::from);
-    thread::scope(|scope| {
-        for _ in 1..processors.min(encoded.len()) {
-            scope.spawn(work);
-        }
-        work();
-    });
-    let mut images = vec![None; count];
-    for (image, result) in encoded.iter().zip(results) {
-        match result.into_inner().ok().flatten() {
-            Some(Ok(decoded)) => images[image.number] = Some(decoded),
-            Some(Err(problem)) => {
-                let fault = Fault::invalid(&format!("/images/{}", image.number), problem);
-                warnings.soft(&fault, LEFT_OUT);
-            }
-            None => {}
-        }
-    }
-    images
 }

@@ -48,6 +48,13 @@ impl Warnings {
         Ok(())
     }
 
+    /// Adds the warnings of another list.
+    pub(super) fn append(&mut self, other: Self) {
+        let Self { list, left_out, .. } = other;
+        list.iter().for_each(|warning| self.add(&warning.pointer, &*warning.message));
+        self.left_out += left_out;
+    }
+
     pub(super) fn into_list(mut self) -> Vec<Warning> {
         if self.left_out > 0 {
             let message = format!("{} more warnings are not listed", self.left_out);

@@ -22,8 +22,8 @@ pub struct EdgeLines {
     pub material: Option<usize>,
 }
 
-/// When an edge is seen.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+/// When an edge is seen, from the least to the most.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
 pub enum EdgeVisibility {
     /// Never.
     #[default]

@@ -1,58 +1,50 @@
 //! The geometry half of the pipeline: from the meshes of a scene to the primitives of a frame.
 
 use super::RenderError;
-use super::stage::{Stage, Whereabouts, all, to_point};
+use super::renderer::Memory;
+use super::stage::{Stage, Whereabouts, all};
 use super::textures::Textures;
 use super::vertices::{Parts, tangents, uv_set};
 use crate::model::{
     AlphaMode, Instance, Material, Posed, Primitive, TextureSlot, TextureUse, Topology,
 };
 use crate::scene::{Placed, Scene, Style};
-use crate::shade::{Draw, DrawList, Maps, MipChain, PLACE, Tangents};
+use crate::shade::{Draw, Maps, MipChain, PLACE, Tangents};
 use clip::{Outcode, clip_triangle};
 use glam::DVec3;
 use homog::{Clip, HPoint, Model, Ndc, Point, Projective};
-use raster::{Cover, Cull, Frame, ScreenVertex, signed_area};
+use raster::{Cover, Cull, ScreenVertex, signed_area};
 
 /// The width of lines that a file draws, in pixels: glTF gives none.
 const LINE_WIDTH: f64 = 1.5;
 /// The side of points that a file draws, in pixels: glTF gives none.
 const POINT_SIZE: f64 = 3.0;
 
-/// A frame ready to be drawn, and the arrays behind it.
-#[derive(Debug)]
-pub(super) struct Assembly<'a> {
-    pub(super) frame: Frame,
-    pub(super) draws: DrawList<'a>,
-}
-
-impl<'a> Assembly<'a> {
-    pub(super) fn of(scene: &'a Scene, textures: &'a Textures<'a>) -> Result<Self, RenderError> {
-        let image = scene.image;
-        let mut assembler = Assembler {
-            stage: Stage::of(scene)?,
-            is_flat: scene.style == Style::Flat,
-            frame: Frame::new(image.width, image.height, image.samples)?,
-            draws: DrawList::default(),
-            images: Images::default(),
-            next_id: 0,
-        };
-        for (number, placed) in scene.models.iter().enumerate() {
-            for (instance, primitive) in placed.model.shown_primitives() {
-                let texture = |slot, used: TextureUse| textures.chain(number, slot, used.texture);
-                assembler.draw(placed, instance, primitive, texture)?;
-            }
+/// Puts what may be seen of a scene into an empty frame, and says what its primitives are made of.
+pub(super) fn assemble<'a>(
+    scene: &'a Scene,
+    textures: &'a Textures<'a>,
+    threads: usize,
+    memory: Memory<'a>,
+) -> Result<Memory<'a>, RenderError> {
+    let stage = Stage::of(scene)?;
+    let is_flat = scene.style == Style::Flat;
+    let mut assembler = Assembler { stage, is_flat, threads, memory, next_id: 0 };
+    for (number, placed) in scene.models.iter().enumerate() {
+        for (instance, primitive) in placed.model.shown_primitives() {
+            let texture = |slot, used: TextureUse| textures.chain(number, slot, used.texture);
+            assembler.draw(placed, instance, primitive, texture)?;
         }
-        if let Some(blur) = image.backdrop {
-            assembler.backdrop(scene, blur)?;
-        }
-        Ok(Self { frame: assembler.frame, draws: assembler.draws })
     }
+    if let Some(blur) = scene.image.backdrop {
+        assembler.backdrop(scene, blur)?;
+    }
+    Ok(assembler.memory)
 }
 
 /// The images of one primitive's vertices; the memory is used again for the next.
-#[derive(Default)]
-struct Images {
+#[derive(Debug, Default)]
+pub(super) struct Images {
     /// In clip space, if some may have to be clipped.
     clip: Vec<HPoint<Clip>>,
     outcodes: Vec<Outcode>,
@@ -67,11 +59,17 @@ impl Images {
         stage: &Stage,
         model_to_clip: Projective<Model, Clip>,
         positions: &[[f32; 3]],
+        threads: usize,
     ) {
-        self.clip.clear();
-        let project = |&position: &[f32; 3]| model_to_clip.point(to_point(position));
-        self.clip.extend(positions.iter().map(project));
-        self.snap_all(stage);
+        let instructions = raster::Instructions::best();
+        ScreenVertex::project_all(
+            positions,
+            model_to_clip,
+            stage.ndc_to_screen,
+            instructions,
+            threads,
+            &mut self.screen,
+        );
     }
 
     /// Vertices in clip space with their outcodes, and those that are inside on the screen.
@@ -99,9 +97,8 @@ impl Images {
 struct Assembler<'a> {
     stage: Stage,
     is_flat: bool,
-    frame: Frame,
-    draws: DrawList<'a>,
-    images: Images,
+    threads: usize,
+    memory: Memory<'a>,
     next_id: u32,
 }
 
@@ -145,7 +142,7 @@ impl<'a> Assembler<'a> {
             primitive,
             material,
             maps: Maps::of(material, texture),
-            vertices: Vec::new(),
+            vertices: self.memory.spare.pop().unwrap_or_default(),
             tangents: tangents(model, instance, primitive, material, &posed, model_to_world),
             smooth: normals.is_some() && !self.is_flat,
             uv_set: uv_set(material, primitive),
@@ -154,10 +151,10 @@ impl<'a> Assembler<'a> {
             mirrored: model_to_world.determinant() < 0.0,
         };
         if whereabouts == Whereabouts::Inside {
-            self.images.inside(&self.stage, model_to_clip, positions);
+            self.memory.images.inside(&self.stage, model_to_clip, positions, self.threads);
             self.mesh(&draw);
         } else {
-            self.images.anywhere(&self.stage, model_to_clip, positions);
+            self.memory.images.anywhere(&self.stage, model_to_clip, positions);
             self.submit(&draw);
         }
         let uvs = draw.uv_set.and_then(|set| model.posed_uvs(instance, primitive, set));
@@ -166,8 +163,8 @@ impl<'a> Assembler<'a> {
             normals: normals.as_deref().filter(|_| draw.is_lit() && draw.smooth),
             uvs: uvs.as_deref(),
         };
-        draw.vertices = parts.vertices(positions.len(), model_to_world);
-        self.draws.draws.push(draw);
+        parts.vertices(positions.len(), model_to_world, self.threads, &mut draw.vertices);
+        self.memory.draws.draws.push(draw);
         Ok(())
     }
 
@@ -189,7 +186,7 @@ impl<'a> Assembler<'a> {
             vertex
         };
         let primitive: &'static Primitive = &BACKDROP;
-        self.draws.draws.push(Draw {
+        self.memory.draws.draws.push(Draw {
             first_id,
             primitive,
             material: &DEFAULT_MATERIAL,
@@ -203,7 +200,7 @@ impl<'a> Assembler<'a> {
             mirrored: false,
         });
         let triangles = primitive.indices.as_chunks::<3>().0;
-        self.frame.mesh(&vertices, triangles, first_id, Cover::Solid, Cull::Nothing);
+        self.memory.frame.mesh(&vertices, triangles, first_id, Cover::Solid, Cull::Nothing);
         Ok(())
     }
 
@@ -211,7 +208,13 @@ impl<'a> Assembler<'a> {
     fn mesh(&mut self, draw: &Draw<'_>) {
         let triangles = draw.primitive.indices.as_chunks::<3>().0;
         let cover = cover_of(draw.material);
-        self.frame.mesh(&self.images.screen, triangles, draw.first_id, cover, self.cull(draw));
+        self.memory.frame.mesh(
+            &self.memory.images.screen,
+            triangles,
+            draw.first_id,
+            cover,
+            self.cull(draw),
+        );
     }
 
     /// Clips the primitive's points, lines or triangles and adds what is left to the frame.
@@ -231,26 +234,26 @@ impl<'a> Assembler<'a> {
     }
 
     fn point(&mut self, vertex: u32, id: u32, cover: Cover) {
-        if let Some(center) = self.images.screen[vertex as usize] {
-            self.frame.point(center, POINT_SIZE, id, cover);
+        if let Some(center) = self.memory.images.screen[vertex as usize] {
+            self.memory.frame.point(center, POINT_SIZE, id, cover);
         }
     }
 
     fn line(&mut self, ends: [u32; 2], id: u32, cover: Cover) {
-        let ends = ends.map(|vertex| self.images.clip[vertex as usize]);
+        let ends = ends.map(|vertex| self.memory.images.clip[vertex as usize]);
         let Some(seen) = self.stage.visible_segment(ends) else { return };
         if let Some(ends) = self.stage.snap_all([seen.start, seen.end]) {
             let places = [seen.t0 as f32, seen.t1 as f32];
-            self.frame.line_piece(ends, places, LINE_WIDTH, id, cover);
+            self.memory.frame.line_piece(ends, places, LINE_WIDTH, id, cover);
         }
     }
 
     fn triangle(&mut self, vertices: [u32; 3], id: u32, cover: Cover, cull: Cull) {
-        let Images { clip, outcodes, screen } = &self.images;
+        let Images { clip, outcodes, screen } = &self.memory.images;
         let vertices = vertices.map(|vertex| vertex as usize);
         if let Some(corners) = all(vertices.map(|vertex| screen[vertex])) {
             if is_kept(cull, -signed_area(corners).signum() as f64) {
-                self.frame.triangle(corners, id, cover);
+                self.memory.frame.triangle(corners, id, cover);
             }
             return;
         }
@@ -262,7 +265,7 @@ impl<'a> Assembler<'a> {
         for piece in clip_triangle(points, &self.stage.volume).triangles() {
             if let Some(corners) = self.stage.snap_all(piece.map(|vertex| vertex.point)) {
                 let weights = piece.map(|vertex| vertex.weights.map(|weight| weight as f32));
-                self.frame.triangle_piece(corners, weights, id, cover);
+                self.memory.frame.triangle_piece(corners, weights, id, cover);
             }
         }
     }

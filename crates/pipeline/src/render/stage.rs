@@ -56,16 +56,6 @@ impl Stage {
         model_to_world.then_project(self.world_to_clip)
     }
 
-    /// Clip-space images of a primitive's vertices.
-    pub(super) fn to_clip(
-        &self,
-        positions: &[[f32; 3]],
-        model_to_world: Affine<Model, World>,
-    ) -> Vec<HPoint<Clip>> {
-        let model_to_clip = self.model_to_clip(model_to_world);
-        positions.iter().map(|&p| model_to_clip.point(to_point(p))).collect()
-    }
-
     /// Where a mesh with vertices at these positions is. Boxes are convex, and stay so on the way to clip space.
     pub(super) fn whereabouts(
         &self,

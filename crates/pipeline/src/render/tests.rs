@@ -1,7 +1,8 @@
 //! That shading eight fragments at once changes nothing.
 
-use super::assemble::Assembly;
-use super::textures::Textures;
+use super::assemble::assemble;
+use super::renderer::Memory;
+use super::{Renderer, Textures};
 use crate::scene::{Origin, Scene, Style, parse};
 use crate::shade::Shading;
 use raster::{Fragment, Samples, Surface};
@@ -37,8 +38,10 @@ fn eight_fragments_at_once_have_the_colours_of_one_by_one() {
             let mut scene = scene(name);
             scene.style = style;
             scene.image.samples = Samples::from_count(samples).expect("a number of samples");
-            let textures = Textures::of(&scene);
-            let Assembly { frame, draws } = Assembly::of(&scene, &textures).expect("a frame");
+            let textures = Textures::of(&scene.models);
+            let memory = Renderer::default().lend(&scene, 1).expect("a frame");
+            let Memory { frame, draws, .. } =
+                assemble(&scene, &textures, 1, memory).expect("a frame");
             let viewer = scene.shot.viewer();
             let instructions = frame.instructions();
             let shading = Shading {

@@ -1,19 +1,23 @@
 //! The textures of a scene, each with its mip chain, built once before drawing.
 
 use crate::model::{Image, Material, Model, Texture, TextureSlot};
-use crate::scene::Scene;
+use crate::scene::Placed;
 use crate::shade::{MipChain, Texels};
 
-/// For each model of the scene, the chains of its textures, as colours and as numbers; `None` for those that no material
+/// For each model of a scene, the mip chains of its textures, as colours and as numbers; `None` for those that no material
 /// reads so.
+///
+/// They belong to the models, not to a picture: whoever renders several of the same models builds them once.
 #[derive(Debug)]
-pub(super) struct Textures<'a> {
+pub struct Textures<'a> {
     chains: Vec<Vec<[Option<MipChain<'a>>; 2]>>,
 }
 
 impl<'a> Textures<'a> {
-    pub(super) fn of(scene: &'a Scene) -> Self {
-        Self { chains: scene.models.iter().map(|placed| chains(&placed.model)).collect() }
+    /// Builds the chains.
+    #[must_use]
+    pub fn of(models: &'a [Placed]) -> Self {
+        Self { chains: models.iter().map(|placed| chains(&placed.model)).collect() }
     }
 
     /// The chain of a texture of the scene's n-th model, for a slot of a material.

@@ -15,18 +15,41 @@ pub(super) struct Parts<'a> {
     pub(super) uvs: Option<&'a [[f32; 2]]>,
 }
 
+/// What a thread takes at once of many vertices: small models are done by one.
+const SHARE: usize = 8192;
+
 impl Parts<'_> {
-    /// The vertices; none if nothing counts.
+    /// Writes the vertices, by up to so many threads; none if nothing counts.
     pub(super) fn vertices(
         &self,
         count: usize,
         model_to_world: Affine<Model, World>,
-    ) -> Vec<Vertex> {
+        threads: usize,
+        vertices: &mut Vec<Vertex>,
+    ) {
         let Self { positions, normals, uvs } = *self;
+        vertices.clear();
         if positions.is_none() && normals.is_none() && uvs.is_none() {
-            return Vec::new();
+            return;
         }
-        let mut vertices = vec![[0.0; 8]; count];
+        vertices.resize(count, [0.0; 8]);
+        raster::share(threads, vertices.chunks_mut(SHARE).enumerate(), |(number, vertices)| {
+            self.from(number * SHARE).write(model_to_world, vertices);
+        });
+    }
+
+    /// The same without the first so many.
+    fn from(&self, first: usize) -> Self {
+        Self {
+            positions: self.positions.and_then(|all| all.get(first..)),
+            normals: self.normals.and_then(|all| all.get(first..)),
+            uvs: self.uvs.and_then(|all| all.get(first..)),
+        }
+    }
+
+    /// Writes the first vertices.
+    fn write(&self, model_to_world: Affine<Model, World>, vertices: &mut [Vertex]) {
+        let Self { positions, normals, uvs } = *self;
         for (vertex, &position) in vertices.iter_mut().zip(positions.unwrap_or_default()) {
             let place = model_to_world.point(to_point(position)).raw().as_vec3();
             vertex[PLACE..PLACE + 3].copy_from_slice(&place.to_array());
@@ -38,7 +61,6 @@ impl Parts<'_> {
         for (vertex, uv) in vertices.iter_mut().zip(uvs.unwrap_or_default()) {
             vertex[UV..UV + 2].copy_from_slice(uv);
         }
-        vertices
     }
 }
 

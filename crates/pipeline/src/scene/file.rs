@@ -6,14 +6,22 @@
 mod camera;
 mod environment;
 mod light;
+mod lines;
 mod look;
+mod overlay;
+mod projection;
+mod sheet;
 
-pub use self::camera::{
-    CameraChoice, CameraFile, FromFile, ProjectionFile, USUAL_PADDING, ViewFile,
-};
+pub use self::camera::{CameraChoice, CameraFile, FromFile, USUAL_PADDING, ViewFile};
 pub use self::environment::EnvironmentFile;
 pub use self::light::LightFile;
+pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, WidthFile};
 pub use self::look::{BackgroundFile, ImageFile, StyleFile, ToneMappingFile};
+pub use self::overlay::OverlayFile;
+pub use self::projection::{PrincipalFile, ProjectionFile};
+pub use self::sheet::{
+    AngleFile, AxonometricFile, OrientationFile, PaperFile, SheetFile, SideFile, UnitFile,
+};
 pub use super::number::Finite;
 use super::number::{Scale, Triple};
 use crate::import;
@@ -39,6 +47,11 @@ pub struct SceneFile {
     /// The picture. Default: 960 × 720 pixels, transparent.
     #[serde(default)]
     pub image: ImageFile,
+    /// What is drawn over the picture. Default: nothing.
+    #[serde(default)]
+    pub overlays: Vec<OverlayFile>,
+    /// How `alberti sheet` puts the models on paper. Default: as its flags say.
+    pub sheet: Option<SheetFile>,
 }
 
 /// A glTF file and where it goes: scaled, then turned, then moved.
@@ -104,6 +117,8 @@ impl SceneFile {
             environment: None,
             style: StyleFile::default(),
             image: ImageFile::default(),
+            overlays: Vec::new(),
+            sheet: None,
         }
     }
 }

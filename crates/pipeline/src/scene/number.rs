@@ -54,9 +54,47 @@ checked_number! {
     FieldOfView, "an angle between 0 and 180 degrees", |x| x > 0.0 && x < 180.0
 }
 
+checked_number! {
+    /// A part of a whole in per cent, from 0 to 100.
+    Percent, "a number from 0 to 100", |x| (0.0..=100.0).contains(&x)
+}
+checked_number! {
+    /// An angle between two faces in degrees, from 0 to 180.
+    Crease, "an angle from 0 to 180 degrees", |x| (0.0..=180.0).contains(&x)
+}
+
+impl Percent {
+    /// Nothing.
+    pub const ZERO: Self = Self(0.0);
+    /// Eighty.
+    pub const EIGHTY: Self = Self(80.0);
+}
+
+impl Crease {
+    /// 30 degrees: a cylinder of twelve sides is still round.
+    pub const USUAL: Self = Self(30.0);
+}
+
+impl Positive {
+    /// A number that is known to be greater than 0.
+    pub(super) const fn known(value: f64) -> Self {
+        debug_assert!(value > 0.0, "a positive number is greater than 0");
+        Self(value)
+    }
+}
+
+impl Finite {
+    /// A number that is known to be finite.
+    pub(super) const fn known(value: f64) -> Self {
+        debug_assert!(value.is_finite(), "a finite number is finite");
+        Self(value)
+    }
+}
+
 impl NonNegative {
-    /// 1, the usual strength.
+    /// 1.
     pub const ONE: Self = Self(1.0);
+
     /// 5, the usual margin in per cent.
     pub const FIVE: Self = Self(5.0);
 }

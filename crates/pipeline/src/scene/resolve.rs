@@ -1,13 +1,16 @@
 //! From what a person wrote to what drawing needs, or to an error that points.
 
-use super::file::{BackgroundFile, Choice, Finite, ModelFile, StyleFile, ToneMappingFile};
+use super::file::{BackgroundFile, Choice, Finite, ModelFile, OverlayFile, ToneMappingFile};
 use super::lights::resolve_lights;
 use super::locate::Step::{Field, Index};
+use super::look::resolve_style;
+use super::number::Positive;
 use super::parse::suggestion;
 use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
-use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile, Style};
+use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile};
 use crate::color::parse_hex;
+use crate::drawing::Overlay;
 use crate::import::{FaultKind, ImportError, ImportOptions, load};
 use crate::model::Model;
 use crate::shade::{Develop, ToneMapping};
@@ -71,12 +74,9 @@ impl Scene {
             ToneMappingFile::AgX => ToneMapping::AgX,
         };
         let develop = Develop::new(file.image.exposure_ev.map_or(0.0, Finite::value), curve);
-        let style = match file.style {
-            StyleFile::Shaded => Style::Shaded,
-            StyleFile::Flat => Style::Flat,
-            StyleFile::Wireframe => Style::Wireframe,
-        };
-        Ok(Self { models, shot, lights, environment, develop, style, image })
+        let style = resolve_style(origin, &file.style)?;
+        let overlays = resolve_overlays(origin, &file.overlays, &models, image)?;
+        Ok(Self { models, shot, lights, environment, develop, style, image, overlays })
     }
 }
 
@@ -265,4 +265,24 @@ pub(super) fn placement(entry: &ModelFile) -> Affine<ModelSpace, World> {
         .then(Affine::<ModelSpace, ModelSpace>::rotation_y(ry))
         .then(Affine::<ModelSpace, ModelSpace>::rotation_z(rz))
         .then(Affine::translation(Vector::from(entry.translate.0)))
+}
+
+pub(super) fn resolve_overlays(
+    origin: &Origin,
+    overlays: &[OverlayFile],
+    models: &[Placed],
+    image: ImageSpec,
+) -> Result<Vec<Overlay>, SceneError> {
+    let resolve = |overlay: &OverlayFile| {
+        Ok(match overlay {
+            OverlayFile::Axes { length } => Overlay::Axes(length.map(Positive::value)),
+            OverlayFile::Grid { step } => Overlay::Grid(step.map(Positive::value)),
+            OverlayFile::Horizon => Overlay::Horizon,
+            OverlayFile::VanishingPoints => Overlay::VanishingPoints,
+            OverlayFile::Volume(camera) => {
+                Overlay::Volume(resolve_shot(origin, camera, models, image)?)
+            }
+        })
+    };
+    overlays.iter().map(resolve).collect()
 }

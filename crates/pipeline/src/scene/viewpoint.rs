@@ -16,11 +16,11 @@ const CAMERA: Step<'static> = Field("camera");
 const PROJECTION: [Step<'static>; 2] = [CAMERA, Field("projection")];
 
 /// Everything that camera and projection are resolved from.
-struct Resolver<'a> {
+pub(super) struct Resolver<'a> {
     origin: &'a Origin,
     models: &'a [Placed],
-    points: Vec<Point<World>>,
-    aspect: f64,
+    pub(super) points: Vec<Point<World>>,
+    pub(super) aspect: f64,
 }
 
 /// Camera and projection of a scene.
@@ -47,19 +47,56 @@ pub(super) fn resolve_shot(
             resolver.project(camera, or_usual, None)
         }
         ViewFile::Frame { from, padding_percent } => {
-            resolver.frame(from, padding_percent.value() / 100.0, or_usual)
+            resolver.frame(from.as_ref(), padding_percent.value() / 100.0, or_usual)
         }
         ViewFile::FromModel(choice) => resolver.through_camera(choice, projection),
     }
 }
 
 impl Resolver<'_> {
-    fn camera_fault(&self, error: &camera::CameraError) -> SceneError {
-        self.origin.fault(&[CAMERA, VIEW], error.to_string(), None)
+    pub(super) fn camera_fault(&self, error: &camera::CameraError) -> SceneError {
+        self.view_fault(error.to_string(), None)
     }
 
-    fn projection_fault(&self, error: &ProjectionError) -> SceneError {
-        self.origin.fault(&PROJECTION, error.to_string(), None)
+    pub(super) fn view_fault(
+        &self,
+        message: impl Into<String>,
+        help: Option<String>,
+    ) -> SceneError {
+        self.origin.fault(&[CAMERA, VIEW], message, help)
+    }
+
+    pub(super) fn projection_fault(&self, error: &ProjectionError) -> SceneError {
+        self.whole_fault(error.to_string(), None)
+    }
+
+    /// A fault of the projection as a whole.
+    pub(super) fn whole_fault(
+        &self,
+        message: impl Into<String>,
+        help: Option<String>,
+    ) -> SceneError {
+        self.origin.fault(&PROJECTION, message, help)
+    }
+
+    pub(super) fn framing_fault(&self, error: &camera::FramingError) -> SceneError {
+        if matches!(error, camera::FramingError::NoPoints) {
+            return self.nothing_to_draw();
+        }
+        self.view_fault(error.to_string(), None)
+    }
+
+    pub(super) fn nothing_to_draw(&self) -> SceneError {
+        // What the importer left out is the likely reason.
+        let warnings = self.models.iter().flat_map(|placed| &placed.model.warnings).next();
+        let help = warnings.map(|warning| format!("{}: {}", warning.pointer, warning.message));
+        let message = "there is nothing to draw: the models have no points, lines or triangles";
+        self.view_fault(message, help)
+    }
+
+    /// The middle of the box around everything.
+    pub(super) fn middle(&self) -> Option<Point<World>> {
+        homog::Bounds::of(self.points.iter().copied()).map(homog::Bounds::center)
     }
 
     /// A camera in its place with a projection; `height` is that of a parallel window whose file leaves it open.
@@ -98,6 +135,7 @@ impl Resolver<'_> {
                 Frustum::new(l, r, b, t, near.value(), far)
                     .map(|p| p.view_to_clip(Convention::CHAPTER))
             }
+            _ => return self.classical(camera, projection),
         };
         let view_to_clip = view_to_clip.map_err(|error| self.projection_fault(&error))?;
         Ok(Shot { camera, view_to_clip })
@@ -117,22 +155,15 @@ impl Resolver<'_> {
     /// A camera that looks in a given direction from where everything just fits.
     fn frame(
         &self,
-        from: &FromFile,
+        from: Option<&FromFile>,
         padding: f64,
         projection: &ProjectionFile,
     ) -> Result<Shot, SceneError> {
-        let basis = self.basis(from)?;
+        let usual =
+            if projection.is_classical() { FromFile::Front } else { FromFile::ThreeQuarter };
+        let basis = self.basis(from.unwrap_or(&usual))?;
         let points = self.points.iter().copied();
-        let fault = |error: camera::FramingError| {
-            if !matches!(error, camera::FramingError::NoPoints) {
-                return self.origin.fault(&[CAMERA, VIEW], error.to_string(), None);
-            }
-            // What the importer left out is the likely reason.
-            let warnings = self.models.iter().flat_map(|placed| &placed.model.warnings).next();
-            let help = warnings.map(|warning| format!("{}: {}", warning.pointer, warning.message));
-            let message = "there is nothing to draw: the models have no points, lines or triangles";
-            self.origin.fault(&[CAMERA, VIEW], message, help)
-        };
+        let fault = |error: camera::FramingError| self.framing_fault(&error);
         let slopes = match *projection {
             ProjectionFile::Orthographic { .. } => {
                 let framed = frame_parallel(points, basis, self.aspect, padding).map_err(fault)?;
@@ -151,12 +182,13 @@ impl Resolver<'_> {
                     top: slope(top),
                 }
             }
+            _ => return self.frame_classical(from, padding, projection),
         };
         let framed = frame_perspective(points, basis, slopes, padding).map_err(fault)?;
         self.project(framed.camera, projection, None)
     }
 
-    fn basis(&self, from: &FromFile) -> Result<Basis, SceneError> {
+    pub(super) fn basis(&self, from: &FromFile) -> Result<Basis, SceneError> {
         let named = match from {
             FromFile::Front => NamedView::Front,
             FromFile::Back => NamedView::Back,

@@ -4,7 +4,7 @@ use super::look::Look;
 use super::{AREA, Peer, Quantized};
 use crate::scene::{Part, SIZE, Scene};
 use clip::{Outcode, Volume, clip_triangle};
-use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, Screen, World};
+use homog::{Affine, Clip, HPoint, Ndc, Projective, Screen, World};
 use projection::Convention;
 use raster::{Cover, Cull, Frame, GUARD_BAND, Instructions, Samples, ScreenVertex, signed_area};
 use viewport::Viewport;
@@ -19,6 +19,9 @@ pub struct Raster<'a> {
     ndc_to_screen: Affine<Ndc, Screen>,
     volume: Volume,
     frame: Frame,
+    positions: Vec<[f32; 3]>,
+    /// Of the box around them.
+    corners: [[f32; 3]; 8],
     clip: Vec<HPoint<Clip>>,
     codes: Vec<Outcode>,
     screen: Vec<Option<ScreenVertex>>,
@@ -33,6 +36,7 @@ impl<'a> Raster<'a> {
         let viewport = Viewport::image(SIZE.0, SIZE.1).map_err(|error| error.to_string())?;
         let band = |side: u32| 1.0 - (GUARD_BAND.start() + 1.0) / (0.5 * f64::from(side));
         let volume = Volume::CHAPTER.with_guard_band(band(SIZE.0), band(SIZE.1));
+        let positions: Vec<[f32; 3]> = scene.vertices.iter().map(|v| v.position).collect();
         Ok(Self {
             look: Look::new(scene),
             samples,
@@ -41,7 +45,11 @@ impl<'a> Raster<'a> {
             world_to_clip: scene.world_to_clip(Convention::CHAPTER),
             ndc_to_screen: viewport.ndc_to_screen(),
             volume: volume.map_err(|error| error.to_string())?,
-            frame: Frame::new(SIZE.0, SIZE.1, samples).map_err(|error| error.to_string())?,
+            frame: Frame::new(SIZE.0, SIZE.1, samples)
+                .map_err(|error| error.to_string())?
+                .with_threads(threads),
+            corners: corners(&positions),
+            positions,
             clip: Vec::new(),
             codes: Vec::new(),
             screen: Vec::new(),
@@ -56,24 +64,31 @@ impl<'a> Raster<'a> {
         Self { frame, baseline: true, ..self }
     }
 
-    /// The vertices in clip space and, where nothing needs to be cut, on the screen.
+    /// The vertices on the screen, and if some may have to be cut in clip space too.
     fn vertices(&mut self) {
-        let vertices = &self.look.scene.vertices;
-        self.clip.clear();
-        self.clip.extend(
-            vertices
-                .iter()
-                .map(|v| self.world_to_clip.point(Point::from(v.position.map(f64::from)))),
-        );
-        self.codes.resize(vertices.len(), Outcode::INSIDE);
-        let extent = self.volume.outcodes(&self.clip, &mut self.codes);
         let instructions = self.frame.instructions();
-        ScreenVertex::snap_all(&self.clip, self.ndc_to_screen, instructions, &mut self.screen);
+        let mut corners = [HPoint::new(0.0, 0.0, 0.0, 1.0); 8];
+        let mut codes = [Outcode::INSIDE; 8];
+        let extent =
+            self.volume.project(self.world_to_clip, &self.corners, &mut corners, &mut codes);
         self.whole = extent.is_inside();
-        if !self.whole {
-            for (vertex, code) in self.screen.iter_mut().zip(&self.codes) {
-                *vertex = vertex.filter(|_| code.is_inside());
-            }
+        if self.whole {
+            ScreenVertex::project_all(
+                &self.positions,
+                self.world_to_clip,
+                self.ndc_to_screen,
+                instructions,
+                self.threads,
+                &mut self.screen,
+            );
+            return;
+        }
+        self.clip.resize(self.positions.len(), corners[0]);
+        self.codes.resize(self.positions.len(), Outcode::INSIDE);
+        self.volume.project(self.world_to_clip, &self.positions, &mut self.clip, &mut self.codes);
+        ScreenVertex::snap_all(&self.clip, self.ndc_to_screen, instructions, &mut self.screen);
+        for (vertex, code) in self.screen.iter_mut().zip(&self.codes) {
+            *vertex = vertex.filter(|_| code.is_inside());
         }
     }
 
@@ -112,6 +127,20 @@ impl<'a> Raster<'a> {
             }
         }
     }
+}
+
+/// The corners of the box around positions.
+fn corners(positions: &[[f32; 3]]) -> [[f32; 3]; 8] {
+    let (mut least, mut greatest) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    for position in positions {
+        for axis in 0..3 {
+            least[axis] = least[axis].min(position[axis]);
+            greatest[axis] = greatest[axis].max(position[axis]);
+        }
+    }
+    std::array::from_fn(|corner| {
+        [0, 1, 2].map(|axis| if corner >> axis & 1 == 0 { least[axis] } else { greatest[axis] })
+    })
 }
 
 fn snap(ndc_to_screen: Affine<Ndc, Screen>, point: HPoint<Clip>) -> Option<ScreenVertex> {

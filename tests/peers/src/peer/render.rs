@@ -1,7 +1,7 @@
 //! The whole of `pipeline::render`: our rasteriser with the shading of the finished program, colours in linear light.
 //!
-//! It does more than the peers do: everything is made anew for each frame, colours go through the sRGB curve both ways. What a
-//! frame of the program costs is what people wait for, so it stands beside the bare rasteriser.
+//! It does more than the peers do: materials are looked at, colours go through the sRGB curve both ways. What a frame of the
+//! program costs is what people wait for, so it stands beside the bare rasteriser.
 
 use super::Peer;
 use crate::scene::{AMBIENT, Part, SIZE, Scene, TOWARDS_LIGHT, Texture};
@@ -13,6 +13,7 @@ use pipeline::model::{
 use pipeline::render::Shot;
 use pipeline::scene::{ImageSpec, Placed, Style};
 use pipeline::shade::Light;
+use pipeline::{Picture, Renderer, Textures, Timings};
 use projection::Convention;
 use raster::Samples;
 use std::f32::consts::PI;
@@ -22,8 +23,10 @@ use std::sync::Arc;
 /// The pipeline with a scene.
 pub struct Render {
     scene: pipeline::Scene,
+    textures: Textures<'static>,
+    renderer: Renderer,
     threads: usize,
-    pixels: Vec<[u8; 4]>,
+    picture: Picture,
 }
 
 impl Render {
@@ -44,10 +47,21 @@ impl Render {
                 Light::Sun { towards: TOWARDS_LIGHT, lux: lux(1.0 - AMBIENT) },
                 Light::Ambient { lux: lux(AMBIENT) },
             ],
+            environment: None,
+            develop: pipeline::shade::Develop::default(),
             style: Style::Shaded,
-            image: ImageSpec { width, height, background: [0.0; 4], samples },
+            image: ImageSpec { width, height, background: [0.0; 4], backdrop: None, samples },
+            overlays: Vec::new(),
         };
-        Ok(Self { scene, threads, pixels: Vec::new() })
+        // As long as the process: there are few, and their textures refer to them.
+        let models: &'static [Placed] = scene.models.clone().leak();
+        Ok(Self {
+            scene,
+            textures: Textures::of(models),
+            renderer: Renderer::default(),
+            threads,
+            picture: Picture::default(),
+        })
     }
 }
 
@@ -62,11 +76,16 @@ impl Peer for Render {
     }
 
     fn draw(&mut self) {
-        self.pixels = pipeline::render(&self.scene, self.threads).map_or(Vec::new(), |p| p.pixels);
+        let Self { scene, textures, renderer, threads, picture } = self;
+        let silent = Timings::default();
+        // A scene that cannot be rendered has no pixels, and agrees with nobody.
+        if renderer.render(scene, textures, *threads, &silent, picture).is_err() {
+            picture.pixels.clear();
+        }
     }
 
     fn pixels(&mut self) -> Vec<[u8; 4]> {
-        self.pixels.clone()
+        self.picture.pixels.clone()
     }
 }
 

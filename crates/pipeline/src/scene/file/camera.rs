@@ -1,6 +1,7 @@
 //! The camera of a scene file: where it is, and how it projects.
 
-use crate::scene::number::{FieldOfView, Finite, NonNegative, Positive, Triple};
+use super::projection::ProjectionFile;
+use crate::scene::number::{NonNegative, Triple};
 use camera::NamedView;
 use serde::Deserialize;
 
@@ -40,9 +41,8 @@ pub enum ViewFile {
     },
     /// From a direction, at the distance at which everything just fits.
     Frame {
-        /// Where from.
-        #[serde(default)]
-        from: FromFile,
+        /// Where from. Default: `ThreeQuarter`, and `Front` for classical projections.
+        from: Option<FromFile>,
         /// The margin on each side, in per cent of the picture's side. Default: 5.
         #[serde(default = "usual_padding")]
         padding_percent: NonNegative,
@@ -53,7 +53,7 @@ pub enum ViewFile {
 
 impl Default for ViewFile {
     fn default() -> Self {
-        Self::Frame { from: FromFile::default(), padding_percent: USUAL_PADDING }
+        Self::Frame { from: None, padding_percent: USUAL_PADDING }
     }
 }
 
@@ -117,52 +117,4 @@ pub enum CameraChoice {
     Index(usize),
     /// By its own name or that of its node.
     Name(String),
-}
-
-/// A projection.
-#[derive(Clone, PartialEq, Debug, Deserialize)]
-#[serde(rename = "Projection", deny_unknown_fields)]
-pub enum ProjectionFile {
-    /// Perspective, the eye in front of the picture's centre.
-    Perspective {
-        /// The vertical opening angle. Default: 35.
-        #[serde(default)]
-        fov_y_degrees: FieldOfView,
-        /// The distance of the near plane. Default: as far out as the scene allows.
-        near: Option<Positive>,
-        /// The distance of the far plane. Default: just behind everything.
-        far: Option<Positive>,
-    },
-    /// Parallel, at right angles to the picture.
-    Orthographic {
-        /// The height of the view volume in the scene's units. Default: what the framing asks for.
-        height: Option<Positive>,
-        /// The distance of the near plane. Default: just before everything.
-        near: Option<Finite>,
-        /// The distance of the far plane. Default: just behind everything.
-        far: Option<Finite>,
-    },
-    /// Perspective through any window on the near plane, also one beside the line of sight.
-    Frustum {
-        /// The window's left border.
-        left: Finite,
-        /// The window's right border.
-        right: Finite,
-        /// The window's bottom border.
-        bottom: Finite,
-        /// The window's top border.
-        top: Finite,
-        /// The distance of the window, which is the near plane.
-        near: Positive,
-        /// The distance of the far plane. Default: just behind everything.
-        far: Option<Positive>,
-    },
-}
-
-impl ProjectionFile {
-    /// Perspective with every default.
-    pub const PERSPECTIVE: Self =
-        Self::Perspective { fov_y_degrees: FieldOfView::USUAL, near: None, far: None };
-    /// Orthographic with every default.
-    pub const ORTHOGRAPHIC: Self = Self::Orthographic { height: None, near: None, far: None };
 }

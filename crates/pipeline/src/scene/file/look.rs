@@ -1,10 +1,11 @@
 //! How a scene file wants its picture: the style, the size, the background.
 
-use crate::scene::number::{Finite, NonNegative};
+use super::lines::{HiddenFile, LinesFile, ShownFile, WidthFile};
+use crate::scene::number::{Finite, NonNegative, Percent};
 use serde::Deserialize;
 
 /// How surfaces are drawn.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Deserialize)]
+#[derive(Clone, PartialEq, Debug, Default, Deserialize)]
 #[serde(rename = "Style")]
 pub enum StyleFile {
     /// Lit, with the smooth normals of the file.
@@ -14,6 +15,44 @@ pub enum StyleFile {
     Flat,
     /// The edges of all triangles, the hidden ones too.
     Wireframe,
+    /// A line drawing. Default: hidden lines removed.
+    Lines(LinesFile),
+}
+
+impl StyleFile {
+    /// Hidden lines removed.
+    #[must_use]
+    pub fn removed() -> Self {
+        Self::Lines(LinesFile::default())
+    }
+
+    /// Hidden lines dashed.
+    #[must_use]
+    pub fn dashed() -> Self {
+        Self::Lines(LinesFile { hidden: HiddenFile::Dashed, ..LinesFile::default() })
+    }
+
+    /// The outline alone.
+    #[must_use]
+    pub fn silhouette() -> Self {
+        Self::Lines(LinesFile { shown: ShownFile::Silhouette, ..LinesFile::default() })
+    }
+
+    /// A wireframe that is paler the farther away it is.
+    #[must_use]
+    pub fn depth_cued() -> Self {
+        let (shown, hidden) = (ShownFile::Facets, HiddenFile::Drawn);
+        let depth_cue_percent = Percent::EIGHTY;
+        Self::Lines(LinesFile { shown, hidden, depth_cue_percent, ..LinesFile::default() })
+    }
+
+    /// Visible, hidden and tangent edges with the line types and widths of ISO 128.
+    #[must_use]
+    pub fn technical() -> Self {
+        let (shown, hidden, width) =
+            (ShownFile::Tangents, HiddenFile::Dashed, WidthFile::USUAL_ISO);
+        Self::Lines(LinesFile { shown, hidden, width, ..LinesFile::default() })
+    }
 }
 
 /// The picture.

@@ -1,0 +1,147 @@
+//! Flags that change what a scene says of its picture: the size, the camera, the style, the state of the models.
+
+use super::args::{OverlayArg, ProjectionArg, StyleArg};
+use super::pick::PickArgs;
+use camera::NamedView;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use pipeline::scene::file::{
+    BackgroundFile, CameraChoice, CameraFile, OverlayFile, PrincipalFile, ProjectionFile,
+    SceneFile, StyleFile, USUAL_PADDING, ViewFile,
+};
+
+/// What goes before what the scene says; a bare model is a scene that says nothing.
+#[derive(Clone, Debug, clap::Args)]
+pub(crate) struct LookArgs {
+    /// Width and height in pixels, such as 1920x1080
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub(crate) size: Option<(u32, u32)>,
+    /// How surfaces are drawn
+    #[arg(long)]
+    pub(crate) style: Option<StyleArg>,
+    /// A camera of the model, by name or by number from 0
+    #[arg(long, value_name = "NAME|INDEX", conflicts_with = "view")]
+    pub(crate) camera: Option<String>,
+    #[command(flatten)]
+    pub(crate) pick: PickArgs,
+    /// Frame everything from this side
+    #[arg(long, value_parser = named_view())]
+    pub(crate) view: Option<NamedView>,
+    /// The projection
+    #[arg(long)]
+    pub(crate) projection: Option<ProjectionArg>,
+    /// What is drawn over the picture to explain it; may be given several times
+    #[arg(long, value_name = "WHAT", value_delimiter = ',')]
+    pub(crate) overlay: Vec<OverlayArg>,
+    /// What is seen where no model is: transparent, or a colour such as #f4f1ea
+    #[arg(long, value_name = "COLOR")]
+    pub(crate) background: Option<String>,
+    /// Coverage samples per pixel: 1, 4, 8 or 16
+    #[arg(long, value_name = "N")]
+    pub(crate) samples: Option<u32>,
+}
+
+impl LookArgs {
+    /// What the flags say goes before what the scene says.
+    pub(crate) fn override_in(&self, file: &mut SceneFile) {
+        if let Some(size) = self.size {
+            file.image.size = size;
+        }
+        if let Some(samples) = self.samples {
+            file.image.samples = samples;
+        }
+        if let Some(text) = &self.background {
+            let transparent = text.eq_ignore_ascii_case("transparent");
+            let color = BackgroundFile::Color(text.clone());
+            file.image.background = if transparent { BackgroundFile::Transparent } else { color };
+        }
+        if let Some(style) = self.style {
+            file.style = style.into();
+        }
+        file.overlays.extend(self.overlay.iter().copied().map(OverlayFile::from));
+        file.models.iter_mut().for_each(|model| self.pick.override_in(model));
+        self.override_camera(&mut file.camera);
+    }
+
+    fn override_camera(&self, file: &mut CameraFile) {
+        if let Some(camera) = &self.camera {
+            let by_name = || CameraChoice::Name(camera.clone());
+            let choice = camera.parse().map_or_else(|_| by_name(), CameraChoice::Index);
+            file.view = ViewFile::FromModel(choice);
+        }
+        if let Some(view) = self.view {
+            let padding_percent = match &file.view {
+                ViewFile::Frame { padding_percent, .. } => *padding_percent,
+                _ => USUAL_PADDING,
+            };
+            file.view = ViewFile::Frame { from: Some(view.into()), padding_percent };
+        }
+        if let Some(projection) = self.projection {
+            file.projection = Some(projection.into());
+        }
+    }
+}
+
+impl From<StyleArg> for StyleFile {
+    fn from(style: StyleArg) -> Self {
+        match style {
+            StyleArg::Shaded => Self::Shaded,
+            StyleArg::Flat => Self::Flat,
+            StyleArg::Wireframe => Self::Wireframe,
+            StyleArg::DepthCued => Self::depth_cued(),
+            StyleArg::Lines => Self::removed(),
+            StyleArg::Dashed => Self::dashed(),
+            StyleArg::Silhouette => Self::silhouette(),
+            StyleArg::Technical => Self::technical(),
+        }
+    }
+}
+
+impl From<ProjectionArg> for ProjectionFile {
+    fn from(projection: ProjectionArg) -> Self {
+        match projection {
+            ProjectionArg::Perspective => Self::PERSPECTIVE,
+            ProjectionArg::Orthographic => Self::ORTHOGRAPHIC,
+            ProjectionArg::Multiview => Self::Multiview(PrincipalFile::Front),
+            ProjectionArg::Isometric => Self::Isometric,
+            ProjectionArg::Dimetric => Self::Dimetric,
+            ProjectionArg::Trimetric => Self::Trimetric,
+            ProjectionArg::Cavalier => Self::cavalier(),
+            ProjectionArg::Cabinet => Self::cabinet(),
+            ProjectionArg::Military => Self::military(),
+            ProjectionArg::OnePoint => Self::one_point(),
+            ProjectionArg::TwoPoint => Self::two_point(),
+            ProjectionArg::ThreePoint => Self::three_point(),
+        }
+    }
+}
+
+impl From<OverlayArg> for OverlayFile {
+    fn from(overlay: OverlayArg) -> Self {
+        match overlay {
+            OverlayArg::Axes => Self::Axes { length: None },
+            OverlayArg::Grid => Self::Grid { step: None },
+            OverlayArg::Horizon => Self::Horizon,
+            OverlayArg::VanishingPoints => Self::VanishingPoints,
+        }
+    }
+}
+
+/// The views of the `camera` crate by their names.
+fn named_view() -> impl TypedValueParser<Value = NamedView> {
+    let value = |view: NamedView| match view {
+        NamedView::Isometric => PossibleValue::new(view.name()).alias("iso"),
+        _ => PossibleValue::new(view.name()),
+    };
+    PossibleValuesParser::new(NamedView::ALL.map(value)).try_map(|name| name.parse::<NamedView>())
+}
+
+fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let fault =
+        || format!("expected WIDTHxHEIGHT, such as 1920x1080, each from 1 to {}", raster::MAX_SIDE);
+    let (width, height) = text.split_once(['x', 'X']).ok_or_else(fault)?;
+    let side = |digits: &str| {
+        let side: u32 = digits.parse().map_err(|_| fault())?;
+        (1..=raster::MAX_SIDE).contains(&side).then_some(side).ok_or_else(fault)
+    };
+    Ok((side(width)?, side(height)?))
+}

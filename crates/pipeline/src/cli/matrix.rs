@@ -1,0 +1,84 @@
+//! `alberti matrix`: sixteen numbers, and what they are.
+
+use super::Failure;
+use pipeline::explain::explain_matrix;
+use std::io::{Read as _, Write as _};
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct MatrixArgs {
+    /// Sixteen numbers, row by row; brackets, commas and fractions such as 2/3 may be among them [default: from the standard
+    /// input]
+    #[arg(allow_negative_numbers = true, allow_hyphen_values = true)]
+    numbers: Vec<String>,
+    /// The numbers are listed column by column, as OpenGL, glTF and glam store them
+    #[arg(long)]
+    columns: bool,
+    /// The report for programs
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(args: &MatrixArgs) -> Result<(), Failure> {
+    let text = if args.numbers.is_empty() { standard_input()? } else { args.numbers.join(" ") };
+    let rows = matrix(&text, args.columns).map_err(Failure::Usage)?;
+    let found = explain_matrix(rows).map_err(Failure::Usage)?;
+    let text = if args.json { format!("{:#}\n", found.to_json()) } else { found.to_string() };
+    std::io::stdout().write_all(text.as_bytes())?;
+    Ok(())
+}
+
+fn standard_input() -> Result<String, Failure> {
+    // Sixteen numbers need no more.
+    const MOST: u64 = 1 << 16;
+    let mut bytes = Vec::new();
+    let read = std::io::stdin().take(MOST).read_to_end(&mut bytes);
+    let fault =
+        |problem: String| Failure::Usage(format!("cannot read the standard input: {problem}"));
+    read.map_err(|error| fault(error.to_string()))?;
+    String::from_utf8(bytes).map_err(|_| fault("it is not UTF-8 text".to_owned()))
+}
+
+/// The rows of the matrix that a text lists.
+fn matrix(text: &str, columns: bool) -> Result<[[f64; 4]; 4], String> {
+    let between = |c: char| c.is_whitespace() || "[](){},;|".contains(c);
+    let words = text.split(between).filter(|word| !word.is_empty());
+    let numbers: Vec<f64> = words.map(number).collect::<Result<_, _>>()?;
+    let listed: [f64; 16] = numbers.try_into().map_err(|numbers: Vec<f64>| {
+        format!("a matrix has 16 numbers, and here are {}", numbers.len())
+    })?;
+    let at = |row: usize, column: usize| if columns { 4 * column + row } else { 4 * row + column };
+    Ok(std::array::from_fn(|row| std::array::from_fn(|column| listed[at(row, column)])))
+}
+
+/// A number or a fraction.
+fn number(word: &str) -> Result<f64, String> {
+    let fault = || format!("`{word}` is not a number");
+    let parse = |digits: &str| digits.parse::<f64>().map_err(|_| fault());
+    match word.split_once('/') {
+        Some((above, below)) => Ok(parse(above)? / parse(below)?),
+        None => parse(word),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_may_be_written_in_many_ways() {
+        let rows = [
+            [1.0, 0.0, 0.0, 2.0],
+            [0.0, 1.0, 0.0, 0.5],
+            [0.0, 0.0, 1.0, -1e3],
+            [0.0, 0.0, 0.0, 1.0],
+        ];
+        assert_eq!(matrix("1 0 0 2 0 1 0 1/2 0 0 1 -1e3 0 0 0 1", false), Ok(rows));
+        assert_eq!(matrix("[[1,0,0,2],[0,1,0,.5],[0,0,1,-1000],[0,0,0,1]]", false), Ok(rows));
+        assert_eq!(matrix("(1 0 0 0) (0 1 0 0) (0 0 1 0) (2 0.5 -1000 1)", true), Ok(rows));
+        assert_eq!(
+            matrix("1 2 3", false),
+            Err("a matrix has 16 numbers, and here are 3".to_owned())
+        );
+        assert_eq!(matrix("1 x", false), Err("`x` is not a number".to_owned()));
+    }
+}

@@ -1,0 +1,65 @@
+//! Welding: points at the same place become one.
+//!
+//! Files split the vertices of a surface where texture coordinates, normals or materials jump, and give each side of the seam
+//! its own copy. Copies have the same bits, or those of a neighbouring grid where positions were quantised apart.
+
+use super::gather::{Face, Shape};
+use glam::DVec3;
+
+/// Gives all points at exactly the same place one number, and leaves out faces that have lost a corner and faces that
+/// are there twice.
+pub(super) fn weld_equal(shape: &mut Shape) {
+    let order = sorted(&shape.points);
+    let mut same: Vec<u32> = (0..shape.points.len() as u32).collect();
+    for pair in order.windows(2) {
+        let [a, b] = [pair[0], pair[1]].map(|at| at as usize);
+        if shape.points[a] == shape.points[b] {
+            same[b] = same[a];
+        }
+    }
+    renumber(shape, &same);
+}
+
+/// The numbers of the points in the order of their coordinates, equal ones in the order of their numbers.
+fn sorted(points: &[DVec3]) -> Vec<u32> {
+    let mut keyed: Vec<([f64; 3], u32)> =
+        points.iter().zip(0..).map(|(point, at)| (point.to_array(), at)).collect();
+    keyed.sort_unstable_by(|(a, i), (b, j)| {
+        let order = a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]));
+        order.then(a[2].total_cmp(&b[2])).then(i.cmp(j))
+    });
+    keyed.into_iter().map(|(_, at)| at).collect()
+}
+
+/// Replaces each point by another.
+pub(super) fn renumber(shape: &mut Shape, same: &[u32]) {
+    for face in &mut shape.faces {
+        face.corners = face.corners.map(|corner| same[corner as usize]);
+    }
+    for stroke in &mut shape.strokes {
+        stroke.ends = stroke.ends.map(|end| same[end as usize]);
+    }
+    shape.faces.retain(|Face { corners: [a, b, c], .. }| a != b && b != c && c != a);
+    shape.strokes.retain(|stroke| stroke.ends[0] != stroke.ends[1]);
+    drop_copies(&mut shape.faces);
+}
+
+/// Leaves one of faces with the same three corners, whichever way they run: two-sided surfaces are often made of two.
+fn drop_copies(faces: &mut Vec<Face>) {
+    let mut keyed: Vec<([u32; 3], u32)> = faces
+        .iter()
+        .zip(0..)
+        .map(|(face, at)| {
+            let mut corners = face.corners;
+            corners.sort_unstable();
+            (corners, at)
+        })
+        .collect();
+    keyed.sort_unstable();
+    let mut is_copy = vec![false; faces.len()];
+    for pair in keyed.windows(2) {
+        is_copy[pair[1].1 as usize] = pair[0].0 == pair[1].0;
+    }
+    let mut copies = is_copy.into_iter();
+    faces.retain(|_| copies.next() != Some(true));
+}

@@ -1,0 +1,94 @@
+//! What a drawing shows.
+
+use super::EdgeClass;
+
+/// What a drawing shows.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Options {
+    /// The edges that are drawn.
+    pub classes: EdgeClasses,
+    /// What becomes of hidden parts.
+    pub hidden: Hidden,
+    /// Two faces that meet at more than this angle make a crease: in radians, 0 for faces that go on straight.
+    /// Default: 30 degrees.
+    pub crease: f64,
+}
+
+/// What becomes of the hidden parts of edges.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Hidden {
+    /// They are left out.
+    Removed,
+    /// They are kept, and marked as hidden.
+    Kept,
+    /// Nobody asks: all edges are drawn as visible from end to end.
+    Ignored,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self::hidden_removed()
+    }
+}
+
+impl Options {
+    const CREASE: f64 = std::f64::consts::FRAC_PI_6;
+
+    /// The edges one would draw by hand, where they can be seen.
+    #[must_use]
+    pub const fn hidden_removed() -> Self {
+        Self { classes: EdgeClasses::FEATURES, hidden: Hidden::Removed, crease: Self::CREASE }
+    }
+
+    /// The same with the hidden parts, to be dashed.
+    #[must_use]
+    pub const fn hidden_kept() -> Self {
+        Self { hidden: Hidden::Kept, ..Self::hidden_removed() }
+    }
+
+    /// Silhouettes and borders, where they can be seen.
+    #[must_use]
+    pub const fn silhouettes() -> Self {
+        let classes = EdgeClasses::NONE.with(EdgeClass::Silhouette).with(EdgeClass::Boundary);
+        Self { classes, ..Self::hidden_removed() }
+    }
+
+    /// Every side of every face, as if surfaces were of wire.
+    #[must_use]
+    pub const fn wireframe() -> Self {
+        Self { classes: EdgeClasses::ALL, hidden: Hidden::Ignored, crease: Self::CREASE }
+    }
+}
+
+/// A set of classes of edges.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct EdgeClasses(u16);
+
+impl EdgeClasses {
+    /// No class.
+    pub const NONE: Self = Self(0);
+
+    /// Every class.
+    pub const ALL: Self = Self(u16::MAX);
+
+    /// All but facets.
+    pub const FEATURES: Self = Self::ALL.without(EdgeClass::Facet);
+
+    /// The set with a class.
+    #[must_use]
+    pub const fn with(self, class: EdgeClass) -> Self {
+        Self(self.0 | 1 << class as u16)
+    }
+
+    /// The set without a class.
+    #[must_use]
+    pub const fn without(self, class: EdgeClass) -> Self {
+        Self(self.0 & !(1 << class as u16))
+    }
+
+    /// Whether a class is in the set.
+    #[must_use]
+    pub const fn contains(self, class: EdgeClass) -> bool {
+        self.0 >> class as u16 & 1 == 1
+    }
+}

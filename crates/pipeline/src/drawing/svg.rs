@@ -1,0 +1,245 @@
+//! SVG: a page as Scalable Vector Graphics, in millimetres.
+//!
+//! A layer is a group with its pen, an object a group in it with one path; both have ids and titles. Paths go by relative steps of
+//! whole micrometres, so they are short, and their sums are exact.
+
+use super::fixed::{length, thousandths};
+use super::page::{Cap, Group, Ink, Join, Layer, Page, Pen, Place, Polyline};
+use std::fmt::Write;
+
+impl Page {
+    /// The page as an SVG file.
+    #[must_use]
+    pub fn to_svg(&self) -> String {
+        let [width, height] = self.size.to_array().map(length);
+        let mut svg = String::new();
+        let _ = write!(
+            svg,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" \
+             viewBox=\"0 0 {width} {height}\">\n<title>{}</title>\n",
+            escaped(&self.title)
+        );
+        if let Some(paper) = self.paper {
+            let paper = color(paper);
+            let _ = writeln!(svg, "<rect width=\"{width}\" height=\"{height}\" fill=\"{paper}\"/>");
+        }
+        for layer in &self.layers {
+            write_layer(&mut svg, layer);
+        }
+        svg += "</svg>\n";
+        svg
+    }
+}
+
+fn write_layer(svg: &mut String, layer: &Layer) {
+    let id = escaped(&layer.id);
+    let _ = write!(
+        svg,
+        "<g id=\"{id}\" {}>\n<title>{}</title>\n",
+        attributes(&layer.pen),
+        escaped(&layer.title)
+    );
+    for group in &layer.groups {
+        if group.id.is_empty() {
+            write_paths(svg, group, layer.pen.ink);
+            continue;
+        }
+        let _ = writeln!(svg, "<g id=\"{id}.{}\">", escaped(&group.id));
+        if !group.title.is_empty() {
+            let _ = writeln!(svg, "<title>{}</title>", escaped(&group.title));
+        }
+        write_paths(svg, group, layer.pen.ink);
+        *svg += "</g>\n";
+    }
+    *svg += "</g>\n";
+}
+
+fn write_paths(svg: &mut String, group: &Group, ink: Ink) {
+    if !group.strokes.is_empty() {
+        let _ = writeln!(svg, "<path d=\"{}\"/>", path(&group.strokes));
+    }
+    if !group.fills.is_empty() {
+        let (path, ink) = (path(&group.fills), color(ink));
+        let _ = writeln!(
+            svg,
+            "<path d=\"{path}\" fill=\"{ink}\" fill-rule=\"evenodd\" stroke=\"none\"/>"
+        );
+    }
+}
+
+/// What a pen is in the words of SVG; what is SVG's own default is left out.
+fn attributes(pen: &Pen) -> String {
+    let mut words = format!(
+        "fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"",
+        color(pen.ink),
+        length(pen.width)
+    );
+    match pen.cap {
+        Cap::Butt => {}
+        Cap::Round => words += " stroke-linecap=\"round\"",
+        Cap::Square => words += " stroke-linecap=\"square\"",
+    }
+    match pen.join {
+        Join::Miter => {}
+        Join::Round => words += " stroke-linejoin=\"round\"",
+        Join::Bevel => words += " stroke-linejoin=\"bevel\"",
+    }
+    if !pen.dashes.is_empty() {
+        let dashes: Vec<String> = pen.dashes.iter().map(|&dash| length(dash)).collect();
+        words += &format!(" stroke-dasharray=\"{}\"", dashes.join(" "));
+    }
+    words
+}
+
+/// A colour as `#rrggbb`, or `#rgb` where that says the same.
+fn color([r, g, b]: Ink) -> String {
+    if [r, g, b].iter().all(|c| c % 17 == 0) {
+        return format!("#{:x}{:x}{:x}", r / 17, g / 17, b / 17);
+    }
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+/// The `d` of a path through all these lines.
+fn path(lines: &[Polyline]) -> String {
+    let mut path = Path { out: Vec::new(), at: [0, 0], is_begun: false };
+    for line in lines {
+        path.line(line);
+    }
+    String::from_utf8_lossy(&path.out).into_owned()
+}
+
+/// A path being written.
+struct Path {
+    out: Vec<u8>,
+    at: Place,
+    is_begun: bool,
+}
+
+impl Path {
+    fn line(&mut self, line: &Polyline) {
+        let [start, rest @ ..] = line.points.as_slice() else { return };
+        self.out.push(if self.is_begun { b'm' } else { b'M' });
+        self.numbers(*start);
+        self.is_begun = true;
+        let mut command = 0;
+        for point in rest {
+            command = self.step(*point, command);
+        }
+        if line.closed {
+            self.out.push(b'z');
+            self.at = *start;
+        }
+    }
+
+    /// A straight line to a place, and the command that was used; a command that is the same as the one before is not repeated.
+    fn step(&mut self, to: Place, last: u8) -> u8 {
+        let (dx, dy) = (self.step_of(0, to), self.step_of(1, to));
+        let command = match (dx, dy) {
+            (_, 0) => b'h',
+            (0, _) => b'v',
+            _ => b'l',
+        };
+        if command != last {
+            self.out.push(command);
+        } else if (if command == b'v' { dy } else { dx }) >= 0 {
+            self.out.push(b' ');
+        }
+        match command {
+            b'h' => thousandths(&mut self.out, dx),
+            b'v' => thousandths(&mut self.out, dy),
+            _ => self.pair(dx, dy),
+        }
+        self.at = to;
+        command
+    }
+
+    fn step_of(&self, axis: usize, to: Place) -> i64 {
+        i64::from(to[axis]) - i64::from(self.at[axis])
+    }
+
+    fn numbers(&mut self, to: Place) {
+        self.pair(self.step_of(0, to), self.step_of(1, to));
+        self.at = to;
+    }
+
+    fn pair(&mut self, x: i64, y: i64) {
+        thousandths(&mut self.out, x);
+        if y >= 0 {
+            self.out.push(b' ');
+        }
+        thousandths(&mut self.out, y);
+    }
+}
+
+/// A text that is safe between tags and in quotation marks. Characters that XML has no place for are left out.
+fn escaped(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => safe += "&amp;",
+            '<' => safe += "&lt;",
+            '>' => safe += "&gt;",
+            '"' => safe += "&quot;",
+            '\u{fffe}' | '\u{ffff}' => {}
+            c if (c as u32) < 0x20 && !matches!(c, '\t' | '\n' | '\r') => {}
+            c => safe.push(c),
+        }
+    }
+    safe
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec2;
+
+    fn line(points: &[[i32; 2]], closed: bool) -> Polyline {
+        Polyline { points: points.to_vec(), closed }
+    }
+
+    #[test]
+    fn paths_are_short_and_come_back_to_the_micrometre() {
+        let lines = [
+            line(
+                &[
+                    [1000, 2000],
+                    [1500, 2000],
+                    [1250, 2000],
+                    [1250, 1000],
+                    [1000, 1250],
+                    [900, 1350],
+                    [1000, 1400],
+                ],
+                false,
+            ),
+            line(&[[0, 0], [500, 500], [0, 1000]], true),
+            line(&[[10, 10], [20, 10]], false),
+        ];
+        assert_eq!(
+            path(&lines),
+            "M1 2h.5-.25v-1l-.25 .25-.1 .1 .1 .05m-1-1.4l.5 .5-.5 .5zm.01 .01h.01"
+        );
+    }
+
+    #[test]
+    fn names_cannot_break_the_file() {
+        let nasty = "</title><script>\u{0}\u{1b}alert(\"1 & 2\")</script>\u{ffff}";
+        let mut page = Page::new(DVec2::new(10.0, 10.0), nasty, Some([255; 3]));
+        let mut layer = Layer::new("a\"b", nasty, Pen::of_width(0.1, [1, 2, 3]));
+        let strokes = vec![line(&[[0, 0], [1, 1]], false)];
+        layer.groups.push(Group { id: "1".into(), title: nasty.into(), strokes, fills: vec![] });
+        page.layers.push(layer);
+        let svg = page.to_svg();
+        assert!(
+            !svg.contains("<script") && svg.contains("&lt;script&gt;alert(&quot;1 &amp; 2&quot;)")
+        );
+        assert!(svg.contains("id=\"a&quot;b.1\""));
+        assert!(svg.chars().all(|c| c >= ' ' || c == '\n'), "{svg}");
+    }
+
+    #[test]
+    fn colours_are_as_on_a_web_page() {
+        assert_eq!(color([255, 0, 0x33]), "#f03");
+        assert_eq!(color([1, 0, 0x33]), "#010033");
+    }
+}

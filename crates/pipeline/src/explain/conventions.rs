@@ -1,0 +1,108 @@
+//! Whose conventions an explanation speaks in: the canonical volume, the side that view space looks to, and how pixels are
+//! counted. The picture does not depend on them.
+
+use projection::{Convention, Handedness, NdcY};
+use std::str::FromStr;
+use viewport::{DepthRange, PixelConvention, Rectangle, Viewport, ViewportError};
+
+/// The conventions of a book or of a graphics interface.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Conventions {
+    /// Those that this program computes with: the chapter's volume, near at z = +1; pixels as in image files, depth 1 at the
+    /// near plane.
+    #[default]
+    Alberti,
+    /// Shirley and others, chapters 7 and 8: near at z = +1, integer pixel centres, y up, z kept.
+    Chapter,
+    /// OpenGL: near at z = −1, y up, depth 0 at the near plane.
+    OpenGl,
+    /// Vulkan: near at z = 0, y down in clip space.
+    Vulkan,
+    /// Direct3D: near at z = 0, view space looks along +z.
+    Direct3d,
+    /// Metal and WebGPU: near at z = 0, y up.
+    WebGpu,
+}
+
+impl Conventions {
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::Alberti, Self::Chapter, Self::OpenGl, Self::Vulkan, Self::Direct3d, Self::WebGpu];
+
+    /// The name on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Alberti => "alberti",
+            Self::Chapter => "chapter",
+            Self::OpenGl => "opengl",
+            Self::Vulkan => "vulkan",
+            Self::Direct3d => "direct3d",
+            Self::WebGpu => "webgpu",
+        }
+    }
+
+    /// The canonical view volume.
+    #[must_use]
+    pub const fn volume(self) -> Convention {
+        match self {
+            Self::Alberti | Self::Chapter => Convention::CHAPTER,
+            Self::OpenGl => Convention::OPENGL,
+            Self::Vulkan => Convention::VULKAN,
+            Self::Direct3d => Convention::DIRECT3D,
+            Self::WebGpu => Convention::WEBGPU,
+        }
+    }
+
+    /// Whether view space looks along +z.
+    pub(super) fn looks_along_z(self) -> bool {
+        self.volume().handedness() == Handedness::Left
+    }
+
+    /// Whether y runs down in clip space.
+    pub(super) fn y_runs_down(self) -> bool {
+        self.volume().ndc_y() == NdcY::Down
+    }
+
+    /// The viewport on the whole of an image.
+    pub(super) fn viewport(self, width: u32, height: u32) -> Result<Viewport, ViewportError> {
+        let (pixels, depth) = match self {
+            Self::Alberti => (PixelConvention::IMAGE, DepthRange::ZERO_ONE),
+            Self::Chapter => return Viewport::chapter(width, height),
+            Self::OpenGl => (PixelConvention::OPENGL, DepthRange::ZERO_ONE),
+            // Vulkan's y runs down before the viewport; `ndc_to_screen` turns it over there.
+            Self::Vulkan => (PixelConvention::OPENGL, DepthRange::KEEP),
+            Self::Direct3d | Self::WebGpu => (PixelConvention::IMAGE, DepthRange::KEEP),
+        };
+        let area = Rectangle::of_size(width.into(), height.into())?;
+        Ok(Viewport::new(area, pixels, depth))
+    }
+}
+
+impl FromStr for Conventions {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        let found = Self::ALL.into_iter().find(|conventions| conventions.name() == name);
+        found.ok_or_else(|| format!("there are no conventions `{name}`"))
+    }
+}
+
+/// What people call a canonical volume.
+pub(super) fn volume_name(volume: Convention) -> &'static str {
+    const NAMES: [(Convention, &str); 9] = [
+        (Convention::OPENGL, "OpenGL (near −1, far +1)"),
+        (Convention::CHAPTER, "the textbook (near +1, far −1)"),
+        (Convention::WEBGPU, "Metal and WebGPU (near 0, far 1)"),
+        (Convention::WEBGPU.reversed(), "Metal and WebGPU with reversed depth (near 1, far 0)"),
+        (Convention::VULKAN, "Vulkan (near 0, far 1, y down)"),
+        (Convention::VULKAN.reversed(), "Vulkan with reversed depth (near 1, far 0, y down)"),
+        (Convention::DIRECT3D, "Direct3D (near 0, far 1, looks along +z)"),
+        (
+            Convention::DIRECT3D.reversed(),
+            "Direct3D with reversed depth (near 1, far 0, looks along +z)",
+        ),
+        (Convention::OPENGL.left_handed(), "OpenGL's volume seen along +z"),
+    ];
+    NAMES.iter().find(|(named, _)| *named == volume).map_or("another convention", |(_, name)| name)
+}

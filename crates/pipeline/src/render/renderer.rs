@@ -1,0 +1,116 @@
+//! One picture after the other, in the memory of the first.
+
+use super::RenderError;
+use super::assemble::{Images, assemble};
+use super::textures::Textures;
+use crate::color::SrgbEncoder;
+use crate::scene::Scene;
+use crate::shade::{Draw, DrawList, Shading, Vertex};
+use crate::{Picture, Timings};
+use raster::Frame;
+
+/// Renders surfaces again and again: the same models from elsewhere, in other light, in another pose.
+///
+/// What the first picture has allocated the next ones use, so that but for lists of nodes (and of what bends or changes its
+/// shape) nothing is allocated any more. The pictures do not depend on what was rendered before.
+///
+/// ```no_run
+/// # use pipeline::{Origin, Picture, Renderer, Scene, Textures, Timings};
+/// # let origin = Origin::bare_model("model.glb".as_ref());
+/// let mut scene = Scene::resolve(&origin.0, &origin.1, &Default::default())?;
+/// let models = scene.models.clone(); // they are shared, not copied
+/// let textures = Textures::of(&models);
+/// let (mut renderer, mut picture) = (Renderer::default(), Picture::default());
+/// for step in 0..100 {
+///     scene.image.background = [0.0, 0.0, 0.01 * step as f32, 1.0];
+///     renderer.render(&scene, &textures, 2, &Timings::default(), &mut picture)?;
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Default)]
+pub struct Renderer {
+    frame: Option<Frame>,
+    images: Images,
+    /// No draws, but room for them.
+    draws: Vec<Draw<'static>>,
+    spare: Vec<Vec<Vertex>>,
+}
+
+/// What a picture is put together in.
+#[derive(Debug)]
+pub(super) struct Memory<'a> {
+    pub(super) frame: Frame,
+    pub(super) draws: DrawList<'a>,
+    pub(super) images: Images,
+    /// Lists for what the vertices of draws carry.
+    pub(super) spare: Vec<Vec<Vertex>>,
+}
+
+impl Renderer {
+    /// Renders the surfaces of a scene with up to `threads` threads, whose number does not change the picture. `textures` are
+    /// those of the scene's models.
+    ///
+    /// # Errors
+    /// If the picture's size is out of range or the scene holds too much.
+    pub fn render(
+        &mut self,
+        scene: &Scene,
+        textures: &Textures<'_>,
+        threads: usize,
+        timings: &Timings,
+        picture: &mut Picture,
+    ) -> Result<(), RenderError> {
+        let image = scene.image;
+        let memory = self.lend(scene, threads)?;
+        let memory = timings.measure("vertices", || assemble(scene, textures, threads, memory))?;
+        let Memory { frame, draws, .. } = &memory;
+        let shading = Shading {
+            draws,
+            lights: &scene.lights,
+            environment: scene.environment.as_deref(),
+            develop: scene.develop,
+            viewer: scene.shot.viewer(),
+            instructions: frame.instructions(),
+        };
+        picture.resize(image.width, image.height);
+        let encoder = SrgbEncoder::shared();
+        timings.measure("pixels", || {
+            frame.draw(&shading, image.background, threads, &mut picture.pixels, encoder);
+        });
+        self.take_back(memory);
+        Ok(())
+    }
+
+    /// The memory, with an empty frame for the scene's picture.
+    pub(super) fn lend<'a>(
+        &mut self,
+        scene: &Scene,
+        threads: usize,
+    ) -> Result<Memory<'a>, RenderError> {
+        let image = scene.image;
+        let frame = match self.frame.take() {
+            Some(mut frame) => {
+                frame.restart(image.width, image.height, image.samples)?;
+                frame
+            }
+            None => Frame::new(image.width, image.height, image.samples)?,
+        };
+        let draws = DrawList { draws: emptied(std::mem::take(&mut self.draws)) };
+        let images = std::mem::take(&mut self.images);
+        let spare = std::mem::take(&mut self.spare);
+        Ok(Memory { frame: frame.with_threads(threads), draws, images, spare })
+    }
+
+    fn take_back(&mut self, memory: Memory<'_>) {
+        let Memory { frame, mut draws, images, mut spare } = memory;
+        // The first list that is asked for next time is the one of the first draw.
+        spare.extend(draws.draws.drain(..).rev().map(|draw| draw.vertices));
+        *self = Self { frame: Some(frame), images, draws: emptied(draws.draws), spare };
+    }
+}
+
+/// The room of a list, for draws of other things.
+fn emptied<'b>(mut draws: Vec<Draw<'_>>) -> Vec<Draw<'b>> {
+    draws.clear();
+    draws.into_iter().map_while(|_| None).collect()
+}

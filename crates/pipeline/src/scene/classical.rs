@@ -1,0 +1,208 @@
+//! The classical projections of a scene: each finds a window in which everything is.
+//!
+//! Those that are given by a picture plane are framed on it: the points are projected, the box around their images is the window, and
+//! the box's depths the near and far planes. Those that are given by vanishing points on the picture fix how the eye looks and where
+//! the window is beside its line of sight; framing finds where the eye stands.
+
+use super::SceneError;
+use super::file::{Finite, FromFile, PrincipalFile, ProjectionFile};
+use super::viewpoint::Resolver;
+use crate::render::Shot;
+use camera::{Basis, Camera, Slopes, frame_perspective};
+use glam::DVec3;
+use homog::{Point, Projective, Vector, View};
+use projection::{
+    Axonometric, Classical, ConstructedPerspective, Convention, Frustum, NPoint, Oblique,
+    Orthographic, Planometric, PrincipalView, ProjectionError, Window,
+};
+
+/// The box around the images of all points.
+#[derive(Clone, Copy, Debug)]
+struct Image {
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Resolver<'_> {
+    /// A classical projection of the models as seen from a side; the front, unless another is named.
+    pub(super) fn frame_classical(
+        &self,
+        from: Option<&FromFile>,
+        padding: f64,
+        projection: &ProjectionFile,
+    ) -> Result<Shot, SceneError> {
+        let basis = self.basis(from.unwrap_or(&FromFile::Front))?;
+        if let Some(construction) = constructed(projection) {
+            let construction = construction.map_err(|error| self.projection_fault(&error))?;
+            return self.construct(basis, construction, padding);
+        }
+        let middle = self.middle().ok_or_else(|| self.nothing_to_draw())?;
+        let camera = Camera::new(middle, basis).map_err(|error| self.camera_fault(&error))?;
+        self.through_plane(camera, projection, padding)
+    }
+
+    /// A classical projection before a camera that stands somewhere.
+    pub(super) fn classical(
+        &self,
+        camera: Camera,
+        projection: &ProjectionFile,
+    ) -> Result<Shot, SceneError> {
+        if constructed(projection).is_some() {
+            let help = "take Frame(from: …), or leave the view out".to_owned();
+            let message = "a perspective by vanishing points finds its own eye";
+            return Err(self.view_fault(message, Some(help)));
+        }
+        self.through_plane(camera, projection, 0.05)
+    }
+
+    /// A projection that is given by its picture plane.
+    fn through_plane(
+        &self,
+        camera: Camera,
+        projection: &ProjectionFile,
+        padding: f64,
+    ) -> Result<Shot, SceneError> {
+        let world_to_view = camera.world_to_view();
+        let points: Vec<Point<View>> =
+            self.points.iter().map(|&point| world_to_view.point(point)).collect();
+        let fault = |error: ProjectionError| self.projection_fault(&error);
+        let depth_kept = by_plane(projection, radius(&points)).map_err(fault)?.depth_kept();
+        let image = Image::of(&points, depth_kept).ok_or_else(|| {
+            let help = "smaller p, q and r move the eye away: below 0.5 in all they always do";
+            self.whole_fault("a part of the models is behind the eye", Some(help.to_owned()))
+        })?;
+        let volume = image.volume(self.aspect, padding).map_err(fault)?;
+        let view_to_clip = depth_kept.then(volume.view_to_clip(Convention::CHAPTER));
+        Ok(Shot { camera, view_to_clip })
+    }
+
+    /// A perspective that is given by vanishing points.
+    fn construct(
+        &self,
+        from: Basis,
+        construction: ConstructedPerspective,
+        padding: f64,
+    ) -> Result<Shot, SceneError> {
+        let fault = |error: ProjectionError| self.projection_fault(&error);
+        // The rows of the rotation are the eye's axes as the side from which the models are seen has them.
+        let rows = construction.world_to_view().raw().transpose();
+        let axis = |row: glam::DVec4| from.to_world(Vector::from_raw(row.truncate()));
+        let basis = Basis::from_gaze(-axis(rows.z_axis), axis(rows.y_axis))
+            .map_err(|error| self.camera_fault(&error))?;
+        let window = Window::new(-self.aspect, self.aspect, -1.0, 1.0).map_err(fault)?;
+        let slopes = construction.frustum(window, 1.0, 2.0).map_err(fault)?.slopes();
+        let frame = Slopes {
+            left: slopes.left(),
+            right: slopes.right(),
+            bottom: slopes.bottom(),
+            top: slopes.top(),
+        };
+        let points = self.points.iter().copied();
+        let framed = frame_perspective(points, basis, frame, padding);
+        let framed = framed.map_err(|error| self.framing_fault(&error))?;
+        let span = super::bounds::DepthSpan::of(&self.points, framed.camera);
+        let (near, far) = span.perspective(None, None);
+        let frustum = Frustum::from_slopes(slopes, near, far).map_err(fault)?;
+        Ok(Shot { camera: framed.camera, view_to_clip: frustum.view_to_clip(Convention::CHAPTER) })
+    }
+}
+
+/// The construction, for the projections that are given by vanishing points.
+fn constructed(
+    projection: &ProjectionFile,
+) -> Option<Result<ConstructedPerspective, ProjectionError>> {
+    let at = |(x, y): (Finite, Finite)| (x.value(), y.value());
+    Some(match *projection {
+        ProjectionFile::OnePoint { at: point, distance } => {
+            ConstructedPerspective::one_point(at(point), distance.value())
+        }
+        ProjectionFile::TwoPoint { x, z, fraction } => {
+            ConstructedPerspective::two_point(at(x), at(z), fraction.value())
+        }
+        ProjectionFile::ThreePoint { x, y, z } => {
+            ConstructedPerspective::three_point(at(x), at(y), at(z))
+        }
+        _ => return None,
+    })
+}
+
+/// The projection that is given by its picture plane; `radius` is that of the models about the camera.
+fn by_plane(projection: &ProjectionFile, radius: f64) -> Result<Classical, ProjectionError> {
+    // People say where depth recedes to; the builder wants where it comes from.
+    let phi = |degrees: Finite| (degrees.value() + 180.0).to_radians();
+    Ok(match *projection {
+        ProjectionFile::Isometric => Axonometric::isometric().into(),
+        ProjectionFile::Dimetric => Axonometric::dimetric_42_7().into(),
+        ProjectionFile::Trimetric => trimetric()?.into(),
+        ProjectionFile::Axonometric { x, y, z } => {
+            Axonometric::by_foreshortening(x.value(), y.value(), z.value())?.into()
+        }
+        ProjectionFile::Cavalier { angle_degrees } => Oblique::cavalier(phi(angle_degrees))?.into(),
+        ProjectionFile::Cabinet { angle_degrees } => Oblique::cabinet(phi(angle_degrees))?.into(),
+        ProjectionFile::Oblique { length, angle_degrees } => {
+            Oblique::new(length.value(), phi(angle_degrees))?.into()
+        }
+        ProjectionFile::Military { turn_degrees, height } => {
+            Planometric::new(turn_degrees.value().to_radians(), height.value())?.into()
+        }
+        ProjectionFile::NPoint { p, q, r } => {
+            let [p, q, r] = [p, q, r].map(|entry| entry.value() / radius);
+            NPoint::new(p, q, r)?.into()
+        }
+        ProjectionFile::Multiview(view) => principal_view(view).into(),
+        _ => PrincipalView::Front.into(),
+    })
+}
+
+/// From (2, 3, 6), as the camera of that name sees.
+fn trimetric() -> Result<Axonometric, ProjectionError> {
+    Axonometric::by_normal(homog::Normal::new(2.0, 3.0, 6.0))
+}
+
+fn principal_view(file: PrincipalFile) -> PrincipalView {
+    match file {
+        PrincipalFile::Front => PrincipalView::Front,
+        PrincipalFile::Back => PrincipalView::Back,
+        PrincipalFile::Left => PrincipalView::Left,
+        PrincipalFile::Right => PrincipalView::Right,
+        PrincipalFile::Top => PrincipalView::Top,
+        PrincipalFile::Bottom => PrincipalView::Bottom,
+    }
+}
+
+/// The greatest distance of a point from the camera; 1 if there is none.
+fn radius(points: &[Point<View>]) -> f64 {
+    let most = points.iter().map(|point| point.raw().length()).fold(0.0, f64::max);
+    if most > 0.0 { most } else { 1.0 }
+}
+
+impl Image {
+    /// The box around the images; `None` if a point has none or lies behind the eye.
+    fn of(points: &[Point<View>], map: Projective<View, View>) -> Option<Self> {
+        let nothing = DVec3::splat(f64::INFINITY);
+        let mut image = Self { low: nothing, high: -nothing };
+        for &point in points {
+            let seen = map.point(point);
+            let seen = seen.raw();
+            if seen.w <= 0.0 {
+                return None;
+            }
+            let place = seen.truncate() / seen.w;
+            (image.low, image.high) = (image.low.min(place), image.high.max(place));
+        }
+        (image.low.is_finite() && image.high.is_finite()).then_some(image)
+    }
+
+    /// The volume with everything in it, of this aspect, with a part of its sides free.
+    fn volume(self, aspect: f64, padding: f64) -> Result<Orthographic, ProjectionError> {
+        let (size, middle) = (self.high - self.low, (self.high + self.low) * 0.5);
+        let height = size.y.max(size.x / aspect);
+        let height = if height > 0.0 { height } else { size.z.max(1.0) };
+        let half = 0.5 * height / (1.0 - 2.0 * padding.clamp(0.0, 0.49));
+        let (right, top) = (half * aspect, half);
+        let room = size.z.max(height) * 0.01;
+        let window = [middle.x - right, middle.x + right, middle.y - top, middle.y + top];
+        let [left, right, bottom, top] = window;
+        Orthographic::new(left, right, bottom, top, -self.high.z - room, -self.low.z + room)
+    }
+}

@@ -1,0 +1,102 @@
+//! What the sheet of a scene file means.
+
+use super::file::{
+    AngleFile, AxonometricFile, OrientationFile, PaperFile, SheetFile, SideFile, UnitFile,
+};
+use super::locate::Step::Field;
+use super::look::{iso_group, resolve_hidden};
+use super::{Origin, SceneError};
+use crate::drawing::{Sheet, Titles, Widths};
+use camera::NamedView;
+use projection::SheetAngle;
+use viewport::{DrawingScale, MILLIMETRES_PER_INCH, Paper};
+
+impl Sheet {
+    /// The sheet that a scene file describes.
+    ///
+    /// # Errors
+    /// If its scale or its width of lines is none; the error points at its place in the file.
+    pub fn resolve(origin: &Origin, file: &SheetFile) -> Result<Self, SceneError> {
+        let (paper, name) = paper(file);
+        let usual = Self::on(paper, name);
+        let (angle, side) = match file.angle {
+            AngleFile::First => (SheetAngle::First, NamedView::Left),
+            AngleFile::Third => (SheetAngle::Third, NamedView::Right),
+        };
+        let side = match file.side {
+            None => side,
+            Some(SideFile::Left) => NamedView::Left,
+            Some(SideFile::Right) => NamedView::Right,
+        };
+        let widths = match file.width {
+            Some(width) => {
+                let group = iso_group(origin, width, &[Field("sheet"), Field("width")])?;
+                Widths::Iso(group)
+            }
+            None => usual.look.widths,
+        };
+        let mut look = usual.look;
+        (look.hidden, look.widths) = (resolve_hidden(file.hidden), widths);
+        Ok(Self {
+            angle,
+            side,
+            look,
+            scale: file.scale.map(|scale| resolve_scale(origin, scale)).transpose()?,
+            unit: unit(file.unit),
+            axonometric: axonometric(file.axonometric),
+            dimensions: file.dimensions,
+            titles: Titles {
+                title: file.title.clone(),
+                author: file.author.clone(),
+                date: file.date.clone(),
+                number: file.number.clone(),
+            },
+            ..usual
+        })
+    }
+}
+
+fn paper(file: &SheetFile) -> (Paper, &'static str) {
+    let (paper, name) = match file.paper {
+        PaperFile::A0 => (Paper::A0, "A0"),
+        PaperFile::A1 => (Paper::A1, "A1"),
+        PaperFile::A2 => (Paper::A2, "A2"),
+        PaperFile::A3 => (Paper::A3, "A3"),
+        PaperFile::A4 => (Paper::A4, "A4"),
+        PaperFile::A5 => (Paper::A5, "A5"),
+        PaperFile::Letter => (Paper::LETTER, "Letter"),
+        PaperFile::Tabloid => (Paper::TABLOID, "Tabloid"),
+    };
+    let upright = match file.orientation {
+        Some(orientation) => orientation == OrientationFile::Portrait,
+        None => matches!(file.paper, PaperFile::A4 | PaperFile::A5 | PaperFile::Letter),
+    };
+    (if upright { paper } else { paper.turned() }, name)
+}
+
+fn resolve_scale(origin: &Origin, (paper, thing): (u32, u32)) -> Result<DrawingScale, SceneError> {
+    DrawingScale::new(paper, thing).map_err(|error| {
+        let help = "write (1, 50) for 1:50".to_owned();
+        origin.fault(&[Field("sheet"), Field("scale")], error.to_string(), Some(help))
+    })
+}
+
+fn unit(file: UnitFile) -> f64 {
+    match file {
+        UnitFile::Metre => 1000.0,
+        UnitFile::Centimetre => 10.0,
+        UnitFile::Millimetre => 1.0,
+        UnitFile::Inch => MILLIMETRES_PER_INCH,
+        UnitFile::Foot => 12.0 * MILLIMETRES_PER_INCH,
+    }
+}
+
+fn axonometric(file: AxonometricFile) -> Option<NamedView> {
+    match file {
+        AxonometricFile::None => None,
+        AxonometricFile::Isometric => Some(NamedView::Isometric),
+        AxonometricFile::Dimetric => Some(NamedView::Dimetric),
+        AxonometricFile::Trimetric => Some(NamedView::Trimetric),
+        AxonometricFile::ThreeQuarter => Some(NamedView::ThreeQuarter),
+    }
+}

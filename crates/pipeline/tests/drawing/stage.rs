@@ -1,0 +1,132 @@
+//! Scenes made of boxes and strips, and how their drawings are judged.
+
+use camera::Camera;
+use homog::{Affine, Clip, Point, Projective, Vector, View};
+use pipeline::Scene;
+use pipeline::drawing::{EdgeClass, Line, LineDrawing, Options, draw};
+use pipeline::model::{Mesh, Model, Node, Primitive, Topology};
+use pipeline::render::Shot;
+use pipeline::scene::{ImageSpec, Placed, Style};
+use projection::{Convention, Oblique, Orthographic};
+use std::sync::Arc;
+
+pub const SIZE: u32 = 800;
+
+/// A model with one object for each primitive.
+pub fn model(primitives: Vec<Primitive>) -> Model {
+    let node = |mesh| Node { mesh: Some(mesh), ..Node::default() };
+    Model {
+        nodes: (0..primitives.len()).map(node).collect(),
+        roots: (0..primitives.len()).collect(),
+        meshes: primitives
+            .into_iter()
+            .map(|primitive| Mesh { primitives: vec![primitive], ..Mesh::default() })
+            .collect(),
+        ..Model::default()
+    }
+}
+
+pub fn scene(model: Model, shot: Shot) -> Scene {
+    let placed = Placed { model: Arc::new(model), model_to_world: Affine::scale(1.0, 1.0, 1.0) };
+    Scene {
+        models: vec![placed],
+        shot,
+        lights: Vec::new(),
+        environment: None,
+        develop: pipeline::shade::Develop::default(),
+        style: Style::Flat,
+        image: ImageSpec {
+            width: SIZE,
+            height: SIZE,
+            background: [0.0; 4],
+            backdrop: None,
+            samples: raster::Samples::One,
+        },
+        overlays: Vec::new(),
+    }
+}
+
+/// Looks along −z from the origin.
+pub fn shot(view_to_clip: Projective<View, Clip>) -> Shot {
+    let camera = Camera::look_to(Point::ORIGIN, -Vector::Z, Vector::Y).unwrap();
+    Shot { camera, view_to_clip }
+}
+
+/// The window from −4 to 4 with depths from −8 to 8.
+pub fn window() -> Projective<View, Clip> {
+    let window = Orthographic::new(-4.0, 4.0, -4.0, 4.0, -8.0, 8.0).unwrap();
+    window.view_to_clip(Convention::CHAPTER)
+}
+
+/// From the front, the right and above: X = x − z/2, Y = y − z/2.
+pub fn oblique() -> Shot {
+    let oblique = Oblique::by_direction(Vector::new(-0.5, -0.5, -1.0), 0.0).unwrap();
+    shot(oblique.depth_kept().then_project(window()))
+}
+
+pub fn triangles(positions: &[[f32; 3]], indices: &[u32]) -> Primitive {
+    Primitive { positions: positions.to_vec(), indices: indices.to_vec(), ..Primitive::default() }
+}
+
+pub fn strokes(positions: &[[f32; 3]]) -> Primitive {
+    let indices = (0..positions.len() as u32).collect();
+    let topology = Topology::Lines;
+    Primitive { positions: positions.to_vec(), indices, topology, ..Primitive::default() }
+}
+
+/// A quadrilateral, cut along the diagonal from its first corner.
+pub fn quad(corners: [[f32; 3]; 4]) -> Primitive {
+    triangles(&corners, &[0, 1, 2, 0, 2, 3])
+}
+
+/// A box; each face has corners of its own, as files have them.
+pub fn cuboid(min: [f32; 3], max: [f32; 3]) -> Primitive {
+    let corner = |n: usize| [0, 1, 2].map(|axis| if n >> axis & 1 == 0 { min } else { max }[axis]);
+    let faces =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let positions: Vec<[f32; 3]> = faces.as_flattened().iter().map(|&n| corner(n)).collect();
+    let indices: Vec<u32> = (0..6).flat_map(|f| [0, 1, 2, 0, 2, 3].map(|k| 4 * f + k)).collect();
+    triangles(&positions, &indices)
+}
+
+/// A segment of the picture by its ends.
+pub type Segment = [[f64; 2]; 2];
+
+/// The drawing with the hidden lines kept; the same from two threads.
+pub fn drawn(scene: &Scene) -> LineDrawing {
+    let drawing = draw(scene, &Options::hidden_kept(), 1).unwrap();
+    assert_eq!(drawing, draw(scene, &Options::hidden_kept(), 2).unwrap());
+    drawing
+}
+
+/// The lines that a predicate chooses, as segments in units of the picture.
+pub fn chosen(drawing: &LineDrawing, choose: impl Fn(&Line) -> bool) -> Vec<Segment> {
+    let unit = |at: glam::DVec2| [(at.x - 400.0) / 100.0, (400.0 - at.y) / 100.0];
+    drawing.lines.iter().filter(|line| choose(line)).map(|line| line.ends.map(unit)).collect()
+}
+
+pub fn visible(class: EdgeClass) -> impl Fn(&Line) -> bool {
+    move |line| line.visible && line.class == class
+}
+
+/// The lines must lie on the expected segments, and fill them exactly once.
+#[track_caller]
+pub fn assert_fills(lines: &[Segment], expected: &[Segment]) {
+    const NEAR: f64 = 1e-9;
+    let length = |[a, b]: Segment| glam::DVec2::from(a).distance(b.into());
+    let mut filled = vec![0.0; expected.len()];
+    for &line in lines {
+        let carries = |segment: &Segment| {
+            line.iter().all(|p| {
+                let gone = length([segment[0], *p]) + length([*p, segment[1]]);
+                gone - length(*segment) < NEAR
+            })
+        };
+        let at = expected.iter().position(carries);
+        filled[at.unwrap_or_else(|| panic!("{line:?} is not expected: {lines:?}"))] += length(line);
+    }
+    for (segment, filled) in expected.iter().zip(filled) {
+        let due = length(*segment);
+        assert!((filled - due).abs() < NEAR, "{segment:?} is filled to {filled}, not {due}");
+    }
+}

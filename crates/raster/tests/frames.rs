@@ -1,0 +1,78 @@
+//! Frames that are filled and drawn again and again: by any number of threads, and without asking for memory anew.
+
+use homog::Point;
+use raster::{Cover, Cull, Fragment, Frame, Samples, ScreenVertex, Surface};
+
+const SIZE: (u32, u32) = (200, 150);
+
+/// Half a lattice, and half transparent.
+struct Lattice;
+
+impl Surface for Lattice {
+    fn keeps(&self, fragment: &Fragment<'_>) -> bool {
+        (fragment.x + fragment.y).is_multiple_of(2)
+    }
+
+    fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
+        let [r, g, b] = fragment.weights.map(|weight| weight * 0.5);
+        [r, g, b, 0.5]
+    }
+}
+
+/// A net of `side` × `side` quads over the whole picture, one corner of each up or down, each row a vertex longer than needed.
+fn net(side: u32) -> (Vec<Option<ScreenVertex>>, Vec<[u32; 3]>) {
+    let place = |k: u32, length: u32| f64::from(k) / f64::from(side) * f64::from(length);
+    let vertices = (0..=side).flat_map(|j| (0..=side).map(move |i| (i, j))).map(|(i, j)| {
+        let depth = f64::from((i * 7 + j * 13) % 11) / 11.0;
+        ScreenVertex::snap(Point::new(place(i, SIZE.0), place(j, SIZE.1), depth), 1.0 + depth)
+    });
+    let quads = (0..side).flat_map(|j| (0..side).map(move |i| j * (side + 1) + i));
+    let triangles = quads.flat_map(|a| {
+        let below = a + side + 1;
+        [[a, a + 1, below], [a + 1, below, below + 1]]
+    });
+    (vertices.collect(), triangles.collect())
+}
+
+fn draw(frame: &Frame, threads: usize, pixels: &mut [[u32; 4]]) {
+    frame.draw(&Lattice, [0.25; 4], threads, pixels, |color: [f32; 4]| color.map(f32::to_bits));
+}
+
+#[test]
+fn threads_change_neither_a_mesh_nor_its_picture() {
+    let (vertices, triangles) = net(180);
+    for cull in [Cull::Nothing, Cull::Clockwise] {
+        let mut first: Option<Vec<[u32; 4]>> = None;
+        for threads in 1..=3 {
+            let frame = Frame::new(SIZE.0, SIZE.1, Samples::Four).expect("a small frame");
+            let mut frame = frame.with_threads(threads);
+            // Before and behind a large mesh, which begins a chunk of its own.
+            frame.mesh(&vertices, &triangles[..100], 70_000, Cover::Solid, cull);
+            frame.mesh(&vertices, &triangles, 0, Cover::Solid, cull);
+            frame.mesh(&vertices, &triangles[100..300], 80_000, Cover::Translucent, cull);
+            let mut pixels = vec![[0; 4]; (SIZE.0 * SIZE.1) as usize];
+            draw(&frame, threads, &mut pixels);
+            assert!(*first.get_or_insert_with(|| pixels.clone()) == pixels, "{threads} threads");
+        }
+    }
+}
+
+#[test]
+fn a_second_frame_allocates_nothing() {
+    let (vertices, triangles) = net(40);
+    let mut pixels = vec![[0; 4]; (SIZE.0 * SIZE.1) as usize];
+    for samples in [Samples::One, Samples::Four] {
+        let mut frame = Frame::new(SIZE.0, SIZE.1, samples).expect("a small frame");
+        let mut fill_and_draw = || {
+            frame.clear();
+            for cover in [Cover::Solid, Cover::Masked, Cover::Translucent] {
+                frame.mesh(&vertices, &triangles, 0, cover, Cull::Nothing);
+            }
+            draw(&frame, 1, &mut pixels);
+        };
+        let first = allocation_counter::measure(&mut fill_and_draw);
+        assert!(first.count_total > 0, "the allocations are counted");
+        let second = allocation_counter::measure(&mut fill_and_draw);
+        assert_eq!(second.count_total, 0, "{samples:?}");
+    }
+}

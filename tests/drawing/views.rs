@@ -1,0 +1,112 @@
+//! The views of a model.
+
+use camera::{Basis, Slopes, frame_oblique, frame_perspective};
+use homog::{Affine, Point, Vector, View, World};
+use pipeline::Scene;
+use pipeline::model::Model;
+use pipeline::render::Shot;
+use pipeline::scene::{ImageSpec, Placed, Style};
+use projection::{Convention, Frustum, Oblique, Orthographic};
+use std::sync::Arc;
+
+/// How many sides a model is seen from.
+pub const SIDES: usize = 6;
+
+const SIZE: (u32, u32) = (400, 300);
+
+/// How a model is projected.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Kind {
+    Perspective,
+    Isometric,
+    Cavalier,
+}
+
+impl Kind {
+    pub const ALL: [Self; 3] = [Self::Perspective, Self::Isometric, Self::Cavalier];
+
+    /// Where the model is seen from.
+    fn from(self, side: usize) -> Vector<World> {
+        let directions = match self {
+            Self::Perspective => [
+                [0.0, 0.0, 1.0],
+                [1.0, 0.3, 0.2],
+                [-0.6, 0.8, -1.0],
+                [0.1, 1.0, 0.2],
+                [-1.0, -0.4, 0.7],
+                [0.3, 0.2, -1.0],
+            ],
+            Self::Isometric => [
+                [1.0, 1.0, 1.0],
+                [-1.0, 1.0, 1.0],
+                [1.0, 1.0, -1.0],
+                [-1.0, 1.0, -1.0],
+                [1.0, -1.0, 1.0],
+                [-1.0, -1.0, -1.0],
+            ],
+            Self::Cavalier => [
+                [0.0, 0.0, 1.0],
+                [0.0, 0.0, -1.0],
+                [1.0, 0.0, 0.0],
+                [-1.0, 0.0, 0.0],
+                [0.0, 1.0, 0.0],
+                [0.0, -1.0, 0.0],
+            ],
+        };
+        Vector::from(directions[side])
+    }
+}
+
+/// A model in a picture that it fills.
+pub fn scene(model: &Arc<Model>, kind: Kind, side: usize) -> Result<Scene, String> {
+    let gaze = -kind.from(side);
+    let up = Basis::fallback_up(gaze);
+    let up = if gaze.cross(Vector::Y).length() > 1e-6 { Vector::Y } else { up };
+    let basis = Basis::from_gaze(gaze, up).map_err(|error| error.to_string())?;
+    let model_to_world = Affine::scale(1.0, 1.0, 1.0);
+    let points: Vec<Point<World>> =
+        model.shown_points().into_iter().map(|p| model_to_world.point(p)).collect();
+    let shot = match kind {
+        Kind::Perspective => perspective(&points, basis),
+        Kind::Isometric => parallel(&points, basis, None),
+        Kind::Cavalier => parallel(&points, basis, Some(std::f64::consts::FRAC_PI_4)),
+    };
+    let (width, height) = SIZE;
+    let samples = raster::Samples::One;
+    Ok(Scene {
+        models: vec![Placed { model: Arc::clone(model), model_to_world }],
+        shot: shot?,
+        lights: Vec::new(),
+        environment: None,
+        develop: pipeline::shade::Develop::default(),
+        style: Style::Flat,
+        image: ImageSpec { width, height, background: [0.0; 4], backdrop: None, samples },
+        overlays: Vec::new(),
+    })
+}
+
+fn perspective(points: &[Point<World>], basis: Basis) -> Result<Shot, String> {
+    let slopes = Slopes { left: -0.4, right: 0.4, bottom: -0.3, top: 0.3 };
+    let framing = frame_perspective(points.iter().copied(), basis, slopes, 0.02);
+    let framing = framing.map_err(|error| error.to_string())?;
+    let (near, far) = (framing.near * 0.99, framing.far * 1.01);
+    let frustum = Frustum::new(-0.4 * near, 0.4 * near, -0.3 * near, 0.3 * near, near, far);
+    let frustum = frustum.map_err(|error| error.to_string())?;
+    let view_to_clip = frustum.view_to_clip(Convention::CHAPTER);
+    Ok(Shot { camera: framing.camera, view_to_clip })
+}
+
+/// Orthographic, or with depth drawn in full length in a direction.
+fn parallel(points: &[Point<World>], basis: Basis, depth: Option<f64>) -> Result<Shot, String> {
+    let oblique = depth.map(Oblique::cavalier).transpose().map_err(|error| error.to_string())?;
+    let projectors = oblique.map_or(-Vector::<View>::Z, Oblique::direction);
+    let aspect = f64::from(SIZE.0) / f64::from(SIZE.1);
+    let framing = frame_oblique(points.iter().copied(), basis, projectors, aspect, 0.02);
+    let f = framing.map_err(|error| error.to_string())?;
+    let room = 0.01 * (f.far - f.near) + 1e-3 * f.near;
+    let window = Orthographic::new(f.left, f.right, f.bottom, f.top, f.near - room, f.far + room);
+    let window = window.map_err(|error| error.to_string())?.view_to_clip(Convention::CHAPTER);
+    let upright = Affine::<View, View>::scale(1.0, 1.0, 1.0);
+    let shear = oblique.map_or(upright, Oblique::depth_kept);
+    Ok(Shot { camera: f.camera, view_to_clip: shear.then_project(window) })
+}

@@ -1,0 +1,283 @@
+//! Line drawings and sheets: measured as they are written, in SVG and in PDF.
+
+use crate::bench::Bench;
+use crate::document::Document;
+use crate::vectors::{Layers, Place, bounds, pdf, svg};
+
+/// A solid box of these sides in metres, one corner at the origin, with a groove so that front and back differ.
+fn write_box(bench: &Bench, name: &str, [w, h, d]: [f32; 3]) {
+    let mut document = Document::square();
+    let corner = |n: usize| {
+        [(n & 1, w), (n >> 1 & 1, h), (n >> 2 & 1, d)]
+            .map(|(bit, side)| if bit == 1 { side } else { 0.0 })
+    };
+    let points: Vec<f32> = (0..8).flat_map(corner).collect();
+    let position = document.floats("VEC3", &points);
+    let indices: [u16; 36] = [
+        0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5, 0, 1, 4, 1, 5, 4,
+        2, 6, 3, 3, 6, 7,
+    ];
+    let bytes: Vec<u8> = indices.iter().flat_map(|index| index.to_le_bytes()).collect();
+    let shape = serde_json::json!({"componentType": 5123, "type": "SCALAR", "count": 36});
+    let indices = document.accessor(&bytes, &shape);
+    document.json["meshes"][0]["primitives"][0] = serde_json::json!({
+        "attributes": {"POSITION": position}, "indices": indices, "mode": 4
+    });
+    document.write(bench, name);
+}
+
+fn read_svg(bench: &Bench, name: &str) -> (Place, Layers) {
+    svg(&std::fs::read_to_string(bench.path(name)).expect("an SVG"))
+}
+
+fn succeed(bench: &Bench, arguments: &[&str]) {
+    let run = bench.run(arguments);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{arguments:?}");
+}
+
+/// The size of what a view shows.
+fn size(layers: &Layers, view: &str) -> Place {
+    let [low, high] = bounds(layers, |id| id.starts_with(view));
+    [high[0] - low[0], high[1] - low[1]]
+}
+
+#[track_caller]
+fn assert_near(found: f64, due: f64) {
+    assert!((found - due).abs() < 0.0005, "{found} mm instead of {due} mm");
+}
+
+#[test]
+fn a_hundred_millimetres_measure_a_hundred_at_one_to_one() {
+    let bench = Bench::new("hundred");
+    write_box(&bench, "box", [0.1, 0.05, 0.03]);
+    let flags = ["--scale", "1:1", "--no-dimensions", "--axonometric", "none"];
+    for name in ["box.svg", "box.pdf"] {
+        succeed(&bench, &[&["sheet", "box.gltf", "-o", name][..], &flags].concat());
+    }
+    let (page, layers) = read_svg(&bench, "box.svg");
+    assert_eq!(page, [420.0, 297.0]);
+    for (view, width, height) in
+        [("front-", 100.0, 50.0), ("top-", 100.0, 30.0), ("left-", 30.0, 50.0)]
+    {
+        let [w, h] = size(&layers, view);
+        assert_near(w, width);
+        assert_near(h, height);
+    }
+    // The same lines at the same places in the PDF, to the digits its matrix has.
+    let pages = pdf(&std::fs::read(bench.path("box.pdf")).expect("a PDF"));
+    let [(page, lines)] = &pages[..] else { panic!("one page") };
+    assert_near(page[0], 420.0);
+    assert_near(page[1], 297.0);
+    let all: Vec<_> = layers.values().flatten().collect();
+    assert_eq!(lines.len(), all.len());
+    let side = |lines: &mut dyn Iterator<Item = &Vec<Place>>, wanted: f64| {
+        let level = |pair: &[Place]| (pair[0][1] - pair[1][1]).abs() < 1e-3;
+        let length = |pair: &[Place]| (pair[0][0] - pair[1][0]).abs();
+        let sides = lines.flat_map(|line| line.windows(2));
+        sides.filter(|pair| level(pair) && (length(pair) - wanted).abs() < 0.0005).count()
+    };
+    // Two edges of the front and two of the top are 100 mm long.
+    assert_eq!(side(&mut all.into_iter(), 100.0), 4);
+    assert_eq!(side(&mut lines.iter(), 100.0), 4);
+}
+
+#[test]
+fn a_scale_makes_things_smaller_and_units_larger() {
+    let bench = Bench::new("scales");
+    write_box(&bench, "box", [1.0, 0.5, 0.25]);
+    for (flags, width) in [
+        (["--scale", "1:10", "--unit", "m"], 100.0),
+        (["--scale", "2:1", "--unit", "mm"], 2.0),
+        (["--scale", "1:1", "--unit", "in"], 25.4),
+        (["--scale", "1:3", "--unit", "ft"], 101.6),
+        (["--scale", "1:1", "--unit", "cm"], 10.0),
+    ] {
+        succeed(&bench, &[&["sheet", "box.gltf", "-o", "out.svg"][..], &flags].concat());
+        assert_near(size(&read_svg(&bench, "out.svg").1, "front-")[0], width);
+    }
+}
+
+#[test]
+fn views_are_aligned_and_stand_where_the_angle_says() {
+    let bench = Bench::new("aligned");
+    bench.bring("house.glb");
+    for (angle, side, top_is_below) in [("first", "left-", true), ("third", "right-", false)] {
+        for paper in ["a0", "a1", "a2", "a3", "a4", "a5", "letter", "tabloid"] {
+            let flags = ["-o", "out.svg", "--angle", angle, "--paper", paper];
+            succeed(&bench, &[&["sheet", "house.glb"][..], &flags].concat());
+            let (page, layers) = read_svg(&bench, "out.svg");
+            let of = |view: &str| bounds(&layers, |id| id.starts_with(view));
+            let (front, top, side) = (of("front-"), of("top-"), of(side));
+            for end in 0..2 {
+                assert_near(front[end][0], top[end][0]);
+                assert_near(front[end][1], side[end][1]);
+            }
+            assert_eq!(top[0][1] > front[1][1], top_is_below, "{angle} {paper}");
+            assert!(side[0][0] > front[1][0], "{angle} {paper}");
+            // Depth is as wide from the side as it is high from above.
+            assert_near(side[1][0] - side[0][0], top[1][1] - top[0][1]);
+            let all = bounds(&layers, |_| true);
+            assert!(all[0].iter().all(|c| *c > 0.0) && all[1][0] < page[0] && all[1][1] < page[1]);
+            let block = bounds(&layers, |id| id == "title-block");
+            for view in
+                ["front-", "top-", "left-", "right-", "isometric-", "scale-bar", "dimensions"]
+            {
+                let [low, high] = of(view);
+                let apart = high[0] < block[0][0] || high[1] < block[0][1];
+                assert!(apart || low[0] > high[0], "{view} is in the title block: {angle} {paper}");
+            }
+        }
+    }
+}
+
+#[test]
+fn dimensions_give_the_true_size() {
+    let bench = Bench::new("dimensions");
+    write_box(&bench, "box", [0.1, 0.05, 0.03]);
+    succeed(&bench, &["sheet", "box.gltf", "-o", "with.svg", "--scale", "1:1"]);
+    let (_, layers) = read_svg(&bench, "with.svg");
+    let front = bounds(&layers, |id| id.starts_with("front-"));
+    let lines = &layers["dimensions"];
+    let level = |line: &&Vec<Place>| line.len() == 2 && line[0][1] == line[1][1];
+    // The line of the width is as long as the front, and above it.
+    let widths = lines.iter().filter(level).filter(|line| {
+        (line[0][0] - front[0][0]).abs() < 5e-4 && (line[1][0] - front[1][0]).abs() < 5e-4
+    });
+    assert!(
+        widths.clone().count() == 1 && widths.clone().all(|line| line[0][1] < front[0][1] - 5.0)
+    );
+    succeed(
+        &bench,
+        &["sheet", "box.gltf", "-o", "without.svg", "--scale", "1:1", "--no-dimensions"],
+    );
+    assert!(!read_svg(&bench, "without.svg").1.contains_key("dimensions"));
+}
+
+#[test]
+fn threads_and_repetition_change_no_byte_of_a_drawing() {
+    let bench = Bench::new("same_drawing");
+    bench.bring("teapot.glb");
+    for (command, name) in
+        [("render", "out.svg"), ("render", "out.pdf"), ("sheet", "out.pdf"), ("sheet", "out.svg")]
+    {
+        let bytes = |threads: &str| {
+            succeed(&bench, &[command, "teapot.glb", "-o", name, "--threads", threads]);
+            std::fs::read(bench.path(name)).expect("a drawing")
+        };
+        let first = bytes("1");
+        assert!(
+            first == bytes("1") && first == bytes("2") && first == bytes("5"),
+            "{command} {name}"
+        );
+    }
+}
+
+#[test]
+fn every_style_has_its_lines_in_every_projection() {
+    let bench = Bench::new("styles");
+    bench.bring("house.glb");
+    let count = |style: &str, projection: &str| {
+        let flags = ["-o", "out.svg", "--style", style, "--projection", projection];
+        succeed(&bench, &[&["render", "house.glb"][..], &flags].concat());
+        let (page, layers) = read_svg(&bench, "out.svg");
+        let [low, high] = bounds(&layers, |_| true);
+        assert!(
+            low.iter().all(|c| *c > 0.0) && high[0] < page[0] && high[1] < page[1],
+            "{flags:?}"
+        );
+        layers
+    };
+    let projections = [
+        "perspective",
+        "orthographic",
+        "multiview",
+        "isometric",
+        "dimetric",
+        "trimetric",
+        "cavalier",
+        "cabinet",
+        "military",
+        "one-point",
+        "two-point",
+        "three-point",
+    ];
+    for projection in projections {
+        let of = |style: &str| {
+            let layers = count(style, projection);
+            let hidden = layers.keys().filter(|id| id.starts_with("hidden-")).count();
+            (layers.values().map(Vec::len).sum::<usize>(), hidden)
+        };
+        let (lines, dashed, silhouette) = (of("lines"), of("dashed"), of("silhouette"));
+        assert!(lines.1 == 0 && silhouette.1 == 0 && dashed.1 > 0, "{projection}");
+        assert!(silhouette.0 > 0 && silhouette.0 < lines.0 && lines.0 < dashed.0, "{projection}");
+        assert!(of("wireframe").0 > lines.0 && of("depth-cued").0 > lines.0, "{projection}");
+        assert!(
+            of("technical").1 > 0 && of("shaded") == lines && of("flat") == lines,
+            "{projection}"
+        );
+    }
+}
+
+#[test]
+fn what_cannot_be_drawn_is_told_and_leaves_no_file() {
+    let bench = Bench::new("no_drawing");
+    write_box(&bench, "box", [1.0, 1.0, 1.0]);
+    let failing = [
+        (&["render", "box.gltf", "-o", "out.dxf"][..], "does not end in .png, .svg or .pdf"),
+        (&["sheet", "box.gltf", "-o", "out"], "does not end in .png, .svg or .pdf"),
+        (&["sheet", "box.gltf", "--scale", "1:1", "--paper", "a4", "-o", "out.pdf"], "; 1:20 fits"),
+    ];
+    for (arguments, message) in failing {
+        let run = bench.run(arguments);
+        assert!(run.code == 1 && run.stderr.contains(message), "{arguments:?}: {}", run.stderr);
+    }
+    for scale in ["0:1", "1:0", "1", "1:2:3", "a:b", "-1:2"] {
+        let run = bench.run(&["sheet", "box.gltf", "-o", "out.pdf", &format!("--scale={scale}")]);
+        assert_eq!(run.code, 2, "{scale}: {}", run.stderr);
+    }
+    let scene = |name: &str, more: &str| {
+        bench.write(name, format!("Scene(models: [(path: \"box.gltf\")],\n{more})"));
+        bench.run(&["check", name])
+    };
+    for (more, message) in [
+        ("style: Lines(width: Iso(0.4))", "ISO 128 has no group of line widths 0.4"),
+        ("style: Lines(color: \"blue\")", "`blue` is no colour"),
+        ("sheet: (scale: (1, 0))", "scale of the thing"),
+        ("camera: (projection: NPoint())", "p, q and r are all 0"),
+        ("camera: (projection: NPoint(r: -3))", "behind the eye"),
+        ("camera: (projection: Axonometric(x: 1, y: 1, z: 9))", "no axonometric projection"),
+        (
+            "camera: (view: LookAt(eye: (9, 9, 9), target: (0, 0, 0)), projection: OnePoint())",
+            "finds its own eye",
+        ),
+    ] {
+        let run = scene("wrong.ron", more);
+        assert!(run.code == 1 && run.stdout.contains(message), "{more}: {}", run.stdout);
+    }
+    assert_eq!(bench.files(), ["box.bin", "box.gltf", "wrong.ron"]);
+}
+
+#[test]
+fn a_sheet_is_described_by_the_scene_and_flags_go_before_it() {
+    let bench = Bench::new("described");
+    write_box(&bench, "box", [0.1, 0.05, 0.03]);
+    bench.write(
+        "scene.ron",
+        "Scene(models: [(path: \"box.gltf\")], sheet: (paper: A4, orientation: Landscape, angle: Third,
+         scale: (1, 2), title: \"A <box> & more\", author: \"Zoë\"))",
+    );
+    succeed(&bench, &["sheet", "scene.ron", "-o", "out.svg"]);
+    let (page, layers) = read_svg(&bench, "out.svg");
+    assert_eq!(page, [297.0, 210.0]);
+    assert_near(size(&layers, "front-")[0], 50.0);
+    assert!(layers.keys().any(|id| id.starts_with("right-")));
+    let text = std::fs::read_to_string(bench.path("out.svg")).expect("an SVG");
+    assert!(text.contains("<title>A &lt;box&gt; &amp; more</title>"));
+    succeed(&bench, &["sheet", "scene.ron", "-o", "out.svg", "--paper", "a3", "--scale", "1:1"]);
+    let (page, layers) = read_svg(&bench, "out.svg");
+    assert_eq!(page, [420.0, 297.0]);
+    assert_near(size(&layers, "front-")[0], 100.0);
+    // Without a name the sheet goes into a PDF beside.
+    succeed(&bench, &["sheet", "scene.ron"]);
+    assert_eq!(bench.files(), ["box.bin", "box.gltf", "out.svg", "scene.pdf", "scene.ron"]);
+}

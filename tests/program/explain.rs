@@ -1,0 +1,131 @@
+//! `alberti explain`.
+
+use crate::bench::Bench;
+use crate::document::Document;
+use serde_json::{Value, json};
+
+/// A red square in front of a camera that looks along −z from (0, 0, 5).
+const SCENE: &str = "Scene(models: [(path: \"model.gltf\")], camera: (view: LookAt(eye: (0, 0, 5), target: (0, 0, 0)), \
+    projection: Perspective(fov_y_degrees: 90, near: 1, far: 9)), image: (size: (200, 100)))";
+
+fn bench(name: &str, change: impl FnOnce(&mut Document)) -> Bench {
+    let bench = Bench::new(name);
+    let mut document = Document::square();
+    change(&mut document);
+    document.write(&bench, "model");
+    bench.write("scene.ron", SCENE);
+    bench
+}
+
+fn told(bench: &Bench, arguments: &[&str]) -> Value {
+    let run = bench.run(&[&["explain", "scene.ron", "--json"], arguments].concat());
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{arguments:?}");
+    serde_json::from_str(&run.stdout).expect("JSON")
+}
+
+/// The value of an item, in whichever step it is.
+fn item(told: &Value, id: &str) -> Value {
+    let steps = told["steps"].as_array().expect("steps").iter();
+    let mut items = steps.flat_map(|step| step["items"].as_array().expect("items"));
+    items.find(|item| item["id"] == id).unwrap_or_else(|| panic!("no {id} in {told:#}"))["value"]
+        .clone()
+}
+
+fn near(ours: &Value, theirs: &[f64]) {
+    let ours: Vec<f64> =
+        ours.as_array().expect("numbers").iter().filter_map(Value::as_f64).collect();
+    let close =
+        ours.len() == theirs.len() && ours.iter().zip(theirs).all(|(a, b)| (a - b).abs() < 1e-9);
+    assert!(close, "{ours:?} is not {theirs:?}");
+}
+
+#[test]
+fn a_point_is_followed_to_its_pixel() {
+    let bench = bench("explain_point", |_| {});
+    // Half-way up from the centre at distance 5, where the picture is 10 high: 25 of 100 rows.
+    let found = told(&bench, &["--point", "0,2.5,0"]);
+    assert_eq!(found["schema"], json!({"name": "alberti-explain", "version": 1}));
+    near(&item(&found, "view"), &[0.0, 2.5, -5.0]);
+    near(&item(&found, "ndc"), &[0.0, 0.5, -0.8]);
+    near(&item(&found, "screen"), &[100.0, 25.0, 0.1]);
+    let lowest = told(&bench, &["--point", "0,-2.5,0", "--conventions", "chapter"]);
+    near(&item(&lowest, "screen"), &[99.5, 24.5, -0.8]);
+    let gl = told(&bench, &["--point", "0,2.5,0", "--conventions", "opengl"]);
+    near(&item(&gl, "screen"), &[100.0, 75.0, 0.9]);
+    let d3d = told(&bench, &["--point", "0,2.5,0", "--conventions", "direct3d"]);
+    near(&item(&d3d, "view"), &[0.0, 2.5, 5.0]);
+    near(&item(&d3d, "screen"), &[100.0, 25.0, 0.9]);
+    let vulkan = told(&bench, &["--point", "0,2.5,0", "--conventions", "vulkan"]);
+    near(&item(&vulkan, "ndc"), &[0.0, -0.5, 0.9]);
+    near(&item(&vulkan, "screen"), &[100.0, 25.0, 0.9]);
+}
+
+#[test]
+fn a_segment_behind_the_eye_is_cut_by_the_near_plane() {
+    let bench = bench("explain_segment", |_| {});
+    let found = told(&bench, &["--segment", "0,0,0,0,0,10"]);
+    near(&item(&found, "t"), &[0.0, 0.4]);
+    assert_eq!(item(&found, "leaves"), "the near plane");
+    let beside = told(&bench, &["--segment", "50,0,0,60,0,0"]);
+    assert_eq!(beside["verdict"], "None of it is in the picture: it is outside of right.");
+}
+
+#[test]
+fn vertices_and_triangles_come_from_the_mesh() {
+    let bench = bench("explain_mesh", |document| {
+        document.json["nodes"][0]["translation"] = json!([1, 0, 0]);
+        document.json["nodes"][0]["name"] = json!("sign");
+    });
+    let corner = told(&bench, &["--node", "sign", "--vertex", "2"]);
+    near(&item(&corner, "mesh"), &[1.0, 1.0, 0.0]);
+    near(&item(&corner, "world"), &[2.0, 1.0, 0.0]);
+    let half = told(&bench, &["--node", "0", "--triangle", "1"]);
+    // Half of a square of 2 × 2 where ten units are a hundred pixels.
+    assert!((item(&half, "area").as_f64().expect("an area").abs() - 200.0).abs() < 1e-9);
+    let run = bench.run(&["explain", "scene.ron", "--node", "sing", "--vertex", "2"]);
+    assert_eq!(run.code, 1);
+    assert!(
+        run.stderr.contains("there is no node `sing`") && run.stderr.contains("sign"),
+        "{}",
+        run.stderr
+    );
+    let run = bench.run(&["explain", "scene.ron", "--node", "0", "--vertex", "9"]);
+    assert!(run.stderr.contains("has 4 vertices; there is no vertex 9"), "{}", run.stderr);
+}
+
+#[test]
+fn why_a_node_is_not_seen() {
+    let verdict = |name: &str, change: &dyn Fn(&mut Document)| {
+        let bench = bench(name, change);
+        told(&bench, &["--node", "0"])["verdict"].as_str().expect("words").to_owned()
+    };
+    let seen = verdict("explain_seen", &|_| {});
+    assert!(seen.starts_with("2 of 2 (100 %)"), "{seen}");
+    let away = verdict("explain_away", &|document| {
+        document.json["nodes"][0]["translation"] = json!([100, 0, 0]);
+    });
+    assert_eq!(away, "It is not in the picture: all of it is outside of right.");
+    let behind = verdict("explain_behind", &|document| {
+        document.json["nodes"][0]["rotation"] = json!([0, 1, 0, 0]);
+    });
+    assert!(behind.contains("seen from behind"), "{behind}");
+    let mirrored = verdict("explain_mirrored", &|document| {
+        document.json["nodes"][0]["scale"] = json!([-1, 1, 1]);
+    });
+    assert!(mirrored.starts_with("2 of 2"), "{mirrored}");
+    let other = verdict("explain_other", &|document| {
+        document.push("/nodes", json!({"name": "empty"}));
+        document.json["scenes"][0]["nodes"] = json!([1]);
+    });
+    assert_eq!(other, "It is not below a root of the scene that is shown.");
+}
+
+#[test]
+fn without_a_subject_the_maps_are_told() {
+    let bench = bench("explain_chain", |_| {});
+    let run = bench.run(&["explain", "scene.ron"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    for word in ["CA-1, CA-2", "VV-2", "M_vp", "perspective: left -2, right 2"] {
+        assert!(run.stdout.contains(word), "{word}: {}", run.stdout);
+    }
+}
