@@ -14,6 +14,7 @@ mod files;
 mod info;
 mod matrix;
 mod messages;
+mod overlays;
 mod pictures;
 mod real;
 mod variants;

@@ -26,7 +26,7 @@ use homog::{Bounds, Clip, Point, Projective, Vector, World};
 use viewport::Viewport;
 
 /// Something drawn over a picture.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum Overlay {
     /// The axes of the world from its origin, of this length; `None` for one that goes with the models.
     Axes(Option<f64>),
@@ -37,7 +37,7 @@ pub enum Overlay {
     /// Where the axes vanish, with lines from the corners of the box around the models.
     VanishingPoints,
     /// What another camera sees: its view volume, and the eye.
-    Volume(Shot),
+    Volume(Box<Shot>),
 }
 
 const RED: Ink = [179, 38, 30];
@@ -66,9 +66,9 @@ pub fn overlays(scene: &Scene) -> Vec<Layer> {
     }
     let Some(glass) = Glass::of(scene) else { return Vec::new() };
     let layers = scene.overlays.iter().enumerate().flat_map(|(number, overlay)| {
-        let layers = match *overlay {
-            Overlay::Axes(length) => glass.axes(length),
-            Overlay::Grid(step) => glass.grid(step),
+        let layers = match overlay {
+            Overlay::Axes(length) => glass.axes(*length),
+            Overlay::Grid(step) => glass.grid(*step),
             Overlay::Horizon => glass.horizon(),
             Overlay::VanishingPoints => glass.vanishing_points(),
             Overlay::Volume(shot) => glass.volume(shot),
@@ -178,9 +178,11 @@ impl Glass {
         axes.flat_map(|(direction, name, ink)| self.axis(direction * length, name, ink)).collect()
     }
 
-    fn axis(&self, reach: Vector<World>, name: &str, ink: Ink) -> [Layer; 2] {
+    /// The line in its visible and its hidden parts, and its arrowhead with its name.
+    fn axis(&self, reach: Vector<World>, name: &str, ink: Ink) -> [Layer; 3] {
         let tip = Point::ORIGIN + reach;
-        let [mut layer, hidden] = self.lines(&format!("axis-{name}"), ink, &[[Point::ORIGIN, tip]]);
+        let [visible, hidden] = self.lines(&format!("axis-{name}"), ink, &[[Point::ORIGIN, tip]]);
+        let mut head = layer(&format!("axis-{name}-name"), &format!("axis {name}: name"), ink);
         let ends = [Point::ORIGIN, tip].map(|place| self.image(place));
         let ends = self.segment(ends[0], ends[1]).filter(|_| self.seen(ends[1]).is_some());
         if let Some([from, tip]) = ends {
@@ -188,9 +190,9 @@ impl Glass {
             let at = tip + along * (0.9 * LETTERS) + DVec2::new(0.0, 0.35 * LETTERS);
             let label = Label::new(name, at, LETTERS).aligned(Align::Middle);
             let fills = arrowhead(tip, along).into_iter().collect();
-            layer.groups.push(Group { strokes: label.strokes(), fills, ..Group::default() });
+            head.groups.push(Group { strokes: label.strokes(), fills, ..Group::default() });
         }
-        [layer, hidden]
+        [visible, hidden, head]
     }
 
     /// Lines of the world as a layer of their visible parts, and one of their hidden parts, dashed.

@@ -280,7 +280,7 @@ pub(super) fn resolve_overlays(
             OverlayFile::Horizon => Overlay::Horizon,
             OverlayFile::VanishingPoints => Overlay::VanishingPoints,
             OverlayFile::Volume(camera) => {
-                Overlay::Volume(resolve_shot(origin, camera, models, image)?)
+                Overlay::Volume(resolve_shot(origin, camera, models, image)?.into())
             }
         })
     };

@@ -30,6 +30,7 @@ pub(crate) struct Surface {
     seams: Vec<Border>,
     /// Triangles that close the gaps beside edges that were cut.
     fillings: Vec<[u32; 3]>,
+    reach: Reach,
     diagonal: f64,
 }
 
@@ -46,7 +47,7 @@ impl Surface {
         }
         let (seams, fillings) = cut(&shape, &seams, &reach);
         let diagonal = shape.diagonal();
-        Self { shape, sides, seams, fillings, diagonal }
+        Self { shape, sides, seams, fillings, reach, diagonal }
     }
 
     /// How near is touching on these surfaces.
@@ -89,7 +90,8 @@ impl Surface {
             add(places(stroke.ends), class, stroke.object);
         }
         if options.classes.contains(EdgeClass::Intersection) {
-            for (ends, object) in crossings(shape, self.tolerance().world, threads) {
+            let seams = (self.seams.as_slice(), &self.reach);
+            for (ends, object) in crossings(shape, seams, self.tolerance().world, threads) {
                 add(ends, EdgeClass::Intersection, object);
             }
         }

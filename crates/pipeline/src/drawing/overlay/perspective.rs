@@ -24,8 +24,10 @@ impl Glass {
         line.groups.push(Group { strokes, ..Group::default() });
         let mut text = layer("horizon-text", "horizon: text", BROWN);
         let along = (ends[1] - ends[0]).normalize_or(DVec2::X);
-        let above = DVec2::new(along.y, -along.x);
-        let label = Label::new("horizon", ends[0] + along * 2.0 + above, 0.8 * LETTERS);
+        // Below the line, for the names of vanishing points stand above it.
+        let (height, below) = (0.8 * LETTERS, DVec2::new(-along.y, along.x));
+        let at = ends[0] + along * 2.0 + below * (height + 0.8);
+        let label = Label::new("horizon", at, height);
         let strokes = label.along(along).strokes();
         text.groups.push(Group { strokes, ..Group::default() });
         vec![line, text]
@@ -43,7 +45,7 @@ impl Glass {
         let foot = normal * (-line.z / normal.length_squared());
         // Straight down there is none, or only one far beyond the picture.
         let reach = foot.length() + 4.0;
-        if !(reach < 1e6) {
+        if !reach.is_finite() || reach > 1e6 {
             return None;
         }
         let along = DVec2::new(normal.y, -normal.x).normalize_or(DVec2::X) * reach;

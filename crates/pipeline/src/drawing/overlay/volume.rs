@@ -4,12 +4,12 @@ use super::{BLUE, Glass, LETTERS, layer};
 use crate::drawing::{Align, Group, Label, Layer};
 use crate::render::Shot;
 use glam::DVec2;
-use homog::{Point, World};
+use homog::{HPoint, Point, World};
 use projection::{Convention, ViewVolume};
 
 impl Glass {
     /// The twelve edges, and the rays from the eye to the near plane.
-    pub(super) fn volume(&self, shot: Shot) -> Vec<Layer> {
+    pub(super) fn volume(&self, shot: &Shot) -> Vec<Layer> {
         let volume = ViewVolume::new(shot.view_to_clip, Convention::CHAPTER);
         let view_to_world = shot.camera.view_to_world();
         let Some(corners) = volume.corners() else { return Vec::new() };
@@ -18,7 +18,7 @@ impl Glass {
         let edges: Vec<[Point<World>; 2]> =
             ViewVolume::EDGES.into_iter().filter_map(edge).collect();
         let mut layers = self.lines("volume", BLUE, &edges).to_vec();
-        if let Some(eye) = volume.eye().and_then(|eye| eye.divide()) {
+        if let Some(eye) = volume.eye().and_then(HPoint::divide) {
             let eye = view_to_world.point(eye);
             let rays: Vec<_> = corners[..4].iter().flatten().map(|corner| [eye, *corner]).collect();
             let [mut visible, hidden] = self.lines("volume-rays", BLUE, &rays);
