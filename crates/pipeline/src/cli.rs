@@ -1,5 +1,6 @@
 //! The command line: what may be asked for, and who does it.
 
+mod animate;
 mod args;
 mod batch;
 mod check;
@@ -31,6 +32,7 @@ pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
         Command::Check(args) => return check::run(&args),
         Command::Matrix(args) => matrix::run(&args)?,
         Command::Explain(args) => explain::run(&args)?,
+        Command::Animate(args) => animate::run(&args)?,
         Command::Batch(args) => return batch::run(&args),
     }
     Ok(ExitCode::SUCCESS)

@@ -18,6 +18,7 @@ mod linetype;
 mod look;
 mod options;
 mod overlap;
+mod overlay;
 mod page;
 mod pdf;
 mod sheet;
@@ -33,6 +34,7 @@ pub use line::{EdgeClass, Line, LineDrawing};
 pub use linetype::{IsoGroup, LineType};
 pub use look::{HiddenLines, LineLook, Shown, Widths};
 pub use options::{EdgeClasses, Hidden, Options};
+pub use overlay::{Overlay, overlays};
 pub use page::{
     Cap, Group, Ink, Join, Layer, MILLIMETRES_PER_PIXEL, Page, Pen, Place, Polyline, micrometres,
     millimetres,

@@ -4,6 +4,7 @@ mod canvas;
 mod color;
 pub mod drawing;
 pub mod explain;
+pub mod film;
 pub mod import;
 pub mod model;
 mod output;
@@ -13,7 +14,7 @@ pub mod scene;
 pub mod shade;
 mod timings;
 
-pub use output::{OutputError, write_file};
+pub use output::{Draft, OutputError, write_file};
 pub use picture::Picture;
 pub use render::{RenderError, Renderer, Textures, draw, render, render_timed};
 pub use scene::{Origin, ResolveError, Scene, SceneError, SceneFile};

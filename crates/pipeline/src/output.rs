@@ -1,6 +1,7 @@
 //! Output files: written beside their place and renamed into it, so that a failed run leaves the old file as it was.
 
 use crate::Picture;
+use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -49,15 +50,60 @@ impl Picture {
 /// # Errors
 /// If the file cannot be written; a file that was there before is then as it was.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
-    let fault = |cause| OutputError { path: path.to_owned(), cause };
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".{}.part", std::process::id()));
-    let beside = path.with_file_name(name);
-    let written = std::fs::File::create(&beside)
-        .and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()))
-        .and_then(|()| std::fs::rename(&beside, path));
-    written.map_err(|cause| {
-        let _ = std::fs::remove_file(&beside);
-        fault(cause)
-    })
+    let mut draft = Draft::of(path)?;
+    draft.write_all(bytes).map_err(|cause| OutputError { path: path.to_owned(), cause })?;
+    draft.finish()
+}
+
+/// A file that is being written beside its place. It is gone if it is dropped before it is finished.
+#[derive(Debug)]
+pub struct Draft {
+    place: PathBuf,
+    beside: PathBuf,
+    file: File,
+    finished: bool,
+}
+
+impl Draft {
+    /// Begins to write what is to be the file at `place`.
+    ///
+    /// # Errors
+    /// If no file can be made there.
+    pub fn of(place: &Path) -> Result<Self, OutputError> {
+        let mut name = place.file_name().unwrap_or_default().to_owned();
+        name.push(format!(".{}.part", std::process::id()));
+        let beside = place.with_file_name(name);
+        let file =
+            File::create(&beside).map_err(|cause| OutputError { path: place.to_owned(), cause })?;
+        Ok(Self { place: place.to_owned(), beside, file, finished: false })
+    }
+
+    /// Puts the file in its place, whole.
+    ///
+    /// # Errors
+    /// If it cannot be put there; a file that was there before is then as it was.
+    pub fn finish(mut self) -> Result<(), OutputError> {
+        let put = self.file.sync_all().and_then(|()| std::fs::rename(&self.beside, &self.place));
+        self.finished = put.is_ok();
+        put.map_err(|cause| OutputError { path: self.place.clone(), cause })
+    }
+}
+
+impl Write for Draft {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Drop for Draft {
+    fn drop(&mut self) {
+        if !self.finished {
+            // Whether there is anything to remove does not matter here.
+            let _ = std::fs::remove_file(&self.beside);
+        }
+    }
 }

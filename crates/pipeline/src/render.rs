@@ -21,6 +21,7 @@ pub use renderer::Renderer;
 pub use shot::Shot;
 pub use textures::Textures;
 
+use crate::drawing::overlays;
 use crate::scene::{Scene, Style};
 use crate::{Picture, Timings};
 
@@ -57,7 +58,10 @@ pub fn render_timed(
     timings: &Timings,
 ) -> Result<Picture, RenderError> {
     match scene.style {
-        Style::Shaded | Style::Flat => surfaces(scene, threads, timings),
+        Style::Shaded | Style::Flat => {
+            let picture = surfaces(scene, threads, timings)?;
+            Ok(picture.under(&overlays(scene)))
+        }
         Style::Wireframe | Style::Lines(_) => lines::picture(scene, threads, timings),
     }
 }

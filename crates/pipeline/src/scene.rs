@@ -3,10 +3,11 @@
 //! A scene is written in a file ([`SceneFile`], RON, by people) and resolved ([`Scene`]): models are loaded, angles are
 //! radians, every default is decided, and what does not make sense has become an error that points at its place.
 
-mod bounds;
+pub(crate) mod bounds;
 mod classical;
 mod error;
 pub mod file;
+mod lights;
 mod locate;
 mod look;
 #[cfg(test)]
@@ -14,9 +15,11 @@ mod mistakes;
 mod number;
 mod origin;
 mod parse;
+mod radiance;
 mod resolve;
 mod review;
 mod sheet;
+mod surroundings;
 mod viewpoint;
 
 pub use error::SceneError;
@@ -26,11 +29,11 @@ pub use parse::parse;
 pub use resolve::{ResolveOptions, chosen_animation};
 pub use review::review;
 
-use crate::drawing::LineLook;
+use crate::drawing::{LineLook, Overlay};
 use crate::import::ImportError;
 use crate::model::Model;
 use crate::render::Shot;
-use crate::shade::Light;
+use crate::shade::{Develop, Environment, Light};
 use homog::{Affine, Model as ModelSpace, Point, World};
 use raster::Samples;
 use std::path::PathBuf;
@@ -45,10 +48,16 @@ pub struct Scene {
     pub shot: Shot,
     /// The lights.
     pub lights: Vec<Light>,
+    /// Light from all around.
+    pub environment: Option<Arc<Environment>>,
+    /// How light becomes colours.
+    pub develop: Develop,
     /// How surfaces are drawn.
     pub style: Style,
     /// The picture to make.
     pub image: ImageSpec,
+    /// What is drawn over it.
+    pub overlays: Vec<Overlay>,
 }
 
 impl Scene {
@@ -102,6 +111,8 @@ pub struct ImageSpec {
     pub height: u32,
     /// What is seen where no model is: linear, multiplied by alpha.
     pub background: [f32; 4],
+    /// How blurred the environment is seen there, from 0 to 1; `None` if it is not seen.
+    pub backdrop: Option<f32>,
     /// Coverage samples per pixel.
     pub samples: Samples,
 }

@@ -1,38 +1,45 @@
 //! Shading: the colour of a fragment, from its material and the lights.
 //!
-//! Materials are those of glTF: metallic-roughness with its extensions ([`substance`], [`inputs`]). Lights are in photometric
+//! Materials are those of glTF: metallic-roughness with its extensions (`substance`, `inputs`). Lights are in photometric
 //! units: a white matt surface that faces a sun of π lux shows 1. All sums are in linear light.
 
 #![allow(clippy::needless_range_loop, reason = "lanes of several arrays are walked side by side")]
 
 mod albedo;
 mod corners;
+mod develop;
 mod draw;
+mod environment;
 mod inputs;
+mod layers;
 mod light;
 mod maps;
 mod microfacet;
 mod normal;
+mod reflection;
 mod seen;
 mod substance;
+mod surroundings;
 mod texture;
 
 pub use corners::Vertex;
 pub(crate) use corners::{NORMAL, PLACE, UV};
+pub use develop::{Develop, ToneMapping};
 pub use draw::{Draw, DrawList, Tangents};
+pub use environment::Environment;
 pub use light::Light;
 pub use maps::{Map, Maps};
+pub use surroundings::{Sky, studio};
 pub use texture::{MipChain, Texels};
 
 use crate::model::{AlphaMode, Topology};
 use corners::{Items, blend};
 use homog::{HPoint, World};
 use inputs::Inputs;
-use normal::{Facing, bend, turn_to_viewer, views};
+use normal::{Facing, seen_from_behind, turn, views};
 use raster::{Eight, Fragment, Fragments, Instructions, Surface, WIDE, Work};
+use reflection::Reflection;
 use seen::{Seen, Wide};
-use std::f32::consts::FRAC_1_PI;
-use substance::Substance;
 
 /// What the fragments of a frame are shaded with.
 #[derive(Debug)]
@@ -41,6 +48,10 @@ pub struct Shading<'a> {
     pub draws: &'a DrawList<'a>,
     /// The lights, in the world.
     pub lights: &'a [Light],
+    /// Light from all around.
+    pub environment: Option<&'a Environment>,
+    /// How light becomes colours.
+    pub develop: Develop,
     /// Where the viewer is: the eye, or in parallel projection the direction towards it, at infinity.
     pub viewer: HPoint<World>,
     /// The instructions that eight fragments at once are shaded with.
@@ -117,11 +128,15 @@ impl Shading<'_> {
         items: &Items<N>,
         seen: &impl Seen<N>,
     ) -> [[f32; N]; 4] {
+        if let Some(blur) = draw.backdrop {
+            return self.backdrop(draw, items, seen, blur);
+        }
         let is_blended = draw.material.alpha_mode == AlphaMode::Blend;
         let inputs = Inputs::of(draw, &draw.corners(items), seen, is_blended);
         let mut sums = inputs.emitted;
+        let mut passing = [0.0; N];
         if draw.is_lit() {
-            self.add_reflected(draw, items, seen, &inputs, &mut sums);
+            passing = self.add_reflected(draw, items, seen, &inputs, &mut sums);
         } else {
             for (sum, color) in sums.iter_mut().zip(&inputs.base) {
                 for lane in 0..N {
@@ -129,6 +144,7 @@ impl Shading<'_> {
                 }
             }
         }
+        self.develop.apply(&mut sums);
         let [r, g, b] = sums;
         let mut colors = [r, g, b, inputs.base[3]];
         let [r, g, b, alpha] = &mut colors;
@@ -141,10 +157,41 @@ impl Shading<'_> {
         } else {
             *alpha = [1.0; N];
         }
+        if draw.material.transmits() {
+            for lane in 0..N {
+                alpha[lane] *= 1.0 - passing[lane];
+            }
+        }
         colors
     }
 
-    /// Adds the light that surfaces reflect to the viewer.
+    /// The environment behind everything.
+    #[inline(always)]
+    fn backdrop<const N: usize>(
+        &self,
+        draw: &Draw<'_>,
+        items: &Items<N>,
+        seen: &impl Seen<N>,
+        blur: f32,
+    ) -> [[f32; N]; 4] {
+        let places = blend(&draw.places(&draw.corners(items)), &seen.weights());
+        let ways = views(&places, <[f64; 4]>::from(self.viewer).map(|c| c as f32));
+        let mut colors = [[0.0; N]; 3];
+        if let Some(environment) = self.environment {
+            for lane in 0..N {
+                let way = [-ways[0][lane], -ways[1][lane], -ways[2][lane]];
+                let color = environment.blurred(way, blur);
+                for channel in 0..3 {
+                    colors[channel][lane] = color[channel];
+                }
+            }
+        }
+        self.develop.apply(&mut colors);
+        let [r, g, b] = colors;
+        [r, g, b, [1.0; N]]
+    }
+
+    /// Adds the light that surfaces reflect to the viewer, and returns the share of light that they let pass.
     #[inline(always)]
     fn add_reflected<const N: usize>(
         &self,
@@ -153,33 +200,25 @@ impl Shading<'_> {
         seen: &impl Seen<N>,
         inputs: &Inputs<N>,
         sums: &mut [[f32; N]; 3],
-    ) {
-        let facing = self.facing(draw, items, seen, inputs);
-        let substance = Substance::of(draw.material, inputs, &facing);
-        let mut everywhere = [0.0; 3];
-        for light in self.lights {
-            if let Some(lux) = light.ambient() {
-                everywhere = [0, 1, 2].map(|k: usize| everywhere[k] + lux[k]);
-            } else {
-                substance.reflect(&facing, &light.at(&facing.places), sums);
-            }
+    ) -> [f32; N] {
+        let facing = self.facing(draw, items, seen);
+        let tangents = draw.tangents(items, &seen.weights());
+        let mut reflection = Reflection::of(draw, inputs, facing, &tangents, *sums);
+        reflection.add_lights(self.lights);
+        if let Some(environment) = self.environment {
+            reflection.add_environment(environment);
         }
-        for (channel, lux) in everywhere.into_iter().enumerate() {
-            for lane in 0..N {
-                let arriving = lux * FRAC_1_PI * inputs.occlusion[lane] * substance.through[lane];
-                sums[channel][lane] += substance.diffuse[channel][lane] * arriving;
-            }
-        }
+        *sums = reflection.whole();
+        reflection.passing
     }
 
-    /// How the surfaces lie to the viewer, with their slopes.
+    /// How the surfaces lie to the viewer, without their slopes.
     #[inline(always)]
     fn facing<const N: usize>(
         &self,
         draw: &Draw<'_>,
         items: &Items<N>,
         seen: &impl Seen<N>,
-        inputs: &Inputs<N>,
     ) -> Facing<N> {
         let weights = &seen.weights();
         let corners = draw.corners(items);
@@ -193,13 +232,12 @@ impl Shading<'_> {
             faces = draw.face_normals(&carried);
         }
         let (mut normals, turns) = draw.front_normals(&corners, seen, &faces);
-        if !matches!(draw.tangents, Tangents::None) {
-            normals = bend(&normals, &draw.tangents(items, weights), &inputs.slope);
-        }
+        let mut is_back = [false; N];
         if has_two_sides {
-            turn_to_viewer(&mut normals, &faces, &views);
+            is_back = seen_from_behind(&faces, &views);
+            turn(&mut normals, &is_back);
         }
-        Facing { turns, ..Facing::with_normals(places, views, normals) }
+        Facing::of(places, views, normals, is_back, turns)
     }
 }
 

@@ -9,6 +9,7 @@ use super::palette::Color;
 use crate::glb::glb;
 use glam::DVec3;
 use serde_json::{Map, Value, json};
+use std::collections::BTreeSet;
 
 /// Index of a mesh in the document.
 #[derive(Clone, Copy, Debug)]
@@ -93,6 +94,13 @@ impl Document {
         others["name"] = json!(name);
         others["pbrMetallicRoughness"] = surface;
         self.materials.push(others);
+        MaterialId(self.materials.len() - 1)
+    }
+
+    /// A material as glTF has it, with all of its members but the name.
+    pub fn finish(&mut self, name: &str, mut material: Value) -> MaterialId {
+        material["name"] = json!(name);
+        self.materials.push(material);
         MaterialId(self.materials.len() - 1)
     }
 
@@ -280,6 +288,12 @@ impl Document {
             if !list.is_empty() {
                 document[key] = json!(list);
             }
+        }
+        let extensions =
+            self.materials.iter().filter_map(|material| material["extensions"].as_object());
+        let names: BTreeSet<&String> = extensions.flat_map(|all| all.keys()).collect();
+        if !names.is_empty() {
+            document["extensionsUsed"] = json!(names);
         }
         if !self.textures.is_empty() {
             // Linear between texels and between the sizes of the picture; repeating.

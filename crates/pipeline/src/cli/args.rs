@@ -1,5 +1,6 @@
 //! Flags and arguments.
 
+use super::animate::AnimateArgs;
 use super::batch::BatchArgs;
 use super::explain::ExplainArgs;
 use super::loading::LoadArgs;
@@ -31,6 +32,7 @@ Examples:
   alberti check model.glb                         what is wrong with the file
   alberti matrix 1 0 0 0 …                        what sixteen numbers are
   alberti explain model.glb --point 0,1,0         where a point goes, stage by stage
+  alberti animate model.glb --turntable -o turn.png
   alberti batch models --out thumbs --size 256x256
 
 Exit codes: 0 done, 1 the input or the work failed (no output file is touched), 2 wrong usage.
@@ -50,6 +52,8 @@ pub(crate) enum Command {
     Matrix(MatrixArgs),
     /// Follow a point, a segment, a vertex or a triangle of a scene through every stage
     Explain(ExplainArgs),
+    /// Make a film: a turntable, or the model's own animation
+    Animate(AnimateArgs),
     /// Make pictures of many models: thumbnails, a report, a contact sheet
     Batch(BatchArgs),
 }
@@ -70,6 +74,9 @@ pub(crate) struct RenderArgs {
     /// Tell how long each stage took
     #[arg(long)]
     pub(crate) timings: bool,
+    /// Compare the line drawing with a z-buffer image, and tell how much of what is drawn as visible that hides
+    #[arg(long)]
+    pub(crate) verify: bool,
     #[command(flatten)]
     pub(crate) load: LoadArgs,
 }
@@ -116,6 +123,18 @@ pub(crate) enum StyleArg {
     Silhouette,
     /// Visible, hidden and tangent edges with the line types and widths of ISO 128
     Technical,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum OverlayArg {
+    /// The axes of the world
+    Axes,
+    /// A grid on the ground
+    Grid,
+    /// Where horizontal directions vanish
+    Horizon,
+    /// Where the axes vanish
+    VanishingPoints,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -1,12 +1,12 @@
 //! Flags that change what a scene says of its picture: the size, the camera, the style, the state of the models.
 
-use super::args::{ProjectionArg, StyleArg};
+use super::args::{OverlayArg, ProjectionArg, StyleArg};
 use super::pick::PickArgs;
 use camera::NamedView;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use pipeline::scene::file::{
-    BackgroundFile, CameraChoice, CameraFile, PrincipalFile, ProjectionFile, SceneFile, StyleFile,
-    USUAL_PADDING, ViewFile,
+    BackgroundFile, CameraChoice, CameraFile, OverlayFile, PrincipalFile, ProjectionFile,
+    SceneFile, StyleFile, USUAL_PADDING, ViewFile,
 };
 
 /// What goes before what the scene says; a bare model is a scene that says nothing.
@@ -29,6 +29,9 @@ pub(crate) struct LookArgs {
     /// The projection
     #[arg(long)]
     pub(crate) projection: Option<ProjectionArg>,
+    /// What is drawn over the picture to explain it; may be given several times
+    #[arg(long, value_name = "WHAT", value_delimiter = ',')]
+    pub(crate) overlay: Vec<OverlayArg>,
     /// What is seen where no model is: transparent, or a colour such as #f4f1ea
     #[arg(long, value_name = "COLOR")]
     pub(crate) background: Option<String>,
@@ -54,6 +57,7 @@ impl LookArgs {
         if let Some(style) = self.style {
             file.style = style.into();
         }
+        file.overlays.extend(self.overlay.iter().copied().map(OverlayFile::from));
         file.models.iter_mut().for_each(|model| self.pick.override_in(model));
         self.override_camera(&mut file.camera);
     }
@@ -107,6 +111,17 @@ impl From<ProjectionArg> for ProjectionFile {
             ProjectionArg::OnePoint => Self::one_point(),
             ProjectionArg::TwoPoint => Self::two_point(),
             ProjectionArg::ThreePoint => Self::three_point(),
+        }
+    }
+}
+
+impl From<OverlayArg> for OverlayFile {
+    fn from(overlay: OverlayArg) -> Self {
+        match overlay {
+            OverlayArg::Axes => Self::Axes { length: None },
+            OverlayArg::Grid => Self::Grid { step: None },
+            OverlayArg::Horizon => Self::Horizon,
+            OverlayArg::VanishingPoints => Self::VanishingPoints,
         }
     }
 }

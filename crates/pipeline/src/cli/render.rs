@@ -4,6 +4,7 @@ use super::args::RenderArgs;
 use super::format::Format;
 use super::progress::Progress;
 use super::{Failure, complain};
+use pipeline::drawing::{self, Agreement, Hidden, Options};
 use pipeline::import::ImportOptions;
 use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::SceneFile;
@@ -38,10 +39,30 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     };
     progress.stage("writing");
     timings.measure("write", || pipeline::write_file(&output, &bytes))?;
+    let agreement = args.verify.then(|| compared(&scene, threads(args.threads))).transpose()?;
     drop(progress);
+    if let Some(agreement) = agreement {
+        // Nothing else can be done where nobody listens.
+        let _ = writeln!(std::io::stderr(), "{}", told(&agreement));
+    }
     tell(&timings);
     warn(&scene);
     Ok(())
+}
+
+/// The scene's line drawing against its z-buffer image. Lines that show hidden parts as visible are left out of it.
+fn compared(scene: &Scene, threads: usize) -> Result<Agreement, Failure> {
+    let options = Options { hidden: Hidden::Removed, ..scene.style.line_look().options() };
+    let drawing = drawing::draw(scene, &options, threads)?;
+    Ok(drawing::verify(scene, &drawing)?)
+}
+
+fn told(agreement: &Agreement) -> String {
+    let share = 100.0 * agreement.disagreement();
+    let length = agreement.visible;
+    format!(
+        "verified: {share:.4} % of {length:.0} px of visible lines is hidden in the z-buffer image"
+    )
 }
 
 /// What each stage took, and all together, on the standard error.

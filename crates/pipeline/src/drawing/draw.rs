@@ -1,15 +1,14 @@
 //! From a scene to its line drawing.
 
-use super::edges::{Candidate, Shape, candidates};
+use super::edges::{Candidate, Surface};
 use super::in_order::in_order;
 use super::options::{Hidden, Options};
 use super::sight::Sight;
-use super::visibility::{Obstacles, Scratch, Tolerance, Trace};
+use super::visibility::{Obstacles, Scratch, Trace};
 use super::{Line, LineDrawing};
 use crate::render::RenderError;
 use crate::scene::Scene;
 use glam::DVec2;
-use homog::Point;
 use viewport::Viewport;
 
 /// Draws the edges of a scene with up to `threads` threads. Their number does not change the drawing.
@@ -19,17 +18,16 @@ use viewport::Viewport;
 pub fn draw(scene: &Scene, options: &Options, threads: usize) -> Result<LineDrawing, RenderError> {
     let (width, height) = (scene.image.width, scene.image.height);
     let sight = Sight::new(&scene.shot, &Viewport::image(width, height)?);
-    let mut shape = Shape::of(scene);
-    let tolerance = Tolerance::of_scene(shape.diagonal());
-    let edges = candidates(&mut shape, &sight, options, threads);
+    let surface = Surface::of(scene);
+    let edges = surface.edges(&sight, options, threads);
     let obstacles = match options.hidden {
-        Hidden::Ignored => Obstacles::new([], sight, tolerance),
-        _ => Obstacles::new(shape.triangles(), sight, tolerance),
+        Hidden::Ignored => Obstacles::new([], sight, surface.tolerance()),
+        _ => Obstacles::new(surface.triangles(), sight, surface.tolerance()),
     };
     let drawer = Drawer { sight, obstacles, keeps_hidden: options.hidden == Hidden::Kept };
     Ok(LineDrawing {
         size: DVec2::new(width.into(), height.into()),
-        objects: shape.objects,
+        objects: surface.into_objects(),
         lines: drawer.lines(&edges, threads),
     })
 }
@@ -63,13 +61,5 @@ impl Drawer {
             object: edge.object,
             edge: number,
         }));
-    }
-}
-
-impl Shape {
-    /// The faces as triangles of the world.
-    fn triangles(&self) -> impl Iterator<Item = [Point<homog::World>; 3]> {
-        let corner = |corner: u32| Point::from_raw(self.points[corner as usize]);
-        self.faces.iter().map(move |face| face.corners.map(corner))
     }
 }

@@ -9,7 +9,7 @@ mod crossings;
 mod gather;
 mod seams;
 mod sides;
+mod surface;
 mod weld;
 
-pub(super) use classify::{Candidate, candidates};
-pub(super) use gather::Shape;
+pub(super) use surface::{Candidate, Surface};

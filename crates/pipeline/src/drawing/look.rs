@@ -97,7 +97,8 @@ impl LineLook {
     pub fn options(&self) -> Options {
         Options {
             classes: match self.shown {
-                Shown::Facets => EdgeClasses::ALL,
+                // Where surfaces cross there is no side of a triangle.
+                Shown::Facets => EdgeClasses::ALL.without(EdgeClass::Intersection),
                 Shown::Features => EdgeClasses::FEATURES.without(EdgeClass::Tangent),
                 Shown::Tangents => EdgeClasses::FEATURES,
                 Shown::Silhouette => Options::silhouettes().classes,

@@ -2,7 +2,7 @@
 
 use crate::render::Shot;
 use clip::{ClippedSegment, Volume, clip_segment};
-use glam::{DVec3, DVec4};
+use glam::{DMat4, DVec3, DVec4};
 use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, Screen, World};
 use viewport::Viewport;
 
@@ -37,6 +37,11 @@ impl Sight {
     pub(super) fn place(&self, point: HPoint<Clip>) -> Option<DVec3> {
         let screen = self.ndc_to_screen.point(point.divide()?).raw();
         screen.is_finite().then_some(screen)
+    }
+
+    /// From the world to the screen and its depth, before the divide.
+    pub(super) fn world_to_screen(&self) -> DMat4 {
+        self.ndc_to_screen.raw() * self.world_to_clip.raw()
     }
 
     /// The vector from a point towards the viewer: to the eye itself, or of length 1.

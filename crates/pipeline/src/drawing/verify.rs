@@ -1,16 +1,16 @@
 //! The self-check: a drawing against the z-buffer image of the same scene.
 //!
-//! The two have the stages up to clip space in common and nothing after: here is rounding to a grid, coverage of samples and
-//! a depth for each pixel, there are crossings of lines. Where a line is drawn as visible, the z-buffer must show, within half
+//! The two have the welded surfaces and the stages up to clip space in common and nothing after: here is rounding to a grid,
+//! coverage of samples and a depth for each pixel, there are crossings of lines. Where a line is drawn as visible, the z-buffer must show, within half
 //! a pixel, something that is not in front of it: the face beside the edge, one behind it, or nothing.
 
 use super::LineDrawing;
-use super::edges::Shape;
+use super::edges::Surface;
 use super::sight::Sight;
 use crate::render::RenderError;
 use crate::scene::Scene;
-use clip::{Volume, clip_triangle};
-use glam::{DVec2, DVec3};
+use clip::{ClipVertex, Volume, clip_triangle};
+use glam::{DMat4, DVec2, DVec3};
 use homog::Point;
 use raster::{Cover, Frame, Samples, ScreenVertex};
 use viewport::Viewport;
@@ -88,73 +88,88 @@ struct Image {
     scale: f64,
     ids: Vec<Option<u32>>,
     planes: Vec<Plane>,
+    /// From places of the drawing and their depths to the world.
+    to_world: DMat4,
+    /// How near is touching, in lengths of the world.
+    touching: f64,
 }
 
-/// The plane of a face on the screen: depth by place.
+/// The plane of a face: the normal towards the viewer, and its distance from the origin along it.
 #[derive(Clone, Copy, Debug)]
 struct Plane {
-    through: DVec3,
-    slope: DVec2,
+    normal: DVec3,
+    offset: f64,
 }
 
 impl Plane {
-    fn of([a, b, c]: [DVec3; 3]) -> Self {
-        let normal = (b - a).cross(c - a);
-        Self { through: a, slope: -normal.truncate() / normal.z }
-    }
-
-    fn depth(&self, place: DVec2) -> f64 {
-        self.through.z + self.slope.dot(place - self.through.truncate())
+    fn of([a, b, c]: [DVec3; 3], sight: &Sight) -> Self {
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let normal = normal * normal.dot(sight.towards_viewer(a)).signum();
+        Self { normal, offset: normal.dot(a) }
     }
 }
 
 impl Image {
     fn of(scene: &Scene) -> Result<Self, RenderError> {
         let (width, height) = (scene.image.width, scene.image.height);
+        let drawn = Sight::new(&scene.shot, &Viewport::image(width, height)?);
         let finer = (LONGEST / width.max(height)).clamp(1, FINER);
         let (width, height) = (width * finer, height * finer);
         let sight = Sight::new(&scene.shot, &Viewport::image(width, height)?);
         let mut frame = Frame::new(width, height, Samples::One)?;
         let mut planes = Vec::new();
-        let shape = Shape::of(scene);
-        for face in &shape.faces {
-            let corners = face.corners.map(|corner| sight.project(shape.points[corner as usize]));
-            for piece in clip_triangle(corners, &Volume::CHAPTER).triangles() {
-                let places = piece.map(|vertex| sight.place(vertex.point));
-                let [Some(a), Some(b), Some(c)] = places else { continue };
-                let snap = |place, k: usize| {
-                    ScreenVertex::snap(Point::from_raw(place), piece[k].point.w())
+        let surface = Surface::of(scene);
+        for triangle in surface.triangles() {
+            let corners = triangle.map(Point::raw);
+            let id = u32::try_from(planes.len()).map_err(|_| RenderError::TooManyPrimitives)?;
+            planes.push(Plane::of(corners, &sight));
+            let clip = corners.map(|corner| sight.project(corner));
+            for piece in clip_triangle(clip, &Volume::CHAPTER).triangles() {
+                let snap = |vertex: ClipVertex| {
+                    let place = Point::from_raw(sight.place(vertex.point)?);
+                    ScreenVertex::snap(place, vertex.point.w())
                 };
-                let snapped = [snap(a, 0), snap(b, 1), snap(c, 2)];
-                let [Some(p), Some(q), Some(r)] = snapped else { continue };
-                let id = u32::try_from(planes.len()).map_err(|_| RenderError::TooManyPrimitives)?;
-                frame.triangle([p, q, r], id, Cover::Solid);
-                planes.push(Plane::of([a, b, c]));
+                if let [Some(p), Some(q), Some(r)] = piece.map(snap) {
+                    frame.triangle([p, q, r], id, Cover::Solid);
+                }
             }
         }
-        let ids = frame.visibility().ids;
-        let scale = f64::from(finer);
-        Ok(Self { width: width.into(), height: height.into(), scale, ids, planes })
+        Ok(Self {
+            width: width.into(),
+            height: height.into(),
+            scale: f64::from(finer),
+            ids: frame.visibility().ids,
+            planes,
+            to_world: drawn.world_to_screen().inverse(),
+            touching: surface.tolerance().world,
+        })
     }
 
     /// Whether something that is not in front of a point is seen near it.
     fn shows(&self, place: DVec2, depth: f64) -> bool {
-        self.near(place).any(|(at, id)| id.is_none_or(|id| !self.is_before(id, at, depth)))
+        let at = self.world(place, depth);
+        self.near(place).any(|id| id.is_none_or(|id| !self.is_before(id, at)))
     }
 
     /// Whether something in front of a point is seen near it.
     fn hides(&self, place: DVec2, depth: f64) -> bool {
-        self.near(place).any(|(at, id)| id.is_some_and(|id| self.is_before(id, at, depth)))
+        let at = self.world(place, depth);
+        self.near(place).any(|id| id.is_some_and(|id| self.is_before(id, at)))
     }
 
-    /// Whether a face, continued as a plane to a place, is in front of a point there.
-    fn is_before(&self, id: u32, place: DVec2, depth: f64) -> bool {
-        let plane = &self.planes[id as usize];
-        plane.depth(place) > depth + 1e-9 + 1e-3 * (plane.slope.x.abs() + plane.slope.y.abs())
+    fn world(&self, place: DVec2, depth: f64) -> DVec3 {
+        let at = self.to_world * place.extend(depth).extend(1.0);
+        at.truncate() / at.w
     }
 
-    /// What is seen within [`NEAR`] of a place of the drawing, each with that place in the image.
-    fn near(&self, place: DVec2) -> impl Iterator<Item = (DVec2, Option<u32>)> {
+    /// Whether the plane of a face is in front of a point.
+    fn is_before(&self, id: u32, at: DVec3) -> bool {
+        let Plane { normal, offset } = self.planes[id as usize];
+        normal.dot(at) - offset < -self.touching
+    }
+
+    /// What is seen within [`NEAR`] of a place of the drawing, which is nothing where there is no face.
+    fn near(&self, place: DVec2) -> impl Iterator<Item = Option<u32>> {
         let at = place * self.scale;
         let reach = NEAR * self.scale;
         let (left, right) = ((at.x - reach).floor() as i64, (at.x + reach).floor() as i64);
@@ -165,7 +180,7 @@ impl Image {
             let is_near = (center - at).length() <= reach + std::f64::consts::FRAC_1_SQRT_2;
             let is_inside = (0..self.width).contains(&x) && (0..self.height).contains(&y);
             let id = || self.ids[(y * self.width + x) as usize];
-            (is_near && is_inside).then(|| (at, id()))
+            (is_near && is_inside).then(id)
         })
     }
 }

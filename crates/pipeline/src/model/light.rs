@@ -1,6 +1,6 @@
 //! Lights of a file (KHR_lights_punctual): without size, each carried by nodes that place it and point it along −z.
 //!
-//! Scenes have lights of their own ([`shade::Light`](crate::shade::Light)); these are not drawn with yet.
+//! Scenes have lights of their own too ([`shade::Light`](crate::shade::Light)).
 
 use super::{Instance, Model};
 

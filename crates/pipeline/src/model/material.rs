@@ -41,6 +41,14 @@ pub struct Material {
 }
 
 impl Material {
+    /// Whether light passes through the surface.
+    #[must_use]
+    pub fn transmits(&self) -> bool {
+        let transmission = self.extensions.transmission.as_ref();
+        let masked = matches!(self.alpha_mode, AlphaMode::Mask { .. });
+        transmission.is_some_and(|share| share.factor > 0.0) && !masked && !self.unlit
+    }
+
     /// Whether a texture bends the surface's normals, so that its tangents count.
     #[must_use]
     pub fn needs_tangents(&self) -> bool {

@@ -9,10 +9,10 @@ use crate::model::{
     AlphaMode, Instance, Material, Posed, Primitive, TextureSlot, TextureUse, Topology,
 };
 use crate::scene::{Placed, Scene, Style};
-use crate::shade::{Draw, Maps, MipChain};
+use crate::shade::{Draw, Maps, MipChain, PLACE, Tangents};
 use clip::{Outcode, clip_triangle};
 use glam::DVec3;
-use homog::{Clip, HPoint, Model, Projective};
+use homog::{Clip, HPoint, Model, Ndc, Point, Projective};
 use raster::{Cover, Cull, ScreenVertex, signed_area};
 
 /// The width of lines that a file draws, in pixels: glTF gives none.
@@ -35,6 +35,9 @@ pub(super) fn assemble<'a>(
             let texture = |slot, used: TextureUse| textures.chain(number, slot, used.texture);
             assembler.draw(placed, instance, primitive, texture)?;
         }
+    }
+    if let Some(blur) = scene.image.backdrop {
+        assembler.backdrop(scene, blur)?;
     }
     Ok(assembler.memory)
 }
@@ -103,6 +106,12 @@ struct Assembler<'a> {
 static DEFAULT_MATERIAL: std::sync::LazyLock<Material> =
     std::sync::LazyLock::new(Material::default);
 
+/// The triangles of an environment behind everything.
+static BACKDROP: std::sync::LazyLock<Primitive> = std::sync::LazyLock::new(|| Primitive {
+    indices: vec![0, 1, 2, 0, 2, 3],
+    ..Primitive::default()
+});
+
 impl<'a> Assembler<'a> {
     /// Adds what of one primitive may be seen to the frame, and what its vertices carry to the draws.
     fn draw(
@@ -138,6 +147,7 @@ impl<'a> Assembler<'a> {
             smooth: normals.is_some() && !self.is_flat,
             uv_set: uv_set(material, primitive),
             colors: model.posed_colors(instance, primitive),
+            backdrop: None,
             mirrored: model_to_world.determinant() < 0.0,
         };
         if whereabouts == Whereabouts::Inside {
@@ -158,10 +168,46 @@ impl<'a> Assembler<'a> {
         Ok(())
     }
 
+    /// Adds the environment behind everything: two triangles at the far plane that fill the picture.
+    fn backdrop(&mut self, scene: &Scene, blur: f32) -> Result<(), RenderError> {
+        let first_id = self.next_id;
+        self.next_id = first_id.checked_add(2).ok_or(RenderError::TooManyPrimitives)?;
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        let corners = corners.map(|(x, y)| Point::<Ndc>::new(x, y, -1.0));
+        let ndc_to_screen = self.stage.ndc_to_screen;
+        // With one w for all of them, what they carry is linear on the screen, as places on a plane across the view are.
+        let vertices = corners.map(|c| ScreenVertex::snap(ndc_to_screen.point(c), 1.0));
+        let clip_to_world = scene.shot.world_to_clip().raw().inverse();
+        let vertex = |corner: Point<Ndc>| {
+            let place = clip_to_world * corner.raw().extend(1.0);
+            let [x, y, z] = (place.truncate() / place.w).as_vec3().to_array();
+            let mut vertex = [0.0; 8];
+            [vertex[PLACE], vertex[PLACE + 1], vertex[PLACE + 2]] = [x, y, z];
+            vertex
+        };
+        let primitive: &'static Primitive = &BACKDROP;
+        self.memory.draws.draws.push(Draw {
+            first_id,
+            primitive,
+            material: &DEFAULT_MATERIAL,
+            maps: Maps::default(),
+            vertices: corners.map(vertex).to_vec(),
+            tangents: Tangents::None,
+            smooth: false,
+            uv_set: None,
+            colors: None,
+            backdrop: Some(blur),
+            mirrored: false,
+        });
+        let triangles = primitive.indices.as_chunks::<3>().0;
+        self.memory.frame.mesh(&vertices, triangles, first_id, Cover::Solid, Cull::Nothing);
+        Ok(())
+    }
+
     /// Adds triangles none of which has to be clipped.
     fn mesh(&mut self, draw: &Draw<'_>) {
         let triangles = draw.primitive.indices.as_chunks::<3>().0;
-        let cover = cover_of(draw.material.alpha_mode);
+        let cover = cover_of(draw.material);
         self.memory.frame.mesh(
             &self.memory.images.screen,
             triangles,
@@ -174,7 +220,7 @@ impl<'a> Assembler<'a> {
     /// Clips the primitive's points, lines or triangles and adds what is left to the frame.
     fn submit(&mut self, draw: &Draw<'_>) {
         let primitive = draw.primitive;
-        let cover = cover_of(draw.material.alpha_mode);
+        let cover = cover_of(draw.material);
         let cull = self.cull(draw);
         let items = primitive.indices.chunks_exact(primitive.topology.corners());
         for (id, corners) in (draw.first_id..).zip(items) {
@@ -251,8 +297,9 @@ fn orientation([p, q, r]: [HPoint<Clip>; 3]) -> f64 {
     column(p).dot(column(q).cross(column(r)))
 }
 
-fn cover_of(mode: AlphaMode) -> Cover {
-    match mode {
+fn cover_of(material: &Material) -> Cover {
+    match material.alpha_mode {
+        AlphaMode::Opaque if material.transmits() => Cover::Translucent,
         AlphaMode::Opaque => Cover::Solid,
         AlphaMode::Mask { .. } => Cover::Masked,
         AlphaMode::Blend => Cover::Translucent,

@@ -16,7 +16,11 @@ use crate::{Picture, Timings};
 pub fn draw(scene: &Scene, threads: usize, timings: &Timings) -> Result<Page, RenderError> {
     let look = scene.style.line_look();
     let drawing = timings.measure("lines", || drawing::draw(scene, &look.options(), threads))?;
-    let page = || drawing.to_page(&look, &scene.title(), paper(scene.image.background));
+    let page = || {
+        let mut page = drawing.to_page(&look, &scene.title(), paper(scene.image.background));
+        page.layers.extend(drawing::overlays(scene));
+        page
+    };
     Ok(timings.measure("chains", page))
 }
 

@@ -67,6 +67,8 @@ impl Renderer {
         let shading = Shading {
             draws,
             lights: &scene.lights,
+            environment: scene.environment.as_deref(),
+            develop: scene.develop,
             viewer: scene.shot.viewer(),
             instructions: frame.instructions(),
         };

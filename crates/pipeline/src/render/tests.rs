@@ -44,7 +44,14 @@ fn eight_fragments_at_once_have_the_colours_of_one_by_one() {
                 assemble(&scene, &textures, 1, memory).expect("a frame");
             let viewer = scene.shot.viewer();
             let instructions = frame.instructions();
-            let shading = Shading { draws: &draws, lights: &scene.lights, viewer, instructions };
+            let shading = Shading {
+                draws: &draws,
+                lights: &scene.lights,
+                environment: scene.environment.as_deref(),
+                develop: scene.develop,
+                viewer,
+                instructions,
+            };
             let mut pictures = [(); 2].map(|()| vec![[0; 4]; 200 * 130]);
             let bits = |color: [f32; 4]| color.map(f32::to_bits);
             let background = scene.image.background;

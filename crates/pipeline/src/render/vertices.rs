@@ -87,7 +87,8 @@ pub(super) fn tangents(
     if let Some(given) = model.posed_tangents(instance, primitive) {
         return Tangents::OfVertices(turned(&given));
     }
-    let uv_set = material.normal_texture.map_or(0, |normal| normal.texture.uv_set);
+    let coat = material.extensions.clearcoat.as_deref().and_then(|coat| coat.normal_texture);
+    let uv_set = material.normal_texture.or(coat).map_or(0, |normal| normal.texture.uv_set);
     let derived = match (&posed.positions, &posed.normals) {
         (Cow::Borrowed(_), None | Some(Cow::Borrowed(_))) => primitive.derived_tangents(uv_set),
         (positions, normals) => Primitive {

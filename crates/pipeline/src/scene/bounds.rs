@@ -5,7 +5,7 @@ use camera::Camera;
 use homog::{Point, World};
 
 /// Every vertex that some point, line or triangle of the scene uses, in the world.
-pub(super) fn world_points(models: &[Placed]) -> Vec<Point<World>> {
+pub(crate) fn world_points(models: &[Placed]) -> Vec<Point<World>> {
     let mut points = Vec::new();
     for Placed { model, model_to_world } in models {
         model.for_each_shown_point(|point| points.push(model_to_world.point(point)));

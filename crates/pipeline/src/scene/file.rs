@@ -4,16 +4,20 @@
 //! field but the models' paths may be left out. Unknown fields are errors, so that a slip of the pen is found.
 
 mod camera;
+mod environment;
 mod light;
 mod lines;
 mod look;
+mod overlay;
 mod projection;
 mod sheet;
 
 pub use self::camera::{CameraChoice, CameraFile, FromFile, USUAL_PADDING, ViewFile};
+pub use self::environment::EnvironmentFile;
 pub use self::light::LightFile;
 pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, WidthFile};
-pub use self::look::{BackgroundFile, ImageFile, StyleFile};
+pub use self::look::{BackgroundFile, ImageFile, StyleFile, ToneMappingFile};
+pub use self::overlay::OverlayFile;
 pub use self::projection::{PrincipalFile, ProjectionFile};
 pub use self::sheet::{
     AngleFile, AxonometricFile, OrientationFile, PaperFile, SheetFile, SideFile, UnitFile,
@@ -32,14 +36,20 @@ pub struct SceneFile {
     /// From where, and by which projection. Default: framed from a named direction, in perspective.
     #[serde(default)]
     pub camera: CameraFile,
-    /// The lights. Default: a key light from above the viewer's left shoulder, and ambient light.
+    /// The lights. Default: those of the models; where they have none and there is no environment either, a key light from above
+    /// the viewer's left shoulder, and ambient light.
     pub lights: Option<Vec<LightFile>>,
+    /// Light from all around. Default: none.
+    pub environment: Option<EnvironmentFile>,
     /// How surfaces are drawn. Default: `Shaded`.
     #[serde(default)]
     pub style: StyleFile,
     /// The picture. Default: 960 × 720 pixels, transparent.
     #[serde(default)]
     pub image: ImageFile,
+    /// What is drawn over the picture. Default: nothing.
+    #[serde(default)]
+    pub overlays: Vec<OverlayFile>,
     /// How `alberti sheet` puts the models on paper. Default: as its flags say.
     pub sheet: Option<SheetFile>,
 }
@@ -104,8 +114,10 @@ impl SceneFile {
             models: vec![model],
             camera: CameraFile::default(),
             lights: None,
+            environment: None,
             style: StyleFile::default(),
             image: ImageFile::default(),
+            overlays: Vec::new(),
             sheet: None,
         }
     }

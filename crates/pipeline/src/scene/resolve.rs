@@ -1,16 +1,19 @@
 //! From what a person wrote to what drawing needs, or to an error that points.
 
-use super::file::{BackgroundFile, Choice, Finite, LightFile, ModelFile};
+use super::file::{BackgroundFile, Choice, Finite, ModelFile, OverlayFile, ToneMappingFile};
+use super::lights::resolve_lights;
 use super::locate::Step::{Field, Index};
 use super::look::resolve_style;
+use super::number::Positive;
 use super::parse::suggestion;
+use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
 use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile};
 use crate::color::parse_hex;
+use crate::drawing::Overlay;
 use crate::import::{FaultKind, ImportError, ImportOptions, load};
 use crate::model::Model;
-use crate::render::Shot;
-use crate::shade::Light;
+use crate::shade::{Develop, ToneMapping};
 use homog::{Affine, Model as ModelSpace, Vector, World};
 use raster::Samples;
 use std::collections::BTreeMap;
@@ -36,7 +39,7 @@ impl Scene {
     ) -> Result<Self, ResolveError> {
         resolve_image(origin, file)?;
         let models = load_models(origin, file, options)?;
-        let frame = || Self::of_models(origin, file, models);
+        let frame = || Self::around(origin, file, models, &options.import.allow_outside);
         options.import.timings.measure("frame", frame)
     }
 
@@ -50,11 +53,30 @@ impl Scene {
         file: &SceneFile,
         models: Vec<Placed>,
     ) -> Result<Self, ResolveError> {
+        Self::around(origin, file, models, &[])
+    }
+
+    /// The scene around its models; the environment's file may lie in one of the `allowed` folders too.
+    fn around(
+        origin: &Origin,
+        file: &SceneFile,
+        models: Vec<Placed>,
+        allowed: &[PathBuf],
+    ) -> Result<Self, ResolveError> {
         let image = resolve_image(origin, file)?;
         let shot = resolve_shot(origin, &file.camera, &models, image)?;
-        let lights = resolve_lights(origin, file, &shot)?;
+        let lights = resolve_lights(origin, file, &models, &shot)?;
+        let environment = resolve_environment(origin, file, allowed)?;
+        let curve = match file.image.tone_mapping {
+            ToneMappingFile::None => ToneMapping::None,
+            ToneMappingFile::Neutral => ToneMapping::Neutral,
+            ToneMappingFile::Aces => ToneMapping::Aces,
+            ToneMappingFile::AgX => ToneMapping::AgX,
+        };
+        let develop = Develop::new(file.image.exposure_ev.map_or(0.0, Finite::value), curve);
         let style = resolve_style(origin, &file.style)?;
-        Ok(Self { models, shot, lights, style, image })
+        let overlays = resolve_overlays(origin, &file.overlays, &models, image)?;
+        Ok(Self { models, shot, lights, environment, develop, style, image, overlays })
     }
 }
 
@@ -73,6 +95,12 @@ pub(super) fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSp
     })?;
     let background = match &file.image.background {
         BackgroundFile::Transparent => [0.0; 4],
+        BackgroundFile::Environment { .. } if file.environment.is_none() => {
+            let help = Some("add one, such as environment: Studio()".to_owned());
+            let at = [Field("image"), Field("background")];
+            return Err(origin.fault(&at, "the scene has no environment to be seen", help));
+        }
+        BackgroundFile::Environment { .. } => [0.0, 0.0, 0.0, 1.0],
         BackgroundFile::Color(text) => {
             let [r, g, b] = parse_hex(text).ok_or_else(|| {
                 let message = format!("`{text}` is no colour");
@@ -82,7 +110,13 @@ pub(super) fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSp
             [r, g, b, 1.0]
         }
     };
-    Ok(ImageSpec { width, height, background, samples })
+    let backdrop = match &file.image.background {
+        BackgroundFile::Environment { blur } => {
+            Some(blur.map_or(0.0, |blur| blur.value().min(1.0) as f32))
+        }
+        _ => None,
+    };
+    Ok(ImageSpec { width, height, background, backdrop, samples })
 }
 
 pub(super) fn no_model(origin: &Origin) -> SceneError {
@@ -233,50 +267,22 @@ pub(super) fn placement(entry: &ModelFile) -> Affine<ModelSpace, World> {
         .then(Affine::translation(Vector::from(entry.translate.0)))
 }
 
-fn resolve_lights(
+pub(super) fn resolve_overlays(
     origin: &Origin,
-    file: &SceneFile,
-    shot: &Shot,
-) -> Result<Vec<Light>, SceneError> {
-    let Some(lights) = &file.lights else { return Ok(default_lights(shot)) };
-    let resolve = |(number, light): (usize, &LightFile)| resolve_light(origin, number, light);
-    lights.iter().enumerate().map(resolve).collect()
-}
-
-/// A key light from above the viewer's left shoulder, so that shape reads from every side, and a quarter as much ambient.
-fn default_lights(shot: &Shot) -> Vec<Light> {
-    let camera = shot.camera;
-    let towards = camera.u() * -0.45 + camera.v() * 0.65 + camera.w();
-    let towards = towards.normalized().unwrap_or(camera.w());
-    vec![
-        Light::Sun { towards: towards.raw().as_vec3().to_array(), lux: [2.5; 3] },
-        Light::Ambient { lux: [0.7; 3] },
-    ]
-}
-
-pub(super) fn resolve_light(
-    origin: &Origin,
-    number: usize,
-    light: &LightFile,
-) -> Result<Light, SceneError> {
-    let times = |strength: f64, color: [f64; 3]| color.map(|channel| (channel * strength) as f32);
-    Ok(match *light {
-        LightFile::Sun { direction, lux, color } => {
-            let towards = -Vector::<World>::from(direction.0);
-            let unit = towards.normalized().ok_or_else(|| {
-                let at = [Field("lights"), Index(number), Field("direction")];
-                let help =
-                    Some("such as (-1, -2, -1): from the right, above and before".to_owned());
-                origin.fault(&at, "the sun's direction is (0, 0, 0), which is none", help)
-            })?;
-            let towards = unit.raw().as_vec3().to_array();
-            Light::Sun { towards, lux: times(lux.value(), color.0) }
-        }
-        LightFile::Point { position, candela, color } => Light::Point {
-            position: position.0.map(|c| c as f32),
-            candela: times(candela.value(), color.0),
-            range: f32::INFINITY,
-        },
-        LightFile::Ambient { lux, color } => Light::Ambient { lux: times(lux.value(), color.0) },
-    })
+    overlays: &[OverlayFile],
+    models: &[Placed],
+    image: ImageSpec,
+) -> Result<Vec<Overlay>, SceneError> {
+    let resolve = |overlay: &OverlayFile| {
+        Ok(match overlay {
+            OverlayFile::Axes { length } => Overlay::Axes(length.map(Positive::value)),
+            OverlayFile::Grid { step } => Overlay::Grid(step.map(Positive::value)),
+            OverlayFile::Horizon => Overlay::Horizon,
+            OverlayFile::VanishingPoints => Overlay::VanishingPoints,
+            OverlayFile::Volume(camera) => {
+                Overlay::Volume(resolve_shot(origin, camera, models, image)?.into())
+            }
+        })
+    };
+    overlays.iter().map(resolve).collect()
 }

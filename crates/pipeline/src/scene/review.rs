@@ -2,9 +2,11 @@
 
 use super::error::SceneError;
 use super::file::SceneFile;
+use super::lights::resolve_light;
 use super::look::resolve_style;
 use super::origin::Origin;
-use super::resolve::{ModelFault, load_model, placement, resolve_image, resolve_light};
+use super::resolve::{ModelFault, load_model, placement, resolve_image, resolve_overlays};
+use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
 use super::{Placed, ResolveOptions};
 use crate::drawing::Sheet;
@@ -33,11 +35,13 @@ pub fn review(origin: &Origin, file: &SceneFile, options: &ResolveOptions) -> Ve
         Err(mistake) => mistakes.push(mistake),
         Ok(image) if !models.is_empty() && models.len() == file.models.len() => {
             mistakes.extend(resolve_shot(origin, &file.camera, &models, image).err());
+            mistakes.extend(resolve_overlays(origin, &file.overlays, &models, image).err());
         }
         Ok(_) => {}
     }
     let lights = file.lights.iter().flatten().enumerate();
     mistakes.extend(lights.filter_map(|(at, light)| resolve_light(origin, at, light).err()));
+    mistakes.extend(resolve_environment(origin, file, &options.import.allow_outside).err());
     mistakes.extend(resolve_style(origin, &file.style).err());
     let sheet = file.sheet.iter();
     mistakes.extend(sheet.filter_map(|sheet| Sheet::resolve(origin, sheet).err()));

@@ -30,6 +30,8 @@ pub struct Draw<'a> {
     pub uv_set: Option<usize>,
     /// The vertex colours, if there are any.
     pub colors: Option<Cow<'a, [[f32; 4]]>>,
+    /// That it is no surface but the environment behind all of them, and how blurred that is.
+    pub backdrop: Option<f32>,
     /// Whether the way to the world mirrors, so that triangles run the other way round.
     pub mirrored: bool,
 }

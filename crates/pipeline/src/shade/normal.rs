@@ -14,8 +14,10 @@ pub(super) struct Facing<const N: usize> {
     pub(super) places: Vectors<N>,
     /// The unit vectors to the viewer.
     pub(super) views: Vectors<N>,
-    /// The unit normals on the side that is seen, bent by the material's slopes.
+    /// The unit normals on the side that is seen.
     pub(super) normals: Vectors<N>,
+    /// Whether that is the back.
+    is_back: [bool; N],
     /// The cosines between the two, not below 0.
     pub(super) cosines: [f32; N],
     /// How far the surface's own normals turn from one pixel to the next, in radians, at most 1.
@@ -23,14 +25,29 @@ pub(super) struct Facing<const N: usize> {
 }
 
 impl<const N: usize> Facing<N> {
-    /// The same surfaces with other normals.
     #[inline(always)]
-    pub(super) fn with_normals(places: Vectors<N>, views: Vectors<N>, normals: Vectors<N>) -> Self {
+    pub(super) fn of(
+        places: Vectors<N>,
+        views: Vectors<N>,
+        normals: Vectors<N>,
+        is_back: [bool; N],
+        turns: [f32; N],
+    ) -> Self {
         let mut cosines = dots(&normals, &views);
         for cosine in &mut cosines {
             *cosine = cosine.clamp(0.0, 1.0);
         }
-        Self { places, views, normals, cosines, turns: [0.0; N] }
+        Self { places, views, normals, is_back, cosines, turns }
+    }
+
+    /// The same surfaces bent by slopes. Seen from behind, the whole frame of tangent, bitangent and normal is turned round.
+    #[inline(always)]
+    pub(super) fn bent(&self, tangents: &[[f32; N]; 4], slope: &Vectors<N>) -> Self {
+        let mut fronts = self.normals;
+        turn(&mut fronts, &self.is_back);
+        let mut normals = bend(&fronts, tangents, slope);
+        turn(&mut normals, &self.is_back);
+        Self::of(self.places, self.views, normals, self.is_back, self.turns)
     }
 }
 
@@ -193,20 +210,29 @@ pub(super) fn views<const N: usize>(places: &Vectors<N>, viewer: [f32; 4]) -> Ve
     ways
 }
 
-/// Turns those normals round whose faces are seen from behind.
+/// Whether faces are seen from behind.
 ///
-/// The face's own normal decides which side is seen: a smooth one may lean away from the viewer near the outline of a body
-/// and is right to do so.
+/// The face's own normal decides that: a smooth one may lean away from the viewer near the outline of a body and is right to
+/// do so.
 #[inline(always)]
-pub(super) fn turn_to_viewer<const N: usize>(
-    normals: &mut Vectors<N>,
+pub(super) fn seen_from_behind<const N: usize>(
     faces: &Vectors<N>,
     views: &Vectors<N>,
-) {
+) -> [bool; N] {
     let towards = dots(faces, views);
-    for axis in normals {
+    let mut is_back = [false; N];
+    for lane in 0..N {
+        is_back[lane] = towards[lane] < 0.0;
+    }
+    is_back
+}
+
+/// Turns some vectors round.
+#[inline(always)]
+pub(super) fn turn<const N: usize>(vectors: &mut Vectors<N>, which: &[bool; N]) {
+    for axis in vectors {
         for lane in 0..N {
-            axis[lane] = if towards[lane] < 0.0 { -axis[lane] } else { axis[lane] };
+            axis[lane] = if which[lane] { -axis[lane] } else { axis[lane] };
         }
     }
 }

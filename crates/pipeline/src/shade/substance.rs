@@ -9,6 +9,7 @@
 
 use super::albedo::{Albedo, compensation};
 use super::inputs::{Inputs, Layers};
+use super::layers::{Grain, film_f0};
 use super::light::Arriving;
 use super::microfacet::{LEAST_ROUGHNESS, Meeting, alpha_of, fifth};
 use super::normal::Facing;
@@ -29,7 +30,7 @@ pub(super) struct Substance<const N: usize> {
     over90: [f32; N],
     /// The perceptual roughness, and α.
     pub(super) roughness: [f32; N],
-    alpha: [f32; N],
+    pub(super) alpha: [f32; N],
     /// What highlights are multiplied by.
     gain: [[f32; N]; 3],
     /// The share of white surroundings that is mirrored.
@@ -67,6 +68,9 @@ impl<const N: usize> Substance<N> {
             substance.older(inputs);
         } else {
             substance.metallic_roughness(extensions, inputs);
+        }
+        if let Some(film) = &extensions.iridescence {
+            substance.film(film.ior, inputs, facing);
         }
         substance.balance(&Albedo::of(&substance.roughness, &facing.cosines));
         substance
@@ -107,6 +111,47 @@ impl<const N: usize> Substance<N> {
         }
     }
 
+    /// A thin film in the place of a part of the interface (KHR_materials_iridescence).
+    #[inline(always)]
+    fn film(&mut self, ior: f32, inputs: &Inputs<N>, facing: &Facing<N>) {
+        for lane in 0..N {
+            let [share, thickness] = [inputs.layers.film[lane], inputs.layers.film_thickness[lane]];
+            let below = lane_of(&self.f0, lane);
+            let colors = film_f0(below, ior, thickness, facing.cosines[lane]);
+            let mut over = self.over0[lane];
+            for channel in 0..3 {
+                self.f0[channel][lane] += (colors[channel] - below[channel]) * share;
+                over = over.max(
+                    self.f0[channel][lane].min(self.over90[lane]) * (1.0 - inputs.metallic[lane]),
+                );
+            }
+            self.over0[lane] = over;
+        }
+    }
+
+    /// Lets a share of the light that would be scattered pass, and returns how much of all light does: as through a thin sheet
+    /// whose tint is a grey as bright (KHR_materials_transmission, KHR_materials_volume).
+    #[inline(always)]
+    pub(super) fn pass(&mut self, extensions: &MaterialExtensions, inputs: &Inputs<N>) -> [f32; N] {
+        let volume = extensions.volume.as_deref().copied().unwrap_or_default();
+        let mut passing = [0.0; N];
+        for lane in 0..N {
+            let share = inputs.layers.transmission[lane];
+            let way = inputs.layers.thickness[lane] / volume.attenuation_distance;
+            let mut tint = [0.0; 3];
+            for channel in 0..3 {
+                self.diffuse[channel][lane] *= 1.0 - share;
+                let kept = volume.attenuation_color[channel];
+                let left = if way > 0.0 { libm::powf(kept, way) } else { 1.0 };
+                tint[channel] = inputs.base[channel][lane] * left;
+            }
+            let grey = 0.2126 * tint[0] + 0.7152 * tint[1] + 0.0722 * tint[2];
+            let dielectric = 1.0 - inputs.metallic[lane];
+            passing[lane] = (share * dielectric * self.through[lane] * grey).clamp(0.0, 1.0);
+        }
+        passing
+    }
+
     /// What follows from the albedo.
     #[inline(always)]
     fn balance(&mut self, albedo: &Albedo<N>) {
@@ -130,6 +175,7 @@ impl<const N: usize> Substance<N> {
         &self,
         facing: &Facing<N>,
         arriving: &Arriving<N>,
+        grain: Option<&Grain<N>>,
         sums: &mut [[f32; N]; 3],
     ) {
         let (mut lobes, mut grazing, mut scattered) = ([0.0; N], [0.0; N], [0.0; N]);
@@ -144,6 +190,14 @@ impl<const N: usize> Substance<N> {
             grazing[lane] = share;
             let over = self.over0[lane] + (self.over90[lane] - self.over0[lane]) * share;
             scattered[lane] = meeting.nl * FRAC_1_PI * (1.0 - over);
+        }
+        if let Some(grain) = grain {
+            for lane in 0..N {
+                let [n, v, l] = [&facing.normals, &facing.views, &arriving.towards]
+                    .map(|vectors| lane_of(vectors, lane));
+                let meeting = Meeting::of(n, v, l);
+                lobes[lane] = grain.lobe(&meeting, self.alpha[lane], v, l, lane);
+            }
         }
         for channel in 0..3 {
             for lane in 0..N {

@@ -3,7 +3,7 @@
 //! All are drawn on 800 × 800 pixels, 100 to a unit of the picture, with its origin in the middle and y up: X and Y below are
 //! in those units.
 
-#![allow(clippy::unwrap_used, reason = "tests fail by panics")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests fail by panics")]
 #![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
 
 mod edges;

@@ -32,13 +32,17 @@ pub fn scene(model: Model, shot: Shot) -> Scene {
         models: vec![placed],
         shot,
         lights: Vec::new(),
+        environment: None,
+        develop: pipeline::shade::Develop::default(),
         style: Style::Flat,
         image: ImageSpec {
             width: SIZE,
             height: SIZE,
             background: [0.0; 4],
+            backdrop: None,
             samples: raster::Samples::One,
         },
+        overlays: Vec::new(),
     }
 }
 

@@ -47,8 +47,11 @@ impl Render {
                 Light::Sun { towards: TOWARDS_LIGHT, lux: lux(1.0 - AMBIENT) },
                 Light::Ambient { lux: lux(AMBIENT) },
             ],
+            environment: None,
+            develop: pipeline::shade::Develop::default(),
             style: Style::Shaded,
-            image: ImageSpec { width, height, background: [0.0; 4], samples },
+            image: ImageSpec { width, height, background: [0.0; 4], backdrop: None, samples },
+            overlays: Vec::new(),
         };
         // As long as the process: there are few, and their textures refer to them.
         let models: &'static [Placed] = scene.models.clone().leak();

@@ -1,68 +1,11 @@
 //! Why an edge is drawn: what the faces on its two sides do there.
 
-use super::crossings::crossings;
 use super::gather::{Face, Shape};
-use super::seams::{Reach, borders, cut, weld_near};
-use super::sides::{Side, Sides};
-use super::weld::weld_equal;
+use super::sides::Side;
 use crate::drawing::sight::Sight;
-use crate::drawing::visibility::Tolerance;
 use crate::drawing::{EdgeClass, Options};
 use crate::model::EdgeVisibility;
 use glam::DVec3;
-
-/// An edge to be drawn.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Candidate {
-    pub(crate) ends: [DVec3; 2],
-    pub(crate) class: EdgeClass,
-    pub(crate) object: u32,
-}
-
-/// Welds the shape and finds the edges that the options ask for, by object and in the order of their points.
-pub(crate) fn candidates(
-    shape: &mut Shape,
-    sight: &Sight,
-    options: &Options,
-    threads: usize,
-) -> Vec<Candidate> {
-    weld_equal(shape);
-    let mut sides = Sides::of(&shape.faces, shape.points.len());
-    let mut seams = borders(&sides);
-    let reach = Reach::of(shape);
-    if weld_near(shape, &seams, &reach) {
-        sides = Sides::of(&shape.faces, shape.points.len());
-        seams = borders(&sides);
-    }
-    let seams = cut(shape, &seams, &reach);
-    let mut found = Vec::new();
-    let mut add = |ends: [DVec3; 2], class, object| {
-        if options.classes.contains(class) {
-            found.push(Candidate { ends, class, object });
-        }
-    };
-    let places = |ends: [u32; 2]| ends.map(|end| shape.points[end as usize]);
-    let classifier = Classifier::of(shape, sight, options);
-    for (ends, sides) in sides.edges().filter(|(_, sides)| sides.len() > 1) {
-        add(places(ends), classifier.class(sides), classifier.object(sides));
-    }
-    for parts in seams.chunk_by(|(a, _), (b, _)| a == b) {
-        let sides: Vec<Side> = parts.iter().map(|(_, side)| *side).collect();
-        add(places(parts[0].0), classifier.class(&sides), classifier.object(&sides));
-    }
-    for stroke in &shape.strokes {
-        let class = if stroke.marked { EdgeClass::Marked } else { EdgeClass::Line };
-        add(places(stroke.ends), class, stroke.object);
-    }
-    if options.classes.contains(EdgeClass::Intersection) {
-        let touching = Tolerance::of_scene(shape.diagonal()).world;
-        for (ends, object) in crossings(shape, touching, threads) {
-            add(ends, EdgeClass::Intersection, object);
-        }
-    }
-    found.sort_by_key(|candidate| candidate.object);
-    found
-}
 
 /// Of each face the unit normal, and whether it looks to the viewer.
 #[derive(Clone, Debug)]
@@ -85,7 +28,7 @@ impl Normals {
     }
 }
 
-struct Classifier<'a> {
+pub(super) struct Classifier<'a> {
     faces: &'a [Face],
     normals: Normals,
     /// The cosine of the crease angle.
@@ -93,7 +36,7 @@ struct Classifier<'a> {
 }
 
 impl<'a> Classifier<'a> {
-    fn of(shape: &'a Shape, sight: &Sight, options: &Options) -> Self {
+    pub(super) fn of(shape: &'a Shape, sight: &Sight, options: &Options) -> Self {
         let normals = Normals::of(shape, sight);
         Self { faces: &shape.faces, normals, bend: libm::cos(options.crease) }
     }
@@ -103,11 +46,11 @@ impl<'a> Classifier<'a> {
     }
 
     /// The first of the objects that meet at an edge.
-    fn object(&self, sides: &[Side]) -> u32 {
+    pub(super) fn object(&self, sides: &[Side]) -> u32 {
         sides.iter().map(|&side| self.face(side).object).min().unwrap_or(0)
     }
 
-    fn class(&self, sides: &[Side]) -> EdgeClass {
+    pub(super) fn class(&self, sides: &[Side]) -> EdgeClass {
         let shape = self.shape(sides);
         let mark = |&side: &Side| Some(self.face(side).marks?[usize::from(side.number)]);
         match (sides.iter().filter_map(mark).max(), shape) {

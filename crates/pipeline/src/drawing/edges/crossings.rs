@@ -6,7 +6,7 @@
 //! plane that their crossing is made by rounding: decals, and copies of a surface.
 
 use super::gather::{Face, Shape};
-use super::seams::surface;
+use super::seams::{Border, Reach, surface};
 use crate::drawing::in_order::in_order;
 use crate::drawing::visibility::{Aabb, Bvh};
 use glam::DVec3;
@@ -20,20 +20,41 @@ const LEAST_SINE: f64 = 1.0 / 64.0;
 /// A crossing: its ends, and the lesser number of the faces' objects.
 pub(super) type Crossing = ([DVec3; 2], u32);
 
-/// All crossings of a shape's faces, in the order of the faces. What is nearer than `touching` only touches.
-pub(super) fn crossings(shape: &Shape, touching: f64, threads: usize) -> Vec<Crossing> {
-    let triangles: Vec<Triangle> =
+/// About as many crossings are found at most.
+const MOST: usize = 1 << 22;
+
+/// All crossings of a shape's faces, in the order of the faces. What is nearer than `touching` only touches. Crossings along
+/// borders of both, nearer than twice what may be welded, are left out: the borders are drawn.
+pub(super) fn crossings(
+    shape: &Shape,
+    (borders, reach): (&[Border], &Reach),
+    touching: f64,
+    threads: usize,
+) -> Vec<Crossing> {
+    let mut triangles: Vec<Triangle> =
         shape.faces.iter().map(|face| Triangle::of(shape, face)).collect();
+    for (ends, side) in borders {
+        let triangle = &mut triangles[side.face as usize];
+        triangle.borders[usize::from(side.number)] = true;
+        triangle.near = 2.0 * reach.of_edge(*ends);
+    }
     let boxes: Vec<Aabb> = triangles.iter().map(|t| Aabb::around(t.corners)).collect();
     let tree = Bvh::new(&boxes, surface);
-    in_order(shape.faces.len(), threads, |range, open: &mut Vec<u32>, found| {
+    // The lesser of two asks for the greater, of which there are few where it is.
+    let size = |at: usize| (surface(boxes[at].max - boxes[at].min), at);
+    let count = shape.faces.len();
+    let (most, most_crossed) = (Bvh::fair_share(count), (MOST / count.max(1)).max(16));
+    in_order(count, threads, |range, open: &mut Vec<u32>, found| {
         for one in range {
-            tree.for_each_near(&boxes[one], open, |other| {
-                let faces = [&shape.faces[one], &shape.faces[other as usize]];
-                if other as usize <= one || share_an_edge(faces) {
+            let before = found.len();
+            tree.for_each_near(&boxes[one], most, open, |other| {
+                let other = other as usize;
+                let faces = [&shape.faces[one], &shape.faces[other]];
+                let is_asked = size(one) < size(other) && found.len() - before < most_crossed;
+                if !is_asked || share_an_edge(faces) {
                     return;
                 }
-                let crossing = triangles[one].crosses(&triangles[other as usize], touching);
+                let crossing = triangles[one].crosses(&triangles[other], touching);
                 found.extend(crossing.map(|ends| (ends, faces[0].object.min(faces[1].object))));
             });
         }
@@ -48,13 +69,18 @@ fn share_an_edge([one, other]: [&Face; 2]) -> bool {
 struct Triangle {
     corners: [DVec3; 3],
     normal: DVec3,
+    /// Which sides are borders.
+    borders: [bool; 3],
+    /// What is nearer than this to a border is on it.
+    near: f64,
 }
 
 impl Triangle {
     fn of(shape: &Shape, face: &Face) -> Self {
         let corners = face.corners.map(|corner| shape.points[corner as usize]);
         let [a, b, c] = corners;
-        Self { corners, normal: (b - a).cross(c - a).normalize_or_zero() }
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        Self { corners, normal, borders: [false; 3], near: 0.0 }
     }
 
     fn crosses(&self, other: &Self, touching: f64) -> Option<[DVec3; 2]> {
@@ -73,7 +99,19 @@ impl Triangle {
         let from = if a.0 >= c.0 { a } else { c };
         let to = if b.0 <= d.0 { b } else { d };
         let is_long = to.0 > from.0 && (to.1 - from.1).length() > touching;
-        is_long.then_some([from.1, to.1])
+        let ends = [from.1, to.1];
+        let is_seam = || self.has_as_border(ends) && other.has_as_border(ends);
+        (is_long && !is_seam()).then_some(ends)
+    }
+
+    /// Whether a segment runs along a border.
+    fn has_as_border(&self, ends: [DVec3; 2]) -> bool {
+        let is_on = |k: usize| {
+            let (from, to) = (self.corners[k], self.corners[(k + 1) % 3]);
+            let along = (to - from).normalize_or_zero();
+            ends.iter().all(|&end| (end - from).reject_from_normalized(along).length() < self.near)
+        };
+        (0..3).any(|k| self.borders[k] && is_on(k))
     }
 
     /// How far the corners are above another triangle's plane.

@@ -38,6 +38,11 @@ impl Reach {
         }
         Self(reach)
     }
+
+    /// The lesser of those of two ends.
+    pub(super) fn of_edge(&self, [a, b]: [u32; 2]) -> f64 {
+        self.0[a as usize].min(self.0[b as usize])
+    }
 }
 
 /// The edges that one face alone has.
@@ -61,7 +66,8 @@ pub(super) fn weld_near(shape: &mut Shape, borders: &[Border], reach: &Reach) ->
             continue;
         }
         let (here, far) = (places[number].min, reach.0[at as usize]);
-        tree.for_each_near(&places[number].grown(DVec3::splat(far)), &mut open, |item| {
+        let area = places[number].grown(DVec3::splat(far));
+        tree.for_each_near(&area, usize::MAX, &mut open, |item| {
             let other = points[item as usize];
             let near = far.min(reach.0[other as usize]);
             let is_near = (places[item as usize].min - here).length() <= near;
@@ -78,20 +84,26 @@ pub(super) fn weld_near(shape: &mut Shape, borders: &[Border], reach: &Reach) ->
     any
 }
 
-/// Cuts borders at points of other borders that lie on them.
-pub(super) fn cut(shape: &Shape, borders: &[Border], reach: &Reach) -> Vec<Border> {
+/// Cuts borders at points of other borders that lie on them; and the triangles between each border and its parts, which have
+/// a width where the points lie on it but for rounding.
+pub(super) fn cut(
+    shape: &Shape,
+    borders: &[Border],
+    reach: &Reach,
+) -> (Vec<Border>, Vec<[u32; 3]>) {
     let points = points_of(borders);
     let place = |at: u32| shape.points[at as usize];
     let places: Vec<Aabb> = points.iter().map(|&at| Aabb::around([place(at)])).collect();
     let tree = Bvh::new(&places, surface);
     let (mut open, mut cuts) = (Vec::new(), Vec::new());
-    let mut parts = Vec::with_capacity(borders.len());
+    let most = Bvh::fair_share(borders.len());
+    let (mut parts, mut fillings) = (Vec::with_capacity(borders.len()), Vec::new());
     for &([a, b], side) in borders {
         let (from, along) = (place(a), place(b) - place(a));
-        let near = reach.0[a as usize].min(reach.0[b as usize]);
+        let near = reach.of_edge([a, b]);
         cuts.clear();
         let area = Aabb::around([place(a), place(b)]).grown(DVec3::splat(near));
-        tree.for_each_near(&area, &mut open, |item| {
+        tree.for_each_near(&area, most, &mut open, |item| {
             let (at, offset) = (points[item as usize], places[item as usize].min - from);
             let t = offset.dot(along) / along.length_squared();
             let is_on = t > 0.0 && t < 1.0 && (offset - along * t).length() <= near;
@@ -100,11 +112,14 @@ pub(super) fn cut(shape: &Shape, borders: &[Border], reach: &Reach) -> Vec<Borde
             }
         });
         cuts.sort_unstable_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
+        let turns =
+            cuts.iter().map(|&(_, at)| at).zip(cuts.iter().skip(1).map(|&(_, at)| at).chain([b]));
+        fillings.extend(turns.map(|(from, to)| [a, from, to]));
         let stops = cuts.iter().map(|&(_, at)| at).chain([b]);
         parts.extend(stops.scan(a, |from, to| Some(part([std::mem::replace(from, to), to], side))));
     }
     parts.sort_unstable();
-    parts
+    (parts, fillings)
 }
 
 /// A part of a rising edge as an edge of its own.

@@ -62,7 +62,11 @@ impl<'a> Arrangement<'a> {
         });
         // At equal scales the first has more room.
         let best = candidates.reduce(|a, b| if b.0.ratio() > a.0.ratio() { b } else { a });
-        let (scale, mut placed, area) = best.ok_or_else(|| table.too_large(sheet, above_block))?;
+        let (scale, mut placed, area) = best.ok_or_else(|| {
+            let any = Sheet { scale: None, ..sheet.clone() };
+            let fitting = sheet.scale.and_then(|_| Self::of(&any, principal, None).ok());
+            table.too_large(sheet, above_block, fitting.map(|fitting| fitting.scale))
+        })?;
         let corner = free_corner(&placed, area, block);
         placed.extend(axonometric.and_then(|view| in_corner(view, corner?, scale)));
         Ok(Self { scale, placed, top_is_below: table.top_is_below })
@@ -191,10 +195,15 @@ impl<'a> Table<'a> {
         self.views.iter().map(placed).collect()
     }
 
-    fn too_large(&self, sheet: &Sheet, area: Rectangle) -> SheetError {
+    fn too_large(
+        &self,
+        sheet: &Sheet,
+        area: Rectangle,
+        fitting: Option<DrawingScale>,
+    ) -> SheetError {
         let smallest = DrawingScale::STANDARD[DrawingScale::STANDARD.len() - 1];
         let scale = sheet.scale.unwrap_or(smallest);
-        let remedy = match self.largest_scale(area) {
+        let remedy = match fitting {
             Some(fitting) => format!("; {fitting} fits"),
             None => "; take larger paper, or say what a unit of the model is".to_owned(),
         };

@@ -103,24 +103,37 @@ impl Bvh {
         }
     }
 
-    /// Calls `visit` with every item whose box may meet `area`.
+    /// Calls `visit` with every item whose box may meet `area`, but with no more than `most`.
     pub(crate) fn for_each_near(
         &self,
         area: &Aabb,
+        most: usize,
         open: &mut Vec<u32>,
         mut visit: impl FnMut(u32),
     ) {
         open.clear();
         open.extend(self.root());
+        let mut left = most;
         while let Some(node) = open.pop() {
             if !self.bounds(node).meets(area) {
                 continue;
             }
             match self.below(node) {
                 Below::Nodes(children) => open.extend(children),
-                Below::Items(places) => self.order[places].iter().for_each(|&item| visit(item)),
+                Below::Items(places) if places.len() <= left => {
+                    left -= places.len();
+                    self.order[places].iter().for_each(|&item| visit(item));
+                }
+                Below::Items(_) => return,
             }
         }
+    }
+
+    /// How many items a query may visit if each of so many items asks, for an amount of work that has a bound, whatever the
+    /// boxes: all of them where there are few, and always more than meet where things are spread as usual.
+    pub(crate) fn fair_share(queries: usize) -> usize {
+        const ALL: usize = 1 << 31;
+        (ALL / queries.max(1)).max(1024)
     }
 
     fn build(

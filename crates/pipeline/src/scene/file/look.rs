@@ -1,7 +1,7 @@
 //! How a scene file wants its picture: the style, the size, the background.
 
 use super::lines::{HiddenFile, LinesFile, ShownFile, WidthFile};
-use crate::scene::number::Percent;
+use crate::scene::number::{Finite, NonNegative, Percent};
 use serde::Deserialize;
 
 /// How surfaces are drawn.
@@ -65,21 +65,51 @@ pub struct ImageFile {
     pub background: BackgroundFile,
     /// Coverage samples per pixel: 1, 4, 8 or 16.
     pub samples: u32,
+    /// The exposure in stops: each doubles all light. Default: 0.
+    pub exposure_ev: Option<Finite>,
+    /// The curve that brings bright light into the range of a picture. Default: none.
+    pub tone_mapping: ToneMappingFile,
 }
 
 impl Default for ImageFile {
     fn default() -> Self {
-        Self { size: (960, 720), background: BackgroundFile::Transparent, samples: 4 }
+        Self {
+            size: (960, 720),
+            background: BackgroundFile::Transparent,
+            samples: 4,
+            exposure_ev: None,
+            tone_mapping: ToneMappingFile::None,
+        }
     }
 }
 
 /// What is seen where no model is.
-#[derive(Clone, PartialEq, Eq, Debug, Default, Deserialize)]
-#[serde(rename = "Background")]
+#[derive(Clone, PartialEq, Debug, Default, Deserialize)]
+#[serde(rename = "Background", deny_unknown_fields)]
 pub enum BackgroundFile {
     /// Nothing: alpha is 0.
     #[default]
     Transparent,
     /// A colour as on a web page: `#rgb` or `#rrggbb`.
     Color(String),
+    /// The environment.
+    Environment {
+        /// How blurred, from 0 to 1. Default: 0.
+        blur: Option<NonNegative>,
+    },
+}
+
+/// The curve that brings light beyond 1 into the range of a picture.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Deserialize)]
+#[serde(rename = "ToneMapping")]
+pub enum ToneMappingFile {
+    /// None: it is cut off.
+    #[default]
+    None,
+    /// Khronos PBR Neutral: keeps colours as they are but for highlights.
+    Neutral,
+    /// ACES as films have it, by the fit of Hill.
+    Aces,
+    /// AgX of Sobotka.
+    AgX,
 }

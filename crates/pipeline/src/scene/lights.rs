@@ -1,0 +1,119 @@
+//! From the lights that a scene file asks for to those that drawing needs.
+
+use super::file::{Finite, LightFile, SceneFile};
+use super::locate::Step::{Field, Index};
+use super::number::Positive;
+use super::{Origin, Placed, SceneError};
+use crate::model::LightKind;
+use crate::render::Shot;
+use crate::shade::Light;
+use homog::{Point, Vector, World};
+
+pub(super) fn resolve_lights(
+    origin: &Origin,
+    file: &SceneFile,
+    models: &[Placed],
+    shot: &Shot,
+) -> Result<Vec<Light>, SceneError> {
+    let Some(lights) = &file.lights else {
+        let theirs = lights_of(models);
+        let none_else = theirs.is_empty() && file.environment.is_none();
+        return Ok(if none_else { default_lights(shot) } else { theirs });
+    };
+    let mut resolved = Vec::new();
+    for (number, light) in lights.iter().enumerate() {
+        match resolve_light(origin, number, light)? {
+            Some(light) => resolved.push(light),
+            None => resolved.extend(lights_of(models)),
+        }
+    }
+    Ok(resolved)
+}
+
+/// The lights that the models' files have, in the world (KHR_lights_punctual). Scales do not make them brighter.
+fn lights_of(models: &[Placed]) -> Vec<Light> {
+    let mut lights = Vec::new();
+    for placed in models {
+        for (instance, light) in placed.model.shown_lights() {
+            let to_world = instance.node_to_model.then(placed.model_to_world);
+            let position = to_world.point(Point::ORIGIN).raw().as_vec3().to_array();
+            let Some(axis) = to_world.vector(-Vector::Z).normalized() else { continue };
+            let axis = axis.raw().as_vec3().to_array();
+            let strength = light.color.map(|channel| channel * light.intensity);
+            lights.push(match light.kind {
+                LightKind::Directional => Light::Sun { towards: axis.map(|c| -c), lux: strength },
+                LightKind::Point { range } => Light::Point { position, candela: strength, range },
+                LightKind::Spot { range, inner, outer } => {
+                    let cosines = [inner, outer].map(libm::cosf);
+                    Light::Spot { position, axis, candela: strength, range, cosines }
+                }
+            });
+        }
+    }
+    lights
+}
+
+/// A key light from above the viewer's left shoulder, so that shape reads from every side, and a quarter as much ambient.
+fn default_lights(shot: &Shot) -> Vec<Light> {
+    let camera = shot.camera;
+    let towards = camera.u() * -0.45 + camera.v() * 0.65 + camera.w();
+    let towards = towards.normalized().unwrap_or(camera.w());
+    vec![
+        Light::Sun { towards: towards.raw().as_vec3().to_array(), lux: [2.5; 3] },
+        Light::Ambient { lux: [0.7; 3] },
+    ]
+}
+
+pub(super) fn resolve_light(
+    origin: &Origin,
+    number: usize,
+    light: &LightFile,
+) -> Result<Option<Light>, SceneError> {
+    let range = |range: Option<Positive>| range.map_or(f32::INFINITY, |range| range.value() as f32);
+    let direction_of = |direction: [f64; 3], whose: &str| {
+        Vector::<World>::from(direction).normalized().ok_or_else(|| {
+            let at = [Field("lights"), Index(number), Field("direction")];
+            let help = Some("such as (-1, -2, -1): from the right, above and before".to_owned());
+            origin.fault(&at, format!("the {whose}'s direction is (0, 0, 0), which is none"), help)
+        })
+    };
+    let times = |strength: f64, color: [f64; 3]| color.map(|channel| (channel * strength) as f32);
+    Ok(Some(match *light {
+        LightFile::FromModels => return Ok(None),
+        LightFile::Sun { direction, lux, color } => {
+            let towards = -direction_of(direction.0, "sun")?;
+            let towards = towards.raw().as_vec3().to_array();
+            Light::Sun { towards, lux: times(lux.value(), color.0) }
+        }
+        LightFile::Spot {
+            position,
+            direction,
+            candela,
+            inner_degrees,
+            outer_degrees,
+            range: end,
+            color,
+        } => {
+            let axis = direction_of(direction.0, "spot")?.raw().as_vec3().to_array();
+            let inner = inner_degrees.map_or(0.0, Finite::value);
+            let outer = outer_degrees.map_or(45.0, Finite::value);
+            if !(inner >= 0.0 && inner < outer && outer <= 90.0) {
+                let at = [Field("lights"), Index(number), Field("outer_degrees")];
+                let message =
+                    format!("a spot cannot be full up to {inner} degrees and end at {outer}");
+                let help = Some("0 <= inner_degrees < outer_degrees <= 90".to_owned());
+                return Err(origin.fault(&at, message, help));
+            }
+            let cosines = [inner, outer].map(|angle| libm::cos(angle.to_radians()) as f32);
+            let position = position.0.map(|c| c as f32);
+            let candela = times(candela.value(), color.0);
+            Light::Spot { position, axis, candela, range: range(end), cosines }
+        }
+        LightFile::Point { position, candela, range: end, color } => Light::Point {
+            position: position.0.map(|c| c as f32),
+            candela: times(candela.value(), color.0),
+            range: range(end),
+        },
+        LightFile::Ambient { lux, color } => Light::Ambient { lux: times(lux.value(), color.0) },
+    }))
+}

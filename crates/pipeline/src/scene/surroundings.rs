@@ -1,0 +1,134 @@
+//! From the surroundings that a scene file asks for to what shading needs; made once for each content and kept.
+
+use super::file::{EnvironmentFile, Finite, SceneFile};
+use super::locate::Step::Field;
+use super::radiance::Panorama;
+use super::{Origin, SceneError};
+use crate::shade::{Environment, Sky, studio};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The longest file that is read, in bytes.
+const LONGEST: u64 = 256 << 20;
+/// How many environments are kept.
+const KEPT: usize = 4;
+
+/// What an environment is made of: its kind, all its numbers, and the sum of a file's bytes.
+type Key = (u8, [u64; 4]);
+
+static CACHE: Mutex<Vec<(Key, Arc<Environment>)>> = Mutex::new(Vec::new());
+
+/// The environment with this content: one that was made before, or a new one.
+fn kept(key: Key, make: impl FnOnce() -> Environment) -> Arc<Environment> {
+    let mut cache = CACHE.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, known)) = cache.iter().find(|(known, _)| *known == key) {
+        return Arc::clone(known);
+    }
+    let made = Arc::new(make());
+    if cache.len() == KEPT {
+        cache.remove(0);
+    }
+    cache.push((key, Arc::clone(&made)));
+    made
+}
+
+/// The environment of a scene, if it asks for one. Files may lie below the scene's folder and those that are allowed.
+pub(super) fn resolve_environment(
+    origin: &Origin,
+    file: &SceneFile,
+    allowed: &[PathBuf],
+) -> Result<Option<Arc<Environment>>, SceneError> {
+    let Some(environment) = &file.environment else { return Ok(None) };
+    let degrees = |angle: Option<Finite>| angle.map_or(0.0, Finite::value);
+    Ok(Some(match environment {
+        EnvironmentFile::Studio { strength, rotate_degrees } => {
+            let turn = Turn::new(strength.value(), degrees(*rotate_degrees));
+            kept(turn.key(0, 0), || Environment::of(|way| turn.light(way, studio)))
+        }
+        EnvironmentFile::Sky { sun, strength } => {
+            let sun = unit(sun.0).ok_or_else(|| {
+                let at = [Field("environment"), Field("sun")];
+                let help = Some("such as (1, 1, 1): to the right, above and before".to_owned());
+                origin.fault(&at, "the sun's direction is (0, 0, 0), which is none", help)
+            })?;
+            let strength = strength.value() as f32;
+            let bits = sun.map(|c| u64::from(c.to_bits()));
+            let key = (1, [bits[0], bits[1], bits[2], u64::from(strength.to_bits())]);
+            let sky = Sky::new(sun);
+            kept(key, || Environment::of(|way| sky.light(way).map(|c| c * strength)))
+        }
+        EnvironmentFile::Uniform { strength, color } => {
+            let light = color.0.map(|c| (c * strength.value()).max(0.0) as f32);
+            let bits = light.map(|c| u64::from(c.to_bits()));
+            kept((2, [bits[0], bits[1], bits[2], 0]), || Environment::of(|_| light))
+        }
+        EnvironmentFile::File { path, strength, rotate_degrees } => {
+            let bytes = read(origin, path, allowed)?;
+            let panorama = Panorama::read(&bytes)
+                .map_err(|problem| fault(origin, format!("{path}: {problem}"), None))?;
+            let turn = Turn::new(strength.value(), degrees(*rotate_degrees));
+            kept(turn.key(3, sum(&bytes)), || {
+                Environment::of(|way| turn.light(way, |way| panorama.light(way)))
+            })
+        }
+    }))
+}
+
+fn fault(origin: &Origin, message: String, help: Option<String>) -> SceneError {
+    origin.fault(&[Field("environment"), Field("path")], message, help)
+}
+
+fn read(origin: &Origin, path: &str, allowed: &[PathBuf]) -> Result<Vec<u8>, SceneError> {
+    if !origin.may_read(Path::new(path), allowed) {
+        let help =
+            "keep pictures below the scene's folder, or allow another with --allow-outside DIR";
+        let message = format!("the path \"{path}\" leads out of the scene's folder");
+        return Err(fault(origin, message, Some(help.to_owned())));
+    }
+    let full = origin.folder.join(path);
+    let unreadable =
+        |cause: std::io::Error| fault(origin, format!("cannot read {path}: {cause}"), None);
+    let about = std::fs::metadata(&full).map_err(unreadable)?;
+    if !about.is_file() || about.len() > LONGEST {
+        let message = format!("{path} is no file of at most {LONGEST} bytes");
+        return Err(fault(origin, message, None));
+    }
+    std::fs::read(&full).map_err(unreadable)
+}
+
+/// A turn about y and a factor.
+struct Turn {
+    strength: f32,
+    degrees: f64,
+    cosine: f32,
+    sine: f32,
+}
+
+impl Turn {
+    fn new(strength: f64, degrees: f64) -> Self {
+        let angle = degrees.to_radians();
+        let (sine, cosine) = (libm::sin(angle) as f32, libm::cos(angle) as f32);
+        Self { strength: strength as f32, degrees, cosine, sine }
+    }
+
+    fn key(&self, kind: u8, content: u64) -> Key {
+        (kind, [content, self.degrees.to_bits(), u64::from(self.strength.to_bits()), 0])
+    }
+
+    /// The light from a direction after the surroundings were turned counter-clockwise, seen from above.
+    fn light(&self, [x, y, z]: [f32; 3], of: impl Fn([f32; 3]) -> [f32; 3]) -> [f32; 3] {
+        let before = [x * self.cosine - z * self.sine, y, x * self.sine + z * self.cosine];
+        of(before).map(|c| c * self.strength)
+    }
+}
+
+fn unit(v: [f64; 3]) -> Option<[f32; 3]> {
+    let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    (length > 0.0 && length.is_finite()).then(|| v.map(|c| (c / length) as f32))
+}
+
+/// A sum that depends on every byte (Fowler, Noll and Vo).
+fn sum(bytes: &[u8]) -> u64 {
+    let mix = |sum: u64, byte: &u8| (sum ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325 ^ bytes.len() as u64, mix)
+}

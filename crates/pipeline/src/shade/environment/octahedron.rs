@@ -1,0 +1,126 @@
+//! A picture of all directions on a square.
+//!
+//! A direction is divided by the sum of its coordinates' sizes, which brings it onto an octahedron; the upper half is seen from
+//! above, the lower half folded out over its corners.
+
+/// Colours by direction, at the nodes of a square grid.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Octahedron {
+    /// Nodes along a side: a power of two and one.
+    pub(super) side: usize,
+    pub(super) texels: Vec<[f32; 3]>,
+}
+
+impl Octahedron {
+    /// The picture of a function of unit vectors.
+    pub(super) fn of(side: usize, color: impl Fn([f32; 3]) -> [f32; 3]) -> Self {
+        let node = |n: usize| color(unit(direction(place(n % side, side), place(n / side, side))));
+        Self { side, texels: (0..side * side).map(node).collect() }
+    }
+
+    /// The colour in a direction of any length but 0.
+    #[inline(always)]
+    pub(super) fn at(&self, [x, y, z]: [f32; 3]) -> [f32; 3] {
+        let sum = x.abs() + y.abs() + z.abs();
+        let per = if sum > 0.0 { 1.0 / sum } else { 0.0 };
+        let (u, v) = (x * per, z * per);
+        let folded = [(1.0 - v.abs()) * sign(u), (1.0 - u.abs()) * sign(v)];
+        let [u, v] = if y < 0.0 { folded } else { [u, v] };
+        let most = (self.side - 1) as f32;
+        let (column, s) = split((u * 0.5 + 0.5) * most, self.side);
+        let (row, t) = split((v * 0.5 + 0.5) * most, self.side);
+        let at = row * self.side + column;
+        let [a, b] = [self.texels[at], self.texels[at + 1]];
+        let [c, d] = [self.texels[at + self.side], self.texels[at + self.side + 1]];
+        [0, 1, 2].map(|k: usize| {
+            let upper = a[k] + (b[k] - a[k]) * s;
+            let lower = c[k] + (d[k] - c[k]) * s;
+            upper + (lower - upper) * t
+        })
+    }
+
+    /// Half as many nodes along a side; each the mean of its neighbours, the nearer counting more.
+    pub(super) fn half(&self) -> Self {
+        let side = self.side / 2 + 1;
+        let node = |n: usize| {
+            let (column, row) = (2 * (n % side) as i32, 2 * (n / side) as i32);
+            let mut sum = [0.0; 3];
+            for (dx, dy) in (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx, dy))) {
+                let weight = ((2 - i32::abs(dx)) * (2 - i32::abs(dy))) as f32 / 16.0;
+                let texel = self.texels[self.node(column + dx, row + dy)];
+                sum = [0, 1, 2].map(|k: usize| sum[k] + texel[k] * weight);
+            }
+            sum
+        };
+        Self { side, texels: (0..side * side).map(node).collect() }
+    }
+
+    /// The number of a node; those a step beyond a border are on the border's other half.
+    fn node(&self, x: i32, y: i32) -> usize {
+        let last = self.side as i32 - 1;
+        let (x, y) =
+            if (0..=last).contains(&x) { (x, y) } else { (x.abs().min(2 * last - x), last - y) };
+        let (x, y) =
+            if (0..=last).contains(&y) { (x, y) } else { (last - x, y.abs().min(2 * last - y)) };
+        (y * (last + 1) + x) as usize
+    }
+}
+
+/// Where a node is between −1 and 1.
+pub(super) fn place(node: usize, side: usize) -> f32 {
+    2.0 * node as f32 / (side - 1) as f32 - 1.0
+}
+
+/// The direction at a place of the square, on the octahedron.
+pub(super) fn direction(u: f32, v: f32) -> [f32; 3] {
+    let y = 1.0 - u.abs() - v.abs();
+    if y >= 0.0 { [u, y, v] } else { [(1.0 - v.abs()) * sign(u), y, (1.0 - u.abs()) * sign(v)] }
+}
+
+pub(in crate::shade) fn unit(v: [f32; 3]) -> [f32; 3] {
+    let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    v.map(|c| c / length)
+}
+
+#[inline(always)]
+fn sign(x: f32) -> f32 {
+    if x < 0.0 { -1.0 } else { 1.0 }
+}
+
+/// The node before a place and how far it is to the next.
+#[inline(always)]
+fn split(place: f32, side: usize) -> (usize, f32) {
+    let place = place.clamp(0.0, (side - 1) as f32);
+    let node = (place as usize).min(side - 2);
+    (node, place - node as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_direction_finds_itself() {
+        let map = Octahedron::of(129, |way| way);
+        for step in 0..1000_u32 {
+            let [x, y, z] =
+                [step % 10, step / 10 % 10, step / 100].map(|c| c as f32 / 4.5 - 1.0 + 0.01);
+            let way = unit([x, y, z]);
+            let found = map.at([3.0 * x, 3.0 * y, 3.0 * z]);
+            assert!((0..3).all(|k| (found[k] - way[k]).abs() < 0.02), "{way:?} {found:?}");
+        }
+    }
+
+    #[test]
+    fn borders_fold_onto_themselves() {
+        let map = Octahedron::of(9, |_| [0.0; 3]);
+        assert_eq!(map.node(-1, 2), 6 * 9 + 1);
+        assert_eq!(map.node(9, 2), 6 * 9 + 7);
+        assert_eq!(map.node(3, -1), 9 + 5);
+        assert_eq!(map.node(-1, -1), 7 * 9 + 7);
+        let smooth = Octahedron::of(65, |way| way).half();
+        let found = smooth.at([0.3, -0.9, 0.1]);
+        let way = unit([0.3, -0.9, 0.1]);
+        assert!((0..3).all(|k| (found[k] - way[k]).abs() < 0.02), "{found:?}");
+    }
+}

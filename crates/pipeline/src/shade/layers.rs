@@ -1,0 +1,368 @@
+//! Layers over and in a surface: clear coat, fibres, long highlights and thin films, as the KHR_materials extensions have them.
+
+use super::environment::Environment;
+use super::inputs::{Inputs, Layers};
+use super::light::Arriving;
+use super::microfacet::{Meeting, alpha_of, fifth};
+use super::normal::Facing;
+use super::seen::{dot, lane_of};
+use std::f32::consts::{FRAC_1_PI, PI};
+
+/// A clear coat: a smooth layer of index of refraction 1.5 that reflects before anything below does
+/// (KHR_materials_clearcoat).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Coat<const N: usize> {
+    facing: Facing<N>,
+    /// The perceptual roughness.
+    roughness: [f32; N],
+    alpha: [f32; N],
+    /// The share of light that it reflects: its strength times Schlick's Fresnel for the normal.
+    share: [f32; N],
+    /// What it reflects.
+    sums: [[f32; N]; 3],
+}
+
+impl<const N: usize> Coat<N> {
+    /// The coat over a surface; `facing` has the coat's own normals.
+    #[inline(always)]
+    pub(super) fn of(layers: &Layers<N>, facing: Facing<N>) -> Self {
+        let mut coat = Self {
+            facing,
+            roughness: layers.coat_roughness,
+            alpha: [0.0; N],
+            share: [0.0; N],
+            sums: [[0.0; N]; 3],
+        };
+        for lane in 0..N {
+            coat.roughness[lane] =
+                (layers.coat_roughness[lane] + facing.turns[lane]).clamp(0.0, 1.0);
+            coat.alpha[lane] = alpha_of(coat.roughness[lane]);
+            let fresnel = 0.04 + 0.96 * fifth(1.0 - facing.cosines[lane]);
+            coat.share[lane] = layers.coat[lane] * fresnel;
+        }
+        coat
+    }
+
+    /// Adds what it reflects of the light from one direction.
+    #[inline(always)]
+    pub(super) fn reflect(&mut self, arriving: &Arriving<N>) {
+        for lane in 0..N {
+            let meeting = Meeting::of(
+                lane_of(&self.facing.normals, lane),
+                lane_of(&self.facing.views, lane),
+                lane_of(&arriving.towards, lane),
+            );
+            let lobe = meeting.lobe(self.alpha[lane]);
+            for channel in 0..3 {
+                self.sums[channel][lane] += arriving.lux[channel][lane] * lobe;
+            }
+        }
+    }
+
+    /// Adds what it mirrors of the surroundings.
+    #[inline(always)]
+    pub(super) fn mirror(&mut self, environment: &Environment) {
+        let Facing { normals, views, .. } = &self.facing;
+        let light = environment.mirrored(normals, views, &self.roughness);
+        for channel in 0..3 {
+            for lane in 0..N {
+                self.sums[channel][lane] += light[channel][lane];
+            }
+        }
+    }
+
+    /// Lays it over what is below.
+    #[inline(always)]
+    pub(super) fn cover(&self, below: &mut [[f32; N]; 3]) {
+        for channel in 0..3 {
+            for lane in 0..N {
+                let color = &mut below[channel][lane];
+                *color += (self.sums[channel][lane] - *color) * self.share[lane];
+            }
+        }
+    }
+}
+
+/// Fibres that stand on a surface (KHR_materials_sheen): Estevez and Kulla, *Production friendly microfacet sheen BRDF*,
+/// 2017.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sheen<const N: usize> {
+    color: [[f32; N]; 3],
+    roughness: [f32; N],
+    /// The largest channel of the colour.
+    most: [f32; N],
+    /// The share of white surroundings that white fibres reflect to the viewer.
+    albedo: [f32; N],
+}
+
+impl<const N: usize> Sheen<N> {
+    #[inline(always)]
+    pub(super) fn of(layers: &Layers<N>, facing: &Facing<N>) -> Self {
+        let [r, g, b] = &layers.sheen;
+        let mut sheen = Self {
+            color: layers.sheen,
+            roughness: layers.sheen_roughness,
+            most: [0.0; N],
+            albedo: [0.0; N],
+        };
+        for lane in 0..N {
+            sheen.roughness[lane] = sheen.roughness[lane].clamp(0.07, 1.0);
+            sheen.most[lane] = r[lane].max(g[lane]).max(b[lane]);
+            sheen.albedo[lane] = sheen_albedo(facing.cosines[lane], sheen.roughness[lane]);
+        }
+        sheen
+    }
+
+    /// Takes its share of the light from one direction, and adds what it reflects of it.
+    #[inline(always)]
+    pub(super) fn reflect(
+        &self,
+        facing: &Facing<N>,
+        arriving: &mut Arriving<N>,
+        sums: &mut [[f32; N]; 3],
+    ) {
+        for lane in 0..N {
+            let meeting = Meeting::of(
+                lane_of(&facing.normals, lane),
+                lane_of(&facing.views, lane),
+                lane_of(&arriving.towards, lane),
+            );
+            let lobe = charlie(self.roughness[lane], &meeting);
+            let other = sheen_albedo(meeting.nl, self.roughness[lane]);
+            let left = 1.0 - self.most[lane] * self.albedo[lane].max(other);
+            for channel in 0..3 {
+                let lux = &mut arriving.lux[channel][lane];
+                sums[channel][lane] += *lux * self.color[channel][lane] * lobe;
+                *lux *= left;
+            }
+        }
+    }
+
+    /// What of light from everywhere is left for what is below.
+    #[inline(always)]
+    pub(super) fn left(&self) -> [f32; N] {
+        let mut left = [1.0; N];
+        for lane in 0..N {
+            left[lane] = 1.0 - self.most[lane] * self.albedo[lane];
+        }
+        left
+    }
+
+    /// The share of light from everywhere that it reflects.
+    #[inline(always)]
+    pub(super) fn share(&self, channel: usize, lane: usize) -> f32 {
+        self.color[channel][lane] * self.albedo[lane]
+    }
+}
+
+/// The lobe of fibres, times the cosine to the light.
+fn charlie(roughness: f32, meeting: &Meeting) -> f32 {
+    let per_alpha = 1.0 / (roughness * roughness);
+    let sine_squared = meeting.sin_squared.clamp(0.0, 1.0);
+    let spread = libm::powf(sine_squared, 0.5 * per_alpha);
+    let distribution = (2.0 + per_alpha) * spread * (0.5 * FRAC_1_PI);
+    let (nl, nv) = (meeting.nl, meeting.nv);
+    let shadows = 1.0 + shadow(nv, 1.0 / per_alpha) + shadow(nl, 1.0 / per_alpha);
+    let visibility = (0.25 / (shadows * nv * nl).max(1e-6)).min(1.0);
+    distribution * visibility * nl
+}
+
+/// How fibres of this α shade each other from a direction: a fit of the lobe's Λ (Estevez and Kulla 2017, table 1).
+fn shadow(cosine: f32, alpha: f32) -> f32 {
+    let smooth = (1.0 - alpha) * (1.0 - alpha);
+    let mix = |rough: f32, fine: f32| rough + (fine - rough) * smooth;
+    let [a, b, c] = [mix(21.5473, 25.3245), mix(3.82987, 3.32435), mix(0.198_23, 0.168_01)];
+    let [d, e] = [mix(-1.977_6, -1.273_93), mix(-4.320_54, -4.859_67)];
+    let line = |x: f32| a / (1.0 + b * libm::powf(x, c)) + d * x + e;
+    let exponent = if cosine < 0.5 { line(cosine) } else { 2.0 * line(0.5) - line(1.0 - cosine) };
+    libm::expf(exponent)
+}
+
+/// The integral of the lobe over the hemisphere: a fit of four digits to the tables of the extension's text.
+fn sheen_albedo(cosine: f32, roughness: f32) -> f32 {
+    let square = roughness * roughness;
+    let per = 1.0 / (roughness + 0.1);
+    let slope = -1.9362 + 1.0678 * roughness + 0.4573 * square - 0.8469 * per;
+    let start = -0.6014 + 0.5538 * roughness - 0.4670 * square - 0.1255 * per;
+    libm::expf(slope * cosine + start).clamp(0.0, 1.0)
+}
+
+/// Which way highlights are long, and how rough the surface is along and across (KHR_materials_anisotropy).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Grain<const N: usize> {
+    along: [[f32; N]; 3],
+    across: [[f32; N]; 3],
+    /// α along the grain.
+    stretched: [f32; N],
+}
+
+impl<const N: usize> Grain<N> {
+    /// The grain of a surface whose tangents lie so, turned by an angle.
+    #[inline(always)]
+    pub(super) fn of(
+        inputs: &Inputs<N>,
+        facing: &Facing<N>,
+        tangents: &[[f32; N]; 4],
+        rotation: f32,
+        alpha: &[f32; N],
+    ) -> Self {
+        let (sin, cos) = (libm::sinf(rotation), libm::cosf(rotation));
+        let zero = [[0.0; N]; 3];
+        let mut grain = Self { along: zero, across: zero, stretched: *alpha };
+        for lane in 0..N {
+            let n = lane_of(&facing.normals, lane);
+            let t = [tangents[0][lane], tangents[1][lane], tangents[2][lane]];
+            let up = dot(n, t);
+            let flat = [t[0] - n[0] * up, t[1] - n[1] * up, t[2] - n[2] * up];
+            let square = dot(flat, flat);
+            let per = if square > 1e-12 { 1.0 / square.sqrt() } else { 0.0 };
+            let t = [flat[0] * per, flat[1] * per, flat[2] * per];
+            let side = if tangents[3][lane] < 0.0 { -1.0 } else { 1.0 };
+            let b = super::seen::cross(n, t).map(|c| c * side);
+            let [x, y] = [inputs.layers.anisotropy[0][lane], inputs.layers.anisotropy[1][lane]];
+            let length = (x * x + y * y).sqrt().max(1e-6);
+            let (x, y) = ((cos * x - sin * y) / length, (sin * x + cos * y) / length);
+            for axis in 0..3 {
+                grain.along[axis][lane] = t[axis] * x + b[axis] * y;
+                grain.across[axis][lane] = b[axis] * x - t[axis] * y;
+            }
+            let strength = inputs.layers.anisotropy[2][lane].clamp(0.0, 1.0);
+            let kept = if per > 0.0 { strength * strength } else { 0.0 };
+            grain.stretched[lane] = alpha[lane] + (1.0 - alpha[lane]) * kept;
+        }
+        grain
+    }
+
+    /// D · V · n·l where light meets the surface (Burley 2012; Heitz 2014).
+    #[inline(always)]
+    pub(super) fn lobe(
+        &self,
+        meeting: &Meeting,
+        alpha: f32,
+        v: [f32; 3],
+        l: [f32; 3],
+        lane: usize,
+    ) -> f32 {
+        let (t, b) = (lane_of(&self.along, lane), lane_of(&self.across, lane));
+        let (wide, narrow) = (self.stretched[lane], alpha);
+        let sum = [l[0] + v[0], l[1] + v[1], l[2] + v[2]];
+        let per = 1.0 / dot(sum, sum).max(1e-12).sqrt();
+        let (th, bh) = (dot(t, sum) * per / wide, dot(b, sum) * per / narrow);
+        let spread = (th * th + bh * bh + meeting.nh * meeting.nh).max(1e-9);
+        let distribution = FRAC_1_PI / (wide * narrow * spread * spread);
+        let root = |way: [f32; 3], cosine: f32| {
+            let (along, across) = (wide * dot(t, way), narrow * dot(b, way));
+            (along * along + across * across + cosine * cosine).sqrt()
+        };
+        let both = meeting.nl * root(v, meeting.nv) + meeting.nv * root(l, meeting.nl);
+        distribution * (0.5 * meeting.nl) / both.max(1e-6)
+    }
+}
+
+/// The share of light that a surface with a thin film mirrors (KHR_materials_iridescence), as the F0 that leads to it: Belcour and
+/// Barla, *A practical extension to microfacet theory for the modeling of varying iridescence*, 2017.
+///
+/// `f0` is that of the surface below, `thickness` in nanometres, `cosine` that of the view.
+pub(super) fn film_f0(f0: [f32; 3], ior: f32, thickness: f32, cosine: f32) -> [f32; 3] {
+    let start = (thickness / 0.03).clamp(0.0, 1.0);
+    let ior = 1.0 + (ior - 1.0) * start * start * (3.0 - 2.0 * start);
+    let sine_squared = (1.0 - cosine * cosine) / (ior * ior);
+    let inside = (1.0 - sine_squared).max(0.0).sqrt();
+    let schlick = |f0: f32, cosine: f32| f0 + (1.0 - f0) * fifth(1.0 - cosine);
+    let mirrored = |a: f32, b: f32| {
+        let root = (a - b) / (a + b);
+        root * root
+    };
+    let first = schlick(mirrored(ior, 1.0), cosine);
+    let passed = 1.0 - first;
+    let path = 2.0 * ior * thickness * inside;
+    let mut shares = [0.0; 3];
+    let mut series = [[0.0; 3]; 2];
+    let mut shifts = [0.0; 3];
+    for channel in 0..3 {
+        let root = (f0[channel] + 1e-4).clamp(0.0, 0.9999).sqrt();
+        let below = (1.0 + root) / (1.0 - root);
+        let second = schlick(mirrored(below, ior), inside);
+        let both = (first * second).clamp(1e-5, 0.9999);
+        let reflected = passed * passed * second / (1.0 - both);
+        shares[channel] = first + reflected;
+        series[0][channel] = (reflected - passed) * both.sqrt();
+        series[1][channel] = series[0][channel] * both.sqrt();
+        // Half a wave is lost where light is reflected by what is denser.
+        shifts[channel] = PI + if below < ior { PI } else { 0.0 };
+    }
+    for (order, terms) in series.iter().enumerate() {
+        let order = (order + 1) as f32;
+        let seen = sensitivity(order * path, shifts.map(|shift| order * shift));
+        for channel in 0..3 {
+            shares[channel] += 2.0 * terms[channel] * seen[channel];
+        }
+    }
+    let grazing = fifth(1.0 - cosine).clamp(0.0, 0.9999);
+    shares.map(|share| ((share.clamp(0.0, 1.0) - grazing) / (1.0 - grazing)).clamp(0.0, 1.0))
+}
+
+/// How the eye sees waves with this difference of paths in nanometres: the Fourier transform of the CIE's curves, as Gaussians, in
+/// linear sRGB.
+fn sensitivity(path: f32, shifts: [f32; 3]) -> [f32; 3] {
+    let phase = 2.0 * PI * path * 1e-9;
+    let bell = |value: f32, place: f32, variance: f32, shift: f32| {
+        let wave = libm::cosf(place * phase + shift) * libm::expf(-phase * phase * variance);
+        value * (2.0 * PI * variance).sqrt() * wave / 1.068_5e-7
+    };
+    let x = bell(5.4856e-13, 1.681e6, 4.3278e9, shifts[0])
+        + bell(9.747e-14, 2.2399e6, 4.5282e9, shifts[0]);
+    let y = bell(4.4201e-13, 1.7953e6, 9.3046e9, shifts[1]);
+    let z = bell(5.2481e-13, 2.2084e6, 6.6121e9, shifts[2]);
+    [
+        3.240_454_2 * x - 1.537_138_5 * y - 0.498_531_4 * z,
+        -0.969_266 * x + 1.876_010_8 * y + 0.041_556 * z,
+        0.055_643_4 * x - 0.204_025_9 * y + 1.057_225_2 * z,
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_film_changes_nothing_and_no_film_makes_light() {
+        for f0 in [0.02, 0.04, 0.3, 0.9] {
+            let bare = film_f0([f0; 3], 1.3, 0.0, 0.8);
+            assert!(bare.iter().all(|found| (found - f0).abs() < 0.03), "{f0} {bare:?}");
+            for step in 0..200 {
+                let thickness = step as f32 * 6.0;
+                for cosine in [1.0, 0.7, 0.3, 0.05, 0.0] {
+                    let found = film_f0([f0, f0 * 0.5, 0.0], 1.4, thickness, cosine);
+                    assert!(found.iter().all(|share| (0.0..=1.0).contains(share)), "{found:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn fibres_reflect_no_more_than_arrives() {
+        let n = [0.0, 0.0, 1.0];
+        for roughness in [0.1, 0.3, 0.6, 1.0] {
+            for degrees in [5.0_f32, 40.0, 80.0] {
+                let angle = degrees.to_radians();
+                let v = [libm::sinf(angle), 0.0, libm::cosf(angle)];
+                let (rings, spokes) = (200, 64);
+                let mut sum = 0.0;
+                for (ring, spoke) in (0..rings).flat_map(|r| (0..spokes).map(move |s| (r, s))) {
+                    let height = (ring as f32 + 0.5) / rings as f32;
+                    let turn = (spoke as f32 + 0.5) / spokes as f32 * 2.0 * PI;
+                    let flat = (1.0 - height * height).sqrt();
+                    let l = [flat * libm::cosf(turn), flat * libm::sinf(turn), height];
+                    sum += charlie(roughness, &Meeting::of(n, v, l));
+                }
+                let whole = sum * 2.0 * PI / (rings * spokes) as f32;
+                let fitted = sheen_albedo(v[2], roughness);
+                assert!(
+                    whole < 1.0 && (roughness < 0.3 || (whole - fitted).abs() < 0.2),
+                    "{roughness} {degrees}: {whole} {fitted}"
+                );
+            }
+        }
+    }
+}

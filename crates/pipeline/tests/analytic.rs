@@ -1,0 +1,276 @@
+//! Pictures with a closed form: each pixel is held against the formula that the scene was made of.
+
+use base64::Engine;
+use pipeline::import::{ImportOptions, load_bytes};
+use pipeline::scene::{Placed, parse};
+use pipeline::{Origin, Picture, Scene, render};
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// A glTF file of one mesh: triangles with normals, each part with a material of its own.
+fn model(parts: &[Part]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let (mut views, mut accessors, mut primitives, mut materials) =
+        (vec![], vec![], vec![], vec![]);
+    for (n, part) in parts.iter().enumerate() {
+        for list in [&part.positions, &part.normals] {
+            let size = list.len() * 12;
+            views.push(format!(
+                r#"{{"buffer":0,"byteOffset":{},"byteLength":{size}}}"#,
+                bytes.len()
+            ));
+            let bound = |fold: fn(f32, f32) -> f32| {
+                let of = |k: usize| list.iter().map(|p| p[k]).reduce(fold).expect("a vertex");
+                format!("[{},{},{}]", of(0), of(1), of(2))
+            };
+            accessors.push(format!(
+                r#"{{"bufferView":{},"componentType":5126,"count":{},"type":"VEC3","min":{},"max":{}}}"#,
+                views.len() - 1,
+                list.len(),
+                bound(f32::min),
+                bound(f32::max)
+            ));
+            bytes.extend(list.iter().flatten().flat_map(|c| c.to_le_bytes()));
+        }
+        let at = accessors.len();
+        let attributes = format!(r#""POSITION":{},"NORMAL":{}"#, at - 2, at - 1);
+        primitives.push(format!(r#"{{"attributes":{{{attributes}}},"material":{n}}}"#));
+        materials.push(part.material.clone());
+    }
+    let data = base64::engine::general_purpose::STANDARD.encode(&bytes);
+    format!(
+        r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
+        "meshes":[{{"primitives":[{}]}}],"materials":[{}],"accessors":[{}],"bufferViews":[{}],
+        "buffers":[{{"byteLength":{},"uri":"data:application/octet-stream;base64,{data}"}}]}}"#,
+        primitives.join(","),
+        materials.join(","),
+        accessors.join(","),
+        views.join(","),
+        bytes.len()
+    )
+    .into_bytes()
+}
+
+/// Triangles of one material.
+struct Part {
+    positions: Vec<[f32; 3]>,
+    normals: Vec<[f32; 3]>,
+    material: String,
+}
+
+/// The square from −1 to 1 at a height, which faces +z.
+fn square(z: f32, material: &str) -> Part {
+    let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    let positions = [0, 1, 2, 0, 2, 3].map(|n: usize| [corners[n][0], corners[n][1], z]);
+    Part {
+        positions: positions.to_vec(),
+        normals: vec![[0.0, 0.0, 1.0]; 6],
+        material: material.to_owned(),
+    }
+}
+
+/// A sphere of radius 1, fine enough that its normals are those of a sphere to four digits.
+fn sphere(material: &str) -> Part {
+    let (rows, columns) = (96, 192);
+    let point = |row: usize, column: usize| {
+        let (a, b) = (PI * row as f64 / rows as f64, 2.0 * PI * column as f64 / columns as f64);
+        [libm::sin(a) * libm::sin(b), libm::cos(a), libm::sin(a) * libm::cos(b)].map(|c| c as f32)
+    };
+    let mut positions = Vec::new();
+    for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
+        let [a, b] = [point(row, column), point(row + 1, column)];
+        let [c, d] = [point(row + 1, column + 1), point(row, column + 1)];
+        positions.extend([a, b, c, a, c, d]);
+    }
+    Part { normals: positions.clone(), positions, material: material.to_owned() }
+}
+
+/// The picture of some parts by the rest of a scene file, from (0, 0, 5) with a picture of 2.2 units' height.
+fn draw(parts: &[Part], rest: &str) -> Picture {
+    let text = format!(
+        r#"Scene(models: [(path: "made")],
+        camera: (view: LookTo(eye: (0, 0, 5), gaze: (0, 0, -1)), projection: Orthographic(height: 2.2)),
+        {rest})"#
+    );
+    let file = parse("made.ron", &text).expect("a scene");
+    let loaded =
+        load_bytes("made.gltf", &model(parts), &ImportOptions::default()).expect("a model");
+    let placed = Placed { model: Arc::new(loaded), model_to_world: homog::Affine::IDENTITY };
+    let origin = Origin { file: "made.ron".into(), text, folder: ".".into() };
+    let scene = Scene::of_models(&origin, &file, vec![placed]).expect("a scene that makes sense");
+    render(&scene, 2).expect("a picture")
+}
+
+fn srgb(light: f64) -> f64 {
+    let light = light.clamp(0.0, 1.0);
+    let code = if light <= 0.003_130_8 {
+        light * 12.92
+    } else {
+        1.055 * libm::pow(light, 1.0 / 2.4) - 0.055
+    };
+    code * 255.0
+}
+
+fn assert_near(found: [u8; 4], due: [f64; 3], where_: &str) {
+    for k in 0..3 {
+        let (found, due) = (f64::from(found[k]), srgb(due[k]).round());
+        assert!((found - due).abs() <= 1.0, "{where_}, channel {k}: {found}, not {due:.2}");
+    }
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn unit(v: [f64; 3]) -> [f64; 3] {
+    v.map(|c| c / dot(v, v).sqrt())
+}
+
+/// What a dielectric of this colour and roughness sends to the viewer at +z, per lux, by Appendix B of the specification; what
+/// highlights lose at one bounce is left out, which is less than a code for them.
+fn reflected(base: [f64; 3], roughness: f64, n: [f64; 3], l: [f64; 3]) -> [f64; 3] {
+    let v = [0.0, 0.0, 1.0];
+    let h = unit([0, 1, 2].map(|k: usize| l[k] + v[k]));
+    let (nl, nv, nh, vh) = (dot(n, l).max(0.0), dot(n, v).max(0.0), dot(n, h), dot(v, h));
+    let a2 = libm::pow(roughness, 4.0);
+    let below = nh * nh * (a2 - 1.0) + 1.0;
+    let root = |c: f64| (a2 + (1.0 - a2) * c * c).sqrt();
+    let both = (nl * root(nv) + nv * root(nl)).max(1e-9);
+    let lobe = a2 / (PI * below * below) * 0.5 / both;
+    let fresnel = 0.04 + 0.96 * libm::pow(1.0 - vh, 5.0);
+    base.map(|c| ((1.0 - fresnel) * c / PI + fresnel * lobe) * nl)
+}
+
+const MATT: &str = r#"{"pbrMetallicRoughness":{"baseColorFactor":[0.8,0.4,0.1,1],"metallicFactor":0,"roughnessFactor":0.6}}"#;
+
+#[test]
+fn a_lit_plane_has_the_colour_of_the_formula_everywhere() {
+    let picture = draw(
+        &[square(0.0, MATT)],
+        r#"lights: [Sun(direction: (-1, -1, -2), lux: 2)], image: (size: (80, 80), samples: 1)"#,
+    );
+    let l = unit([1.0, 1.0, 2.0]);
+    let due = reflected([0.8, 0.4, 0.1], 0.6, [0.0, 0.0, 1.0], l).map(|c| c * 2.0);
+    for (x, y) in (6..74).flat_map(|y| (6..74).map(move |x| (x, y))) {
+        assert_near(picture.pixel(x, y).unwrap(), due, &format!("pixel ({x}, {y})"));
+    }
+}
+
+#[test]
+fn a_plane_under_a_point_has_the_colour_of_the_formula_everywhere() {
+    let picture = draw(
+        &[square(0.0, MATT)],
+        r#"lights: [Point(position: (0.5, 0.3, 0.8), candela: 1.5)], image: (size: (88, 88), samples: 1)"#,
+    );
+    for (x, y) in (6..82).flat_map(|y| (6..82).map(move |x| (x, y))) {
+        let place = [f64::from(x) + 0.5, 87.5 - f64::from(y)].map(|c| (c / 88.0 - 0.5) * 2.2);
+        let way = [0.5 - place[0], 0.3 - place[1], 0.8];
+        let lux = 1.5 / dot(way, way);
+        let due = reflected([0.8, 0.4, 0.1], 0.6, [0.0, 0.0, 1.0], unit(way)).map(|c| c * lux);
+        assert_near(picture.pixel(x, y).unwrap(), due, &format!("pixel ({x}, {y})"));
+    }
+}
+
+#[test]
+fn a_lit_sphere_has_the_colours_of_the_formula() {
+    let size = 440;
+    let rest = format!(
+        "lights: [Sun(direction: (-1, -2, -2), lux: 2.5)], image: (size: ({size}, {size}), samples: 1)"
+    );
+    let picture = draw(&[sphere(MATT)], &rest);
+    let l = unit([1.0, 2.0, 2.0]);
+    let mut seen = 0;
+    for (x, y) in (0..size).flat_map(|y| (0..size).map(move |x| (x, y))).step_by(7) {
+        let side = f64::from(size);
+        let at = [f64::from(x) + 0.5, side - 0.5 - f64::from(y)].map(|c| (c / side - 0.5) * 2.2);
+        let square = at[0] * at[0] + at[1] * at[1];
+        if square > 0.9 {
+            continue;
+        }
+        let n = [at[0], at[1], (1.0 - square).sqrt()];
+        // A pixel's normals spread by how far they turn from one to the next, which widens highlights.
+        let turn = 2.2 / side / n[2];
+        let due = reflected([0.8, 0.4, 0.1], 0.6 + turn, n, l).map(|c| c * 2.5);
+        assert_near(picture.pixel(x, y).unwrap(), due, &format!("pixel ({x}, {y})"));
+        seen += 1;
+    }
+    assert!(seen > 10_000);
+}
+
+fn pane(color: [f64; 4]) -> String {
+    format!(
+        r#"{{"alphaMode":"BLEND","extensions":{{"KHR_materials_unlit":{{}}}},"pbrMetallicRoughness":{{"baseColorFactor":{color:?}}}}}"#
+    )
+}
+
+const PANES: [[f64; 4]; 3] = [[0.9, 0.2, 0.1, 0.5], [0.1, 0.7, 0.2, 0.25], [0.2, 0.3, 0.9, 0.75]];
+
+#[test]
+fn three_translucent_squares_are_laid_over_each_other_by_depth_whatever_their_order() {
+    let mut due = [1.0; 3];
+    for [r, g, b, alpha] in PANES {
+        due = [0, 1, 2].map(|k: usize| [r, g, b][k] * alpha + due[k] * (1.0 - alpha));
+    }
+    for order in [[0, 1, 2], [2, 0, 1], [1, 2, 0], [2, 1, 0]] {
+        let parts = order.map(|n: usize| square(n as f32 * 0.3, &pane(PANES[n])));
+        let rest = r##"image: (size: (40, 40), background: Color("#fff"), samples: 4)"##;
+        let picture = draw(&parts, rest);
+        for (x, y) in (4..36).flat_map(|y| (4..36).map(move |x| (x, y))) {
+            assert_near(picture.pixel(x, y).unwrap(), due, &format!("{order:?} ({x}, {y})"));
+        }
+    }
+}
+
+#[test]
+fn a_transparent_picture_laid_over_a_colour_is_the_opaque_one_over_it() {
+    let parts = || [sphere(MATT), square(1.2, &pane(PANES[0])), square(-1.5, &pane(PANES[2]))];
+    let over = |background: &str| {
+        let lights = "lights: [Sun(direction: (-1, -2, -2), lux: 2.5), Ambient(lux: 0.5)]";
+        let image = format!("image: (size: (60, 60), background: {background}, samples: 4)");
+        draw(&parts(), &format!("{lights}, {image}"))
+    };
+    let clear = over("Transparent");
+    for (text, color) in [("#fff", [1.0; 3]), ("#000", [0.0; 3]), ("#ff0000", [1.0, 0.0, 0.0])] {
+        let solid = over(&format!("Color(\"{text}\")"));
+        for (clear, solid) in clear.pixels.iter().zip(&solid.pixels) {
+            let alpha = f64::from(clear[3]) / 255.0;
+            for k in 0..3 {
+                let code = f64::from(clear[k]) / 255.0;
+                let light = if code <= 0.04045 {
+                    code / 12.92
+                } else {
+                    libm::pow((code + 0.055) / 1.055, 2.4)
+                };
+                let due = srgb(light * alpha + color[k] * (1.0 - alpha));
+                let found = f64::from(solid[k]);
+                // Codes of colour and alpha are each rounded; where sRGB is steep, half a code of alpha is more than one of colour.
+                let steep = if due < 60.0 { 6.0 } else { 1.0 };
+                assert!((found - due).abs() <= steep, "{text}: {clear:?} {solid:?} {due}");
+            }
+        }
+    }
+}
+
+/// The light that surroundings of 1 leave a sphere with: none is made, and little lost.
+#[test]
+fn white_surroundings_are_no_brighter_on_any_surface() {
+    let material = |metallic: f64, roughness: f64| {
+        format!(
+            r#"{{"pbrMetallicRoughness":{{"metallicFactor":{metallic},"roughnessFactor":{roughness}}}}}"#
+        )
+    };
+    for (metallic, roughness) in
+        [(0.0, 1.0), (0.0, 0.3), (1.0, 1.0), (1.0, 0.5), (1.0, 0.0), (0.5, 0.7)]
+    {
+        let rest = "environment: Uniform(strength: 0.5), lights: [], image: (size: (100, 100), samples: 1)";
+        let picture = draw(&[sphere(&material(metallic, roughness))], rest);
+        let inside = picture.pixels.iter().filter(|pixel| pixel[3] == 255);
+        let codes: Vec<u8> = inside.map(|pixel| pixel[1]).collect();
+        // sRGB of 0.5 is 188. White scatters all that is not mirrored, and metal mirrors all: nothing may be lost but by rounding.
+        // What is half of both loses, at each bounce but the first, what a reflectance of a half does not reflect.
+        let (least, most) = (codes.iter().min().unwrap(), codes.iter().max().unwrap());
+        let lost = if metallic == 0.5 { 8 } else { 1 };
+        let holds = codes.len() > 5000 && *least >= 188 - lost && *most <= 188;
+        assert!(holds, "{metallic} {roughness}: {least} {most}");
+    }
+}
