@@ -17,7 +17,7 @@ fn next(renderer: &mut Renderer, scene: &Scene, textures: &Textures<'_>, picture
 }
 
 #[test]
-fn a_second_picture_allocates_but_lists_of_nodes() {
+fn a_second_picture_allocates_but_short_lists() {
     for name in ["crates.ron", "panes.ron", "room.ron", "teapot.ron"] {
         let scene = scene(name, (160, 120));
         let models = scene.models.clone();
@@ -27,7 +27,8 @@ fn a_second_picture_allocates_but_lists_of_nodes() {
         let first = allocation_counter::measure(&mut draw);
         let second = allocation_counter::measure(&mut draw);
         assert!(first.bytes_total > 100_000, "{name}: {first:?}");
-        assert!(second.bytes_total < 20_000 && second.count_total < 20, "{name}: {second:?}");
+        // Lists of nodes and of each draw's textures: nothing that grows with vertices or pixels.
+        assert!(second.bytes_total < 20_000, "{name}: {second:?}");
     }
 }
 

@@ -11,8 +11,8 @@ use raster::Frame;
 
 /// Renders surfaces again and again: the same models from elsewhere, in other light, in another pose.
 ///
-/// What the first picture has allocated the next ones use, so that but for lists of nodes (and of what bends or changes its
-/// shape) nothing is allocated any more. The pictures do not depend on what was rendered before.
+/// What the first picture has allocated the next ones use, so that but for lists of nodes and textures, for tangents, and for what
+/// bends or changes its shape, nothing is allocated any more. The pictures do not depend on what was rendered before.
 ///
 /// ```no_run
 /// # use pipeline::{Origin, Picture, Renderer, Scene, Textures, Timings};
