@@ -116,11 +116,15 @@ fn cut_edge<S: Space>(corners: [Point<S>; 3], distances: [f64; 3]) -> Option<[Po
             _ => {}
         }
     }
-    leaves.zip(returns).map(|(from, to)| [from, to]).filter(|[from, to]| from != to)
+    let edge = leaves.zip(returns).map(|(from, to)| [from, to]);
+    edge.filter(|[from, to]| from != to && from.is_finite() && to.is_finite())
 }
 
 /// The same bits as the vertex of what is left. An inner end on the plane is the crossing itself.
 fn crossing<S: Space>(inner: (Point<S>, f64), outer: (Point<S>, f64)) -> Point<S> {
+    if inner.1 == 0.0 {
+        return inner.0; // The way to the outer end may be too long to be a number.
+    }
     match blend(inner.1, outer.1) {
         Blend::FromInner(t) => inner.0.lerp(outer.0, t),
         Blend::FromOuter(t) => outer.0.lerp(inner.0, t),

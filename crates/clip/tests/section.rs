@@ -177,3 +177,15 @@ fn a_plane_that_misses_takes_all_or_nothing() {
     let nan = Plane::through(Point::new(f64::NAN, 0.0, 0.0), Normal::new(0.0, 1.0, 0.0));
     assert!(cut(&cube(), nan).0.is_empty());
 }
+
+#[test]
+fn a_corner_on_the_plane_is_the_crossing_however_far_the_others_are() {
+    let plane = Plane::<World>::through(Point::ORIGIN, Normal::new(0.0, 1.0, 0.0));
+    let far = 1.5e308;
+    let corners =
+        [Point::new(-far, 0.0, 0.0), Point::new(far, -1.0, 0.0), Point::new(0.0, 1.0, 0.0)];
+    let left = cut_triangle(corners, plane);
+    let edge = left.edge();
+    assert!(edge.is_none_or(|edge| edge.iter().all(|end| end.is_finite())), "{edge:?}");
+    assert!(left.vertices().iter().all(|vertex| vertex.point.is_finite()), "{left:?}");
+}
