@@ -129,3 +129,24 @@ fn without_a_subject_the_maps_are_told() {
         assert!(run.stdout.contains(word), "{word}: {}", run.stdout);
     }
 }
+
+#[test]
+fn a_pixel_is_traced_to_its_triangle() {
+    let bench = bench("explain_pixel", |_| {});
+    // The square is 20 × 20 pixels around the centre; its lower right half is its first triangle.
+    let found = told(&bench, &["--pixel", "104,52", "--samples", "1"]);
+    assert_eq!(item(&found, "hex"), "#ff0000, alpha 255");
+    near(&item(&found, "srgb"), &[255.0, 0.0, 0.0, 255.0]);
+    let title = found["steps"][0]["title"].as_str().expect("words");
+    assert!(title.contains("triangle 0 of primitive 0 at node 0"), "{title}");
+    let world = item(&found, "world");
+    let place: Vec<f64> =
+        world.as_array().expect("a place").iter().filter_map(Value::as_f64).collect();
+    let expected = [0.45, -0.25, 0.0];
+    assert!(place.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-4), "{place:?}");
+    let empty = told(&bench, &["--pixel", "0,0"]);
+    assert!(empty["verdict"].as_str().expect("words").contains("nothing is in it"));
+    let run = bench.run(&["explain", "scene.ron", "--pixel", "200,0"]);
+    assert_eq!(run.code, 1);
+    assert!(run.stderr.contains("200 x 100"), "{}", run.stderr);
+}

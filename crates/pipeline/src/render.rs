@@ -8,6 +8,7 @@
 
 mod assemble;
 mod lines;
+mod pixel;
 mod renderer;
 mod shot;
 mod stage;
@@ -17,6 +18,7 @@ mod textures;
 mod vertices;
 
 pub use lines::draw;
+pub use pixel::{Owner, PixelMakeup, SeenFragment, pixel};
 pub use renderer::Renderer;
 pub use shot::Shot;
 pub use textures::Textures;

@@ -7,8 +7,8 @@ use super::render::open;
 use homog::{Point, World};
 use pipeline::Scene;
 use pipeline::explain::{
-    Chain, Conventions, Explanation, Vertex, explain_chain, explain_node, explain_place,
-    explain_segment, explain_triangle, explain_vertex,
+    Chain, Conventions, Explanation, Vertex, explain_chain, explain_node, explain_pixel,
+    explain_place, explain_segment, explain_triangle, explain_vertex,
 };
 use pipeline::model::Model;
 use pipeline::scene::{Placed, ResolveOptions};
@@ -40,6 +40,9 @@ struct SubjectArgs {
     /// A point of the world
     #[arg(long, value_name = "X,Y,Z", value_parser = numbers::<3>, allow_hyphen_values = true, conflicts_with_all = ["segment", "node"])]
     point: Option<[f64; 3]>,
+    /// A pixel by its column and row from the upper left corner: what is seen in it, and why it has its colour
+    #[arg(long, value_name = "X,Y", value_parser = pair, conflicts_with_all = ["point", "segment", "node"])]
+    pixel: Option<[u32; 2]>,
     /// A segment of the world, from one point to another
     #[arg(long, value_name = "X,Y,Z,X,Y,Z", value_parser = numbers::<6>, allow_hyphen_values = true, conflicts_with = "node")]
     segment: Option<[f64; 6]>,
@@ -77,6 +80,9 @@ impl SubjectArgs {
     fn explain(&self, chain: &Chain, scene: &Scene) -> Result<Explanation, String> {
         if let Some(place) = self.point {
             return Ok(explain_place(chain, place.into()));
+        }
+        if let Some([x, y]) = self.pixel {
+            return explain_pixel(chain, scene, x, y);
         }
         if let Some([ax, ay, az, bx, by, bz]) = self.segment {
             let ends = [[ax, ay, az], [bx, by, bz]];
@@ -120,6 +126,13 @@ fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
         .collect::<Result<_, _>>()?;
     let numbers: [f64; N] = numbers.try_into().map_err(|_| fault())?;
     if numbers.iter().all(|number| number.is_finite()) { Ok(numbers) } else { Err(fault()) }
+}
+
+fn pair(text: &str) -> Result<[u32; 2], String> {
+    let fault = || "expected a column and a row, such as 320,200".to_owned();
+    let (x, y) = text.split_once(',').ok_or_else(fault)?;
+    let side = |digits: &str| digits.trim().parse().map_err(|_| fault());
+    Ok([side(x)?, side(y)?])
 }
 
 fn conventions() -> impl clap::builder::TypedValueParser<Value = Conventions> {

@@ -95,6 +95,14 @@ impl Chain {
         (upright != 0.0).then_some(upright > 0.0)
     }
 
+    /// How near a point is to the viewer: its depth in the pipeline's own volume, larger if nearer.
+    pub(super) fn depth(&self, place: Point<World>) -> f64 {
+        let ours = Conventions::Alberti.volume();
+        let to_ours = self.conventions.volume().clip_to_clip(ours);
+        let clip = to_ours.hpoint(self.world_to_clip().point(place));
+        clip.divide().map_or(f64::NEG_INFINITY, Point::z)
+    }
+
     fn turn(&self) -> Affine<View, View> {
         let z = if self.conventions.looks_along_z() { -1.0 } else { 1.0 };
         Affine::scale(1.0, 1.0, z)

@@ -64,14 +64,7 @@ impl Renderer {
         let memory = self.lend(scene, threads)?;
         let memory = timings.measure("vertices", || assemble(scene, textures, threads, memory))?;
         let Memory { frame, draws, .. } = &memory;
-        let shading = Shading {
-            draws,
-            lights: &scene.lights,
-            environment: scene.environment.as_deref(),
-            develop: scene.develop,
-            viewer: scene.shot.viewer(),
-            instructions: frame.instructions(),
-        };
+        let shading = shading(scene, draws, frame);
         picture.resize(image.width, image.height);
         let encoder = SrgbEncoder::shared();
         timings.measure("pixels", || {
@@ -106,6 +99,18 @@ impl Renderer {
         // The first list that is asked for next time is the one of the first draw.
         spare.extend(draws.draws.drain(..).rev().map(|draw| draw.vertices));
         *self = Self { frame: Some(frame), images, draws: emptied(draws.draws), spare };
+    }
+}
+
+/// What the fragments of a frame are shaded with.
+pub(super) fn shading<'a>(scene: &'a Scene, draws: &'a DrawList<'a>, frame: &Frame) -> Shading<'a> {
+    Shading {
+        draws,
+        lights: &scene.lights,
+        environment: scene.environment.as_deref(),
+        develop: scene.develop,
+        viewer: scene.shot.viewer(),
+        instructions: frame.instructions(),
     }
 }
 

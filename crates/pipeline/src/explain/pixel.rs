@@ -1,0 +1,109 @@
+//! A pixel: the ray that is seen in it, the triangles it shows with their weights and colours, and the place on the nearest.
+
+use super::chain::Chain;
+use super::place::{node_name, to_point};
+use super::{Explanation, Step};
+use crate::model::Topology;
+use crate::render::{Owner, PixelMakeup, SeenFragment, pixel};
+use crate::scene::Scene;
+use homog::{Point, World};
+
+/// Tells why a pixel, counted from the upper left corner, has its colour.
+///
+/// # Errors
+/// If there is no such pixel, or none of the picture's pixels is shaded; the text says which.
+pub fn explain_pixel(chain: &Chain, scene: &Scene, x: u32, y: u32) -> Result<Explanation, String> {
+    let makeup = pixel(scene, x, y).map_err(|error| error.to_string())?.ok_or_else(|| {
+        let (width, height) = (scene.image.width, scene.image.height);
+        format!("there is no shaded pixel ({x}, {y}): the picture has {width} x {height}, and line drawings have none")
+    })?;
+    let mut steps = Vec::new();
+    steps.extend(
+        makeup.fragments.iter().enumerate().map(|(at, seen)| fragment_step(scene, at, seen)),
+    );
+    let places = makeup.fragments.iter().filter_map(|seen| place(scene, seen));
+    let nearest = places
+        .map(|place| (chain.depth(place), place))
+        .max_by(|(a, _), (b, _)| a.total_cmp(b))
+        .map(|(_, place)| place);
+    if let Some(place) = nearest {
+        let clip = chain.world_to_clip().point(place);
+        steps.push(chain.camera_step(&[("", place)]));
+        steps.push(chain.projection_step(&[("", place)]));
+        steps.push(chain.outcode_step(&[("", clip)]));
+        steps.extend(chain.screen_steps(&[("", clip)]));
+    }
+    steps.push(color_step(&makeup));
+    let subject = format!("The pixel in column {x}, row {y} from the top");
+    Ok(Explanation { subject, steps, verdict: verdict(&makeup) })
+}
+
+fn fragment_step(scene: &Scene, at: usize, seen: &SeenFragment) -> Step {
+    let title = match seen.owner {
+        Some(owner) => format!("Seen: {}", owner_name(scene, owner)),
+        None => "Seen: the surroundings".to_owned(),
+    };
+    let mut step =
+        Step::new(if at == 0 { "fragment" } else { "other_fragment" }, title, Some("RA-1, IN-2"))
+            .with("weights", "weights of its corners", seen.weights.map(f64::from))
+            .with("color", "colour, linear, times alpha", seen.color.map(f64::from));
+    if let Some(place) = place(scene, seen) {
+        step.add("world", "place in the world", <[f64; 3]>::from(place));
+    }
+    step
+}
+
+fn owner_name(scene: &Scene, owner: Owner) -> String {
+    let Owner { model, node, primitive, item } = owner;
+    let Some(placed) = scene.models.get(model) else { return String::new() };
+    let what = match shown(scene, owner).map(|primitive| primitive.topology) {
+        Some(Topology::Points) => "point",
+        Some(Topology::Lines) => "line",
+        _ => "triangle",
+    };
+    let node = node_name(&placed.model, node);
+    format!(
+        "{what} {item} of primitive {primitive} at {node} of model {model} `{}`",
+        placed.model.name
+    )
+}
+
+fn shown(scene: &Scene, owner: Owner) -> Option<&crate::model::Primitive> {
+    let model = &scene.models.get(owner.model)?.model;
+    let mesh = model.meshes.get(model.nodes.get(owner.node)?.mesh?)?;
+    mesh.primitives.get(owner.primitive)
+}
+
+/// The place of a fragment of a triangle in the world: its corners times their weights.
+fn place(scene: &Scene, seen: &SeenFragment) -> Option<Point<World>> {
+    let owner = seen.owner?;
+    let placed = scene.models.get(owner.model)?;
+    let primitive = shown(scene, owner).filter(|shown| shown.topology == Topology::Triangles)?;
+    let corners = primitive.indices.as_chunks::<3>().0.get(owner.item)?;
+    let instance = placed.model.shown_meshes().find(|at| at.node == owner.node)?;
+    let posed = placed.model.posed(instance, primitive);
+    let to_world = posed.to_model.then(placed.model_to_world);
+    let mut place = glam::DVec3::ZERO;
+    for (corner, weight) in corners.iter().zip(seen.weights) {
+        let corner = posed.positions.get(*corner as usize)?;
+        place += to_world.point(to_point(*corner)).raw() * f64::from(weight);
+    }
+    Some(Point::from_raw(place))
+}
+
+fn color_step(makeup: &PixelMakeup) -> Step {
+    let [r, g, b, alpha] = makeup.color;
+    Step::new("pixel", "The pixel: samples resolved in linear light, then sRGB", Some("RA-2"))
+        .with("srgb", "red, green, blue, alpha of 255", makeup.color.map(f64::from))
+        .with("hex", "as on a web page", format!("#{r:02x}{g:02x}{b:02x}, alpha {alpha}"))
+}
+
+fn verdict(makeup: &PixelMakeup) -> String {
+    let [r, g, b, alpha] = makeup.color;
+    let what = match makeup.fragments.len() {
+        0 => "nothing is in it but the background".to_owned(),
+        1 => "one thing is seen in it".to_owned(),
+        count => format!("{count} things share it, or lie over each other in it"),
+    };
+    format!("The pixel is #{r:02x}{g:02x}{b:02x} with alpha {alpha}: {what}.")
+}
