@@ -83,7 +83,7 @@ fn show(loaded: Result<Model, ImportError>) {
     }
     if !model.animations.is_empty() {
         model.pose(model.animations.len() - 1, 0.7);
-        let view = ViewFile::Frame { from: FromFile::Back, padding_percent: USUAL_PADDING };
+        let view = ViewFile::Frame { from: Some(FromFile::Back), padding_percent: USUAL_PADDING };
         draw(&model, StyleFile::Wireframe, view);
     }
 }
