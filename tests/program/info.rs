@@ -46,7 +46,7 @@ fn json_tells_counts_and_places() {
     let line = json!({"attributes": {"POSITION": 0}, "mode": 2});
     document.push("/meshes/0/primitives", line);
     document.json["extensionsUsed"] =
-        json!(["KHR_materials_unlit", "ACME_gizmo", "KHR_materials_sheen"]);
+        json!(["KHR_materials_unlit", "ACME_gizmo", "KHR_materials_dispersion"]);
     let info = info(&bench, &mut document);
     assert_eq!(info["schema"], json!({"name": "alberti-info", "version": 1}));
     let bounds = json!({"min": [-2.0, -1.0, 0.0], "max": [2.0, 4.0, 0.0]});
@@ -62,7 +62,7 @@ fn json_tells_counts_and_places() {
     assert_eq!(info["nodes"][1]["to_model"][13], 3.0, "a matrix column by column");
     let status = |at: usize| (&info["extensions"][at]["name"], &info["extensions"][at]["status"]);
     assert_eq!(status(0), (&json!("ACME_gizmo"), &json!("unknown")));
-    assert_eq!(status(1), (&json!("KHR_materials_sheen"), &json!("not drawn")));
+    assert_eq!(status(1), (&json!("KHR_materials_dispersion"), &json!("not drawn")));
     assert_eq!(status(2), (&json!("KHR_materials_unlit"), &json!("drawn")));
 }
 

@@ -29,11 +29,11 @@ const BASIS: Support =
 
 /// All extensions that are known, by name.
 const KNOWN: [(&str, Support); 36] = [
-    ("CESIUM_primitive_outline", Without("the outlines are read but not drawn yet")),
+    ("CESIUM_primitive_outline", Without("the outlines are drawn in line drawings alone")),
     ("EXT_mesh_features", Harmless),
     ("EXT_mesh_gpu_instancing", Full),
     ("EXT_mesh_manifold", Harmless),
-    ("EXT_mesh_primitive_edge_visibility", Without("the edges are read but not drawn yet")),
+    ("EXT_mesh_primitive_edge_visibility", Without("the edges are drawn in line drawings alone")),
     ("EXT_meshopt_compression", Full),
     ("EXT_structural_metadata", Harmless),
     ("EXT_texture_webp", Full),
