@@ -1,5 +1,7 @@
-//! What the tests across crates share: where the project is, and the program they run as a process.
+//! What the tests across crates share: where the project is, the program they run as a process, and the pictures it makes.
 
+use std::fs::File;
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -32,6 +34,34 @@ pub fn program() -> Result<PathBuf, String> {
     let status = cargo.current_dir(root()).status().map_err(|error| format!("cargo: {error}"))?;
     let path = folder.join(format!("alberti{}", std::env::consts::EXE_SUFFIX));
     if status.success() { Ok(path) } else { Err("the program does not build".to_owned()) }
+}
+
+/// Width, height and 8-bit RGBA pixels of a PNG, rows from the top.
+///
+/// # Errors
+/// If the file is no PNG, or cannot be read; the text names it.
+pub fn read_png(path: &Path) -> Result<(u32, u32, Vec<[u8; 4]>), String> {
+    let with_path = |error: String| format!("{}: {error}", path.display());
+    let file = File::open(path).map_err(|error| with_path(error.to_string()))?;
+    decode(BufReader::new(file)).map_err(with_path)
+}
+
+fn decode(source: BufReader<File>) -> Result<(u32, u32, Vec<[u8; 4]>), String> {
+    let mut decoder = png::Decoder::new(source);
+    decoder.set_transformations(
+        png::Transformations::normalize_to_color8() | png::Transformations::ALPHA,
+    );
+    let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
+    let mut bytes = vec![0; reader.output_buffer_size().ok_or("too large")?];
+    let info = reader.next_frame(&mut bytes).map_err(|error| error.to_string())?;
+    let pixels = match info.color_type {
+        png::ColorType::Rgba => bytes.as_chunks().0.to_vec(),
+        png::ColorType::GrayscaleAlpha => {
+            bytes.as_chunks().0.iter().map(|&[grey, alpha]| [grey, grey, grey, alpha]).collect()
+        }
+        other => return Err(format!("unexpected colour type {other:?}")),
+    };
+    Ok((info.width, info.height, pixels))
 }
 
 /// The examples of the README are compiled and run as tests.

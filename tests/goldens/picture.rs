@@ -1,7 +1,7 @@
 //! Pictures as their decoded pixels, and what differs between two of them.
 
 use std::fs::File;
-use std::io::{BufReader, BufWriter};
+use std::io::BufWriter;
 use std::path::Path;
 
 /// Eight-bit RGBA, rows from the top.
@@ -22,9 +22,8 @@ pub enum Difference {
 impl Picture {
     /// Reads a PNG of eight bits a channel.
     pub fn read(path: &Path) -> Result<Self, String> {
-        let with_path = |error: String| format!("{}: {error}", path.display());
-        let file = File::open(path).map_err(|error| with_path(error.to_string()))?;
-        decode(BufReader::new(file)).map_err(with_path)
+        let (width, height, pixels) = alberti_tests::read_png(path)?;
+        Ok(Self { width, height, pixels })
     }
 
     /// Writes the picture as a PNG.
@@ -77,24 +76,6 @@ impl Picture {
             actual.pixels[first],
         )
     }
-}
-
-fn decode(source: BufReader<File>) -> Result<Picture, String> {
-    let mut decoder = png::Decoder::new(source);
-    decoder.set_transformations(
-        png::Transformations::normalize_to_color8() | png::Transformations::ALPHA,
-    );
-    let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
-    let mut bytes = vec![0; reader.output_buffer_size().ok_or("too large")?];
-    let info = reader.next_frame(&mut bytes).map_err(|error| error.to_string())?;
-    let pixels = match info.color_type {
-        png::ColorType::Rgba => bytes.chunks_exact(4).map(|p| [p[0], p[1], p[2], p[3]]).collect(),
-        png::ColorType::GrayscaleAlpha => {
-            bytes.chunks_exact(2).map(|p| [p[0], p[0], p[0], p[1]]).collect()
-        }
-        other => return Err(format!("unexpected colour type {other:?}")),
-    };
-    Ok(Picture { width: info.width, height: info.height, pixels })
 }
 
 /// A quarter of the contrast, towards white: the ground on which differences stand out.

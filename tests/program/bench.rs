@@ -67,12 +67,6 @@ impl Bench {
 
     /// Width, height and RGBA pixels of a PNG that is here.
     pub(crate) fn picture(&self, name: &str) -> (u32, u32, Vec<[u8; 4]>) {
-        let file = std::fs::File::open(self.path(name)).expect("a picture");
-        let mut decoder = png::Decoder::new(std::io::BufReader::new(file));
-        decoder.set_transformations(png::Transformations::ALPHA);
-        let mut reader = decoder.read_info().expect("a PNG");
-        let mut bytes = vec![0; reader.output_buffer_size().expect("a small picture")];
-        let info = reader.next_frame(&mut bytes).expect("pixels");
-        (info.width, info.height, bytes.as_chunks::<4>().0.to_vec())
+        alberti_tests::read_png(&self.path(name)).expect("a picture")
     }
 }

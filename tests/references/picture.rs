@@ -2,7 +2,7 @@
 
 use crate::score::largest_step;
 use std::fs::File;
-use std::io::{BufReader, BufWriter};
+use std::io::BufWriter;
 use std::path::Path;
 
 /// Eight-bit sRGB, rows from the top.
@@ -16,9 +16,12 @@ pub struct Picture {
 impl Picture {
     /// Reads a PNG; alpha is left out.
     pub fn read(path: &Path) -> Result<Self, String> {
-        let with_path = |error: String| format!("{}: {error}", path.display());
-        let file = File::open(path).map_err(|error| with_path(error.to_string()))?;
-        decode(BufReader::new(file)).map_err(with_path)
+        let (width, height, pixels) = alberti_tests::read_png(path)?;
+        Ok(Self {
+            width,
+            height,
+            pixels: pixels.into_iter().map(|[r, g, b, _]| [r, g, b]).collect(),
+        })
     }
 
     /// Writes a PNG.
@@ -46,22 +49,4 @@ impl Picture {
         }
         Self { width: 3 * self.width, height: self.height, pixels }
     }
-}
-
-fn decode(source: BufReader<File>) -> Result<Picture, String> {
-    let mut decoder = png::Decoder::new(source);
-    decoder.set_transformations(
-        png::Transformations::normalize_to_color8() | png::Transformations::ALPHA,
-    );
-    let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
-    let mut bytes = vec![0; reader.output_buffer_size().ok_or("too large")?];
-    let info = reader.next_frame(&mut bytes).map_err(|error| error.to_string())?;
-    let pixels = match info.color_type {
-        png::ColorType::Rgba => bytes.as_chunks().0.iter().map(|&[r, g, b, _]| [r, g, b]).collect(),
-        png::ColorType::GrayscaleAlpha => {
-            bytes.as_chunks().0.iter().map(|&[grey, _]| [grey; 3]).collect()
-        }
-        other => return Err(format!("unexpected colour type {other:?}")),
-    };
-    Ok(Picture { width: info.width, height: info.height, pixels })
 }
