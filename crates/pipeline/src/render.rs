@@ -10,6 +10,7 @@ mod assemble;
 mod lines;
 mod pixel;
 mod renderer;
+mod shadows;
 mod shot;
 mod stage;
 #[cfg(test)]

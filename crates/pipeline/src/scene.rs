@@ -18,6 +18,7 @@ mod parse;
 mod radiance;
 mod resolve;
 mod review;
+mod shadows;
 mod sheet;
 mod surroundings;
 mod viewpoint;

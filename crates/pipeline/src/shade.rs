@@ -16,8 +16,10 @@ mod light;
 mod maps;
 mod microfacet;
 mod normal;
+mod receiver;
 mod reflection;
 mod seen;
+mod shadow;
 mod substance;
 mod surroundings;
 mod texture;
@@ -29,6 +31,7 @@ pub use draw::{Draw, DrawList, Tangents};
 pub use environment::Environment;
 pub use light::Light;
 pub use maps::{Map, Maps};
+pub use shadow::{Shadow, ShadowMap};
 pub use surroundings::{Sky, studio};
 pub use texture::{MipChain, Texels};
 
@@ -38,6 +41,7 @@ use homog::{HPoint, World};
 use inputs::Inputs;
 use normal::{Facing, seen_from_behind, turn, views};
 use raster::{Eight, Fragment, Fragments, Instructions, Surface, WIDE, Work};
+use receiver::Receivers;
 use reflection::Reflection;
 use seen::{Seen, Wide};
 
@@ -48,6 +52,8 @@ pub struct Shading<'a> {
     pub draws: &'a DrawList<'a>,
     /// The lights, in the world.
     pub lights: &'a [Light],
+    /// What the lights see, one after the other, as far as they cast shadows; nothing where none does.
+    pub shadows: &'a [Option<ShadowMap>],
     /// Light from all around.
     pub environment: Option<&'a Environment>,
     /// How light becomes colours.
@@ -203,8 +209,12 @@ impl Shading<'_> {
     ) -> [f32; N] {
         let facing = self.facing(draw, items, seen);
         let tangents = draw.tangents(items, &seen.weights());
+        let mut receivers = None;
+        if !self.shadows.is_empty() {
+            receivers = Some(Receivers::of(draw, &draw.corners(items), seen, &facing));
+        }
         let mut reflection = Reflection::of(draw, inputs, facing, &tangents, *sums);
-        reflection.add_lights(self.lights);
+        reflection.add_lights(self.lights, self.shadows, receivers.as_ref());
         if let Some(environment) = self.environment {
             reflection.add_environment(environment);
         }
@@ -248,7 +258,7 @@ impl Draw<'_> {
     }
 
     /// The alpha of a fragment: factor × texture × vertex colour (glTF 2.0 §3.9.4).
-    fn alpha(&self, fragment: &Fragment<'_>) -> f32 {
+    pub(crate) fn alpha(&self, fragment: &Fragment<'_>) -> f32 {
         let corners = self.corners(&self.items(&[fragment.id], true));
         let mut alpha = self.material.base_color[3];
         if let Some(colors) = &self.colors {

@@ -13,7 +13,7 @@ use crate::shade::{Draw, Maps, MipChain, PLACE, Tangents};
 use clip::{Outcode, clip_triangle};
 use glam::DVec3;
 use homog::{Clip, HPoint, Model, Ndc, Point, Projective};
-use raster::{Cover, Cull, ScreenVertex, signed_area};
+use raster::{Cover, Cull, Frame, ScreenVertex, signed_area};
 
 /// The width of lines that a file draws, in pixels: glTF gives none.
 const LINE_WIDTH: f64 = 1.5;
@@ -49,12 +49,12 @@ pub(super) struct Images {
     clip: Vec<HPoint<Clip>>,
     outcodes: Vec<Outcode>,
     /// On the screen; `None` for those outside of the view volume and its guard band.
-    screen: Vec<Option<ScreenVertex>>,
+    pub(super) screen: Vec<Option<ScreenVertex>>,
 }
 
 impl Images {
     /// All vertices on the screen, when none has to be clipped.
-    fn inside(
+    pub(super) fn inside(
         &mut self,
         stage: &Stage,
         model_to_clip: Projective<Model, Clip>,
@@ -73,7 +73,7 @@ impl Images {
     }
 
     /// Vertices in clip space with their outcodes, and those that are inside on the screen.
-    fn anywhere(
+    pub(super) fn anywhere(
         &mut self,
         stage: &Stage,
         model_to_clip: Projective<Model, Clip>,
@@ -103,7 +103,7 @@ struct Assembler<'a> {
 }
 
 /// The material of primitives that name none.
-static DEFAULT_MATERIAL: std::sync::LazyLock<Material> =
+pub(super) static DEFAULT_MATERIAL: std::sync::LazyLock<Material> =
     std::sync::LazyLock::new(Material::default);
 
 /// The triangles of an environment behind everything.
@@ -227,7 +227,10 @@ impl<'a> Assembler<'a> {
             match (primitive.topology, corners) {
                 (Topology::Points, &[p]) => self.point(p, id, cover),
                 (Topology::Lines, &[p, q]) => self.line([p, q], id, cover),
-                (Topology::Triangles, &[p, q, r]) => self.triangle([p, q, r], id, cover, cull),
+                (Topology::Triangles, &[p, q, r]) => {
+                    let Memory { images, frame, .. } = &mut self.memory;
+                    triangle(&self.stage, images, frame, [p, q, r], id, cover, cull);
+                }
                 _ => {}
             }
         }
@@ -248,28 +251,6 @@ impl<'a> Assembler<'a> {
         }
     }
 
-    fn triangle(&mut self, vertices: [u32; 3], id: u32, cover: Cover, cull: Cull) {
-        let Images { clip, outcodes, screen } = &self.memory.images;
-        let vertices = vertices.map(|vertex| vertex as usize);
-        if let Some(corners) = all(vertices.map(|vertex| screen[vertex])) {
-            if is_kept(cull, -signed_area(corners).signum() as f64) {
-                self.memory.frame.triangle(corners, id, cover);
-            }
-            return;
-        }
-        let points = vertices.map(|vertex| clip[vertex]);
-        let outcodes = vertices.map(|vertex| outcodes[vertex]);
-        if !Outcode::rejects(&outcodes).is_inside() || !is_kept(cull, orientation(points)) {
-            return;
-        }
-        for piece in clip_triangle(points, &self.stage.volume).triangles() {
-            if let Some(corners) = self.stage.snap_all(piece.map(|vertex| vertex.point)) {
-                let weights = piece.map(|vertex| vertex.weights.map(|weight| weight as f32));
-                self.memory.frame.triangle_piece(corners, weights, id, cover);
-            }
-        }
-    }
-
     /// Which triangles are not to be seen: the backs of surfaces with one side. Fronts run counter-clockwise in the picture,
     /// unless either the way to the world or that to the screen mirrors.
     fn cull(&self, draw: &Draw<'_>) -> Cull {
@@ -277,6 +258,37 @@ impl<'a> Assembler<'a> {
             (true, _) => Cull::Nothing,
             (false, true) => Cull::Clockwise,
             (false, false) => Cull::CounterClockwise,
+        }
+    }
+}
+
+/// Clips a triangle and adds what is left of it to a frame.
+pub(super) fn triangle(
+    stage: &Stage,
+    images: &Images,
+    frame: &mut Frame,
+    vertices: [u32; 3],
+    id: u32,
+    cover: Cover,
+    cull: Cull,
+) {
+    let Images { clip, outcodes, screen } = images;
+    let vertices = vertices.map(|vertex| vertex as usize);
+    if let Some(corners) = all(vertices.map(|vertex| screen[vertex])) {
+        if is_kept(cull, -signed_area(corners).signum() as f64) {
+            frame.triangle(corners, id, cover);
+        }
+        return;
+    }
+    let points = vertices.map(|vertex| clip[vertex]);
+    let outcodes = vertices.map(|vertex| outcodes[vertex]);
+    if !Outcode::rejects(&outcodes).is_inside() || !is_kept(cull, orientation(points)) {
+        return;
+    }
+    for piece in clip_triangle(points, &stage.volume).triangles() {
+        if let Some(corners) = stage.snap_all(piece.map(|vertex| vertex.point)) {
+            let weights = piece.map(|vertex| vertex.weights.map(|weight| weight as f32));
+            frame.triangle_piece(corners, weights, id, cover);
         }
     }
 }
@@ -297,7 +309,7 @@ fn orientation([p, q, r]: [HPoint<Clip>; 3]) -> f64 {
     column(p).dot(column(q).cross(column(r)))
 }
 
-fn cover_of(material: &Material) -> Cover {
+pub(super) fn cover_of(material: &Material) -> Cover {
     match material.alpha_mode {
         AlphaMode::Opaque if material.transmits() => Cover::Translucent,
         AlphaMode::Opaque => Cover::Solid,

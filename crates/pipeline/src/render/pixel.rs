@@ -6,6 +6,7 @@
 use super::RenderError;
 use super::assemble::{Images, assemble};
 use super::renderer::{Memory, shading};
+use super::shadows::ShadowMemory;
 use super::textures::Textures;
 use crate::color::SrgbEncoder;
 use crate::model::Model;
@@ -66,7 +67,9 @@ pub fn pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelMakeup>, Rende
         spare: Vec::new(),
     };
     let memory = assemble(scene, &textures, 1, memory)?;
-    let surface = shading(scene, &memory.draws, &memory.frame);
+    let mut shadows = ShadowMemory::default();
+    shadows.render(scene, &textures, 1)?;
+    let surface = shading(scene, &memory.draws, &memory.frame, &shadows.maps);
     let witness = Witness { surface: &surface, place: [x, y], seen: Mutex::default() };
     let mut color = [[0; 4]];
     memory.frame.draw(&witness, image.background, 1, &mut color, SrgbEncoder::shared());

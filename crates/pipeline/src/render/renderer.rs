@@ -2,10 +2,11 @@
 
 use super::RenderError;
 use super::assemble::{Images, assemble};
+use super::shadows::ShadowMemory;
 use super::textures::Textures;
 use crate::color::SrgbEncoder;
 use crate::scene::Scene;
-use crate::shade::{Draw, DrawList, Shading, Vertex};
+use crate::shade::{Draw, DrawList, Shading, ShadowMap, Vertex};
 use crate::{Picture, Timings};
 use raster::Frame;
 
@@ -34,6 +35,7 @@ pub struct Renderer {
     /// No draws, but room for them.
     draws: Vec<Draw<'static>>,
     spare: Vec<Vec<Vertex>>,
+    shadows: ShadowMemory,
 }
 
 /// What a picture is put together in.
@@ -61,10 +63,11 @@ impl Renderer {
         picture: &mut Picture,
     ) -> Result<(), RenderError> {
         let image = scene.image;
+        timings.measure("shadows", || self.shadows.render(scene, textures, threads))?;
         let memory = self.lend(scene, threads)?;
         let memory = timings.measure("vertices", || assemble(scene, textures, threads, memory))?;
         let Memory { frame, draws, .. } = &memory;
-        let shading = shading(scene, draws, frame);
+        let shading = shading(scene, draws, frame, &self.shadows.maps);
         picture.resize(image.width, image.height);
         let encoder = SrgbEncoder::shared();
         timings.measure("pixels", || {
@@ -98,15 +101,24 @@ impl Renderer {
         let Memory { frame, mut draws, images, mut spare } = memory;
         // The first list that is asked for next time is the one of the first draw.
         spare.extend(draws.draws.drain(..).rev().map(|draw| draw.vertices));
-        *self = Self { frame: Some(frame), images, draws: emptied(draws.draws), spare };
+        self.frame = Some(frame);
+        self.images = images;
+        self.draws = emptied(draws.draws);
+        self.spare = spare;
     }
 }
 
 /// What the fragments of a frame are shaded with.
-pub(super) fn shading<'a>(scene: &'a Scene, draws: &'a DrawList<'a>, frame: &Frame) -> Shading<'a> {
+pub(super) fn shading<'a>(
+    scene: &'a Scene,
+    draws: &'a DrawList<'a>,
+    frame: &Frame,
+    shadows: &'a [Option<ShadowMap>],
+) -> Shading<'a> {
     Shading {
         draws,
         lights: &scene.lights,
+        shadows,
         environment: scene.environment.as_deref(),
         develop: scene.develop,
         viewer: scene.shot.viewer(),

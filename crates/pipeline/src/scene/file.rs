@@ -10,6 +10,7 @@ mod lines;
 mod look;
 mod overlay;
 mod projection;
+mod shadow;
 mod sheet;
 
 pub use self::camera::{CameraChoice, CameraFile, FromFile, USUAL_PADDING, ViewFile};
@@ -19,6 +20,7 @@ pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, Width
 pub use self::look::{BackgroundFile, ImageFile, StyleFile, ToneMappingFile};
 pub use self::overlay::OverlayFile;
 pub use self::projection::{PrincipalFile, ProjectionFile};
+pub use self::shadow::ShadowsFile;
 pub use self::sheet::{
     AngleFile, AxonometricFile, OrientationFile, PaperFile, SheetFile, SideFile, UnitFile,
 };
@@ -39,6 +41,8 @@ pub struct SceneFile {
     /// The lights. Default: those of the models; where they have none and there is no environment either, a key light from above
     /// the viewer's left shoulder, and ambient light.
     pub lights: Option<Vec<LightFile>>,
+    /// The shadows of all suns and spots that say nothing of theirs, those of the models too. Default: `Off`.
+    pub shadows: Option<ShadowsFile>,
     /// Light from all around. Default: none.
     pub environment: Option<EnvironmentFile>,
     /// How surfaces are drawn. Default: `Shaded`.
@@ -114,6 +118,7 @@ impl SceneFile {
             models: vec![model],
             camera: CameraFile::default(),
             lights: None,
+            shadows: None,
             environment: None,
             style: StyleFile::default(),
             image: ImageFile::default(),

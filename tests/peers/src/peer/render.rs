@@ -44,7 +44,7 @@ impl Render {
                 view_to_clip: scene.view_to_clip(Convention::CHAPTER),
             },
             lights: vec![
-                Light::Sun { towards: TOWARDS_LIGHT, lux: lux(1.0 - AMBIENT) },
+                Light::Sun { towards: TOWARDS_LIGHT, lux: lux(1.0 - AMBIENT), shadow: None },
                 Light::Ambient { lux: lux(AMBIENT) },
             ],
             environment: None,
