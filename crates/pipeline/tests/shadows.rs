@@ -219,7 +219,7 @@ fn no_light_comes_through_walls_without_thickness() {
                 (y..(y + 3).min(540)).flat_map(|y| (x..(x + 3).min(960)).map(move |x| (x, y)));
             clump = clump.max(block.map(|(x, y)| lit(x, y)).sum());
         }
-        assert!(count < 400 && clump <= 4, "{direction}: {count} {clump}");
+        assert!(count < 400 && clump <= 6, "{direction}: {count} {clump}");
     }
 }
 
