@@ -7,7 +7,9 @@
 //! ```
 
 mod assemble;
+mod ground;
 mod lines;
+mod occlusion;
 mod pixel;
 mod renderer;
 mod shadows;

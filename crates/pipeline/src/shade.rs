@@ -10,12 +10,14 @@ mod corners;
 mod develop;
 mod draw;
 mod environment;
+mod ground;
 mod inputs;
 mod layers;
 mod light;
 mod maps;
 mod microfacet;
 mod normal;
+mod occlusion;
 mod receiver;
 mod reflection;
 mod seen;
@@ -27,10 +29,11 @@ mod texture;
 pub use corners::Vertex;
 pub(crate) use corners::{NORMAL, PLACE, UV};
 pub use develop::{Develop, ToneMapping};
-pub use draw::{Draw, DrawList, Tangents};
+pub use draw::{Draw, DrawList, Role, Tangents};
 pub use environment::Environment;
 pub use light::Light;
 pub use maps::{Map, Maps};
+pub use occlusion::ScreenSpace;
 pub use shadow::{Shadow, ShadowMap};
 pub use surroundings::{Sky, studio};
 pub use texture::{MipChain, Texels};
@@ -43,7 +46,7 @@ use normal::{Facing, seen_from_behind, turn, views};
 use raster::{Eight, Fragment, Fragments, Instructions, Surface, WIDE, Work};
 use receiver::Receivers;
 use reflection::Reflection;
-use seen::{Seen, Wide};
+use seen::{Seen, Wide, scale};
 
 /// What the fragments of a frame are shaded with.
 #[derive(Debug)]
@@ -54,6 +57,8 @@ pub struct Shading<'a> {
     pub lights: &'a [Light],
     /// What the lights see, one after the other, as far as they cast shadows; nothing where none does.
     pub shadows: &'a [Option<ShadowMap>],
+    /// What is in the way of light from all around; nothing unless it is asked for.
+    pub occlusion: Option<&'a ScreenSpace>,
     /// Light from all around.
     pub environment: Option<&'a Environment>,
     /// How light becomes colours.
@@ -134,15 +139,17 @@ impl Shading<'_> {
         items: &Items<N>,
         seen: &impl Seen<N>,
     ) -> [[f32; N]; 4] {
-        if let Some(blur) = draw.backdrop {
-            return self.backdrop(draw, items, seen, blur);
+        match draw.role {
+            Role::Surface => {}
+            Role::Backdrop(blur) => return self.backdrop(draw, items, seen, blur),
+            Role::Ground => return self.ground(draw, items, seen),
         }
         let is_blended = draw.material.alpha_mode == AlphaMode::Blend;
-        let inputs = Inputs::of(draw, &draw.corners(items), seen, is_blended);
+        let mut inputs = Inputs::of(draw, &draw.corners(items), seen, is_blended);
         let mut sums = inputs.emitted;
         let mut passing = [0.0; N];
         if draw.is_lit() {
-            passing = self.add_reflected(draw, items, seen, &inputs, &mut sums);
+            passing = self.add_reflected(draw, items, seen, &mut inputs, &mut sums);
         } else {
             for (sum, color) in sums.iter_mut().zip(&inputs.base) {
                 for lane in 0..N {
@@ -204,10 +211,14 @@ impl Shading<'_> {
         draw: &Draw<'_>,
         items: &Items<N>,
         seen: &impl Seen<N>,
-        inputs: &Inputs<N>,
+        inputs: &mut Inputs<N>,
         sums: &mut [[f32; N]; 3],
     ) -> [f32; N] {
         let facing = self.facing(draw, items, seen);
+        if let Some(occlusion) = self.occlusion {
+            let open = occlusion.open(&facing.places, &facing.normals, &facing.views);
+            scale(std::slice::from_mut(&mut inputs.occlusion), &[open]);
+        }
         let tangents = draw.tangents(items, &seen.weights());
         let mut receivers = None;
         if !self.shadows.is_empty() {

@@ -219,7 +219,7 @@ fn no_light_comes_through_walls_without_thickness() {
                 (y..(y + 3).min(540)).flat_map(|y| (x..(x + 3).min(960)).map(move |x| (x, y)));
             clump = clump.max(block.map(|(x, y)| lit(x, y)).sum());
         }
-        assert!(count < 400 && clump <= 6, "{direction}: {count} {clump}");
+        assert!(count < 600 && clump <= 6, "{direction}: {count} {clump}");
     }
 }
 
@@ -260,4 +260,87 @@ fn shadows_are_the_same_for_any_number_of_threads() {
     );
     let one = render(&scene, 1).expect("a picture");
     assert!(one == render(&scene, 3).expect("a picture"));
+}
+
+/// A ball over the ground that only shows shadows, under a sun straight above.
+fn over_ground(background: &str, rest: &str) -> Picture {
+    let ball = (ball([0.0, 1.0, 0.0], 0.5, 60), matt(0.8, 0.8, 0.8));
+    draw(
+        vec![ball],
+        &format!(
+            "camera: (view: LookAt(eye: (0, 4, 6), target: (0, 0.5, 0))), ground: Shadow(height: 0),
+            image: (size: (300, 200), samples: 1, background: {background}), {rest}"
+        ),
+    )
+}
+
+/// Where a place of the ground is in that picture.
+fn place_of(x: f64, z: f64) -> (u32, u32) {
+    let scene = scene(
+        vec![(ball([0.0, 1.0, 0.0], 0.5, 60), matt(0.8, 0.8, 0.8))],
+        "camera: (view: LookAt(eye: (0, 4, 6), target: (0, 0.5, 0))), image: (size: (300, 200))",
+    );
+    let seen =
+        scene.shot.world_to_clip().point(homog::Point::new(x, 0.0, z)).divide().expect("a place");
+    ((150.0 * (1.0 + seen.x())) as u32, (100.0 * (1.0 - seen.y())) as u32)
+}
+
+#[test]
+fn the_ground_shows_the_share_of_light_that_shadows_take() {
+    // 3 lux from the sun, 1 from everywhere: where the sun is hidden, three quarters are missing.
+    let lights = "lights: [Sun(direction: (0, -1, 0), lux: 3), Ambient(lux: 1)]";
+    let clear = over_ground("Transparent", lights);
+    let at = |picture: &Picture, x, z| {
+        let (x, y) = place_of(x, z);
+        pixel(picture, x, y)
+    };
+    assert_eq!(at(&clear, 0.0, 0.3), [0, 0, 0, 191]);
+    assert_eq!(at(&clear, 0.0, 0.8), [0; 4]);
+    assert_eq!(at(&clear, -0.8, 0.0), [0; 4]);
+    // Over white, in linear light: a quarter is left.
+    let white = over_ground("Color(\"#ffffff\")", lights);
+    assert_eq!(at(&white, 0.0, 0.3), [137, 137, 137, 255]);
+    assert_eq!(at(&white, 0.0, 0.8), [255; 4]);
+    let none = over_ground("Transparent", &format!("{lights}, shadows: Off"));
+    assert_eq!(at(&none, 0.0, 0.3), [0; 4]);
+}
+
+#[test]
+fn occlusion_darkens_corners_and_nothing_that_is_open() {
+    let draw_both = |parts: Vec<(Primitive, Material)>, lights: &str| {
+        let rest = format!(
+            "camera: (view: LookAt(eye: (0, 3, 3), target: (0, 0, 0))), lights: [{lights}], image: (size: (300, 200), samples: 1)"
+        );
+        let without = draw(parts.clone(), &rest);
+        (without, draw(parts, &format!("{rest}, ambient_occlusion: (radius: 1)")))
+    };
+    let floor = || (floor(6.0), matt(0.8, 0.8, 0.8));
+    let (without, with) = draw_both(vec![floor()], "Ambient(lux: 3)");
+    assert!(without == with, "a plane is open");
+    let (without, with) =
+        draw_both(vec![(ball([0.0; 3], 1.0, 60), matt(0.8, 0.8, 0.8))], "Ambient(lux: 3)");
+    let pairs = with.pixels.iter().zip(&without.pixels);
+    assert!(
+        pairs.map(|(a, b)| a[0].abs_diff(b[0])).max() <= Some(8),
+        "a ball is open but for its facets"
+    );
+    // A wall on the floor: at its foot half of the light is missing, and far away nothing.
+    let wall = (sides([-6.0, 0.0, -4.0], [6.0, 4.0, -0.5], false), matt(0.8, 0.8, 0.8));
+    let parts = vec![floor(), wall];
+    let (without, with) = draw_both(parts.clone(), "Ambient(lux: 3)");
+    let linear = |code: u8| {
+        let srgb = f64::from(code) / 255.0;
+        if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
+    };
+    let foot = (0..200)
+        .find(|&y| pixel(&with, 150, y)[0] != pixel(&without, 150, y)[0])
+        .expect("a corner");
+    let least =
+        (foot..200).map(|y| linear(pixel(&with, 150, y)[0]) / linear(pixel(&without, 150, y)[0]));
+    let least = least.fold(1.0, f64::min);
+    assert!((0.35..0.62).contains(&least), "{least}");
+    assert_eq!(pixel(&with, 150, 199), pixel(&without, 150, 199));
+    // What a sun gives stays.
+    let (without, with) = draw_both(parts, "Sun(direction: (0, -1, -1), lux: 3)");
+    assert!(without == with);
 }

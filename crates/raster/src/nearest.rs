@@ -26,7 +26,7 @@ impl Nearest {
 }
 
 impl Frame {
-    /// Finds the nearest surface at the first sample of each pixel (its centre, with one sample), rows from the top: `width` ×
+    /// Finds the nearest surface at the first sample of each pixel, with its depth at the pixel's centre, rows from the top: `width` ×
     /// `height` of them. Masked primitives count where `surface` keeps them, translucent ones not at all. Uses up to `threads`
     /// threads, whose number does not matter.
     pub fn nearest<S: Surface>(&self, surface: &S, threads: usize, target: &mut [Nearest]) {
@@ -51,6 +51,8 @@ impl Frame {
         surface: &S,
     ) {
         let (left, right) = self.part.columns();
+        let first = self.samples.offsets().next().unwrap_or((128, 128));
+        let to_center = [first.0, first.1].map(|at| 0.5 - at as f32 / 256.0);
         for column in left..right {
             let rect = self.part.tile(column, row);
             list.clear();
@@ -74,7 +76,8 @@ impl Frame {
                     + (rect.x + x - self.part.x) as usize;
                 if let Some(nearest) = target.get_mut(place) {
                     let [dx, dy] = slope;
-                    *nearest = Nearest { depth: tile.depth(0, at), dx, dy };
+                    let depth = tile.depth(0, at) + dx * to_center[0] + dy * to_center[1];
+                    *nearest = Nearest { depth, dx, dy };
                 }
             }
         }

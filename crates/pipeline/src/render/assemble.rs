@@ -9,7 +9,7 @@ use crate::model::{
     AlphaMode, Instance, Material, Posed, Primitive, TextureSlot, TextureUse, Topology,
 };
 use crate::scene::{Placed, Scene, Style};
-use crate::shade::{Draw, Maps, MipChain, PLACE, Tangents};
+use crate::shade::{Draw, Maps, MipChain, PLACE, Role, Tangents};
 use clip::{Outcode, clip_triangle};
 use glam::DVec3;
 use homog::{Clip, HPoint, Model, Ndc, Point, Projective};
@@ -35,6 +35,9 @@ pub(super) fn assemble<'a>(
             let texture = |slot, used: TextureUse| textures.chain(number, slot, used.texture);
             assembler.draw(placed, instance, primitive, texture)?;
         }
+    }
+    if let Some(ground) = scene.ground {
+        assembler.ground(ground)?;
     }
     if let Some(blur) = scene.image.backdrop {
         assembler.backdrop(scene, blur)?;
@@ -94,22 +97,21 @@ impl Images {
     }
 }
 
-struct Assembler<'a> {
-    stage: Stage,
+pub(super) struct Assembler<'a> {
+    pub(super) stage: Stage,
     is_flat: bool,
     threads: usize,
-    memory: Memory<'a>,
-    next_id: u32,
+    pub(super) memory: Memory<'a>,
+    pub(super) next_id: u32,
 }
 
 /// The material of primitives that name none.
 pub(super) static DEFAULT_MATERIAL: std::sync::LazyLock<Material> =
     std::sync::LazyLock::new(Material::default);
 
-/// The triangles of an environment behind everything.
-static BACKDROP: std::sync::LazyLock<Primitive> = std::sync::LazyLock::new(|| Primitive {
-    indices: vec![0, 1, 2, 0, 2, 3],
-    ..Primitive::default()
+/// The triangles of the ground, or of an environment behind everything.
+pub(super) static BACKDROP: std::sync::LazyLock<Primitive> = std::sync::LazyLock::new(|| {
+    Primitive { indices: vec![0, 1, 2, 0, 2, 3], ..Primitive::default() }
 });
 
 impl<'a> Assembler<'a> {
@@ -147,7 +149,7 @@ impl<'a> Assembler<'a> {
             smooth: normals.is_some() && !self.is_flat,
             uv_set: uv_set(material, primitive),
             colors: model.posed_colors(instance, primitive),
-            backdrop: None,
+            role: Role::Surface,
             mirrored: model_to_world.determinant() < 0.0,
         };
         if whereabouts == Whereabouts::Inside {
@@ -196,7 +198,7 @@ impl<'a> Assembler<'a> {
             smooth: false,
             uv_set: None,
             colors: None,
-            backdrop: Some(blur),
+            role: Role::Backdrop(blur),
             mirrored: false,
         });
         let triangles = primitive.indices.as_chunks::<3>().0;
@@ -253,7 +255,7 @@ impl<'a> Assembler<'a> {
 
     /// Which triangles are not to be seen: the backs of surfaces with one side. Fronts run counter-clockwise in the picture,
     /// unless either the way to the world or that to the screen mirrors.
-    fn cull(&self, draw: &Draw<'_>) -> Cull {
+    pub(super) fn cull(&self, draw: &Draw<'_>) -> Cull {
         match (draw.material.double_sided, draw.mirrored == self.stage.mirrors) {
             (true, _) => Cull::Nothing,
             (false, true) => Cull::Clockwise,

@@ -5,6 +5,7 @@
 
 use super::RenderError;
 use super::assemble::{Images, assemble};
+use super::occlusion::whole_screen_space;
 use super::renderer::{Memory, shading};
 use super::shadows::ShadowMemory;
 use super::textures::Textures;
@@ -69,7 +70,8 @@ pub fn pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelMakeup>, Rende
     let memory = assemble(scene, &textures, 1, memory)?;
     let mut shadows = ShadowMemory::default();
     shadows.render(scene, &textures, 1)?;
-    let surface = shading(scene, &memory.draws, &memory.frame, &shadows.maps);
+    let occlusion = whole_screen_space(scene, &textures)?;
+    let surface = shading(scene, &memory.draws, &memory.frame, &shadows.maps, occlusion.as_ref());
     let witness = Witness { surface: &surface, place: [x, y], seen: Mutex::default() };
     let mut color = [[0; 4]];
     memory.frame.draw(&witness, image.background, 1, &mut color, SrgbEncoder::shared());

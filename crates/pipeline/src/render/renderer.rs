@@ -2,13 +2,14 @@
 
 use super::RenderError;
 use super::assemble::{Images, assemble};
+use super::occlusion::screen_space;
 use super::shadows::ShadowMemory;
 use super::textures::Textures;
 use crate::color::SrgbEncoder;
 use crate::scene::Scene;
-use crate::shade::{Draw, DrawList, Shading, ShadowMap, Vertex};
+use crate::shade::{Draw, DrawList, ScreenSpace, Shading, ShadowMap, Vertex};
 use crate::{Picture, Timings};
-use raster::Frame;
+use raster::{Frame, Nearest};
 
 /// Renders surfaces again and again: the same models from elsewhere, in other light, in another pose.
 ///
@@ -36,6 +37,7 @@ pub struct Renderer {
     draws: Vec<Draw<'static>>,
     spare: Vec<Vec<Vertex>>,
     shadows: ShadowMemory,
+    nearest: Vec<Nearest>,
 }
 
 /// What a picture is put together in.
@@ -63,16 +65,24 @@ impl Renderer {
         picture: &mut Picture,
     ) -> Result<(), RenderError> {
         let image = scene.image;
-        timings.measure("shadows", || self.shadows.render(scene, textures, threads))?;
+        let shadows = || self.shadows.render(scene, textures, threads);
+        if scene.lights.iter().any(|light| light.shadow().is_some()) {
+            timings.measure("shadows", shadows)?;
+        } else {
+            self.shadows.clear();
+        }
         let memory = self.lend(scene, threads)?;
         let memory = timings.measure("vertices", || assemble(scene, textures, threads, memory))?;
         let Memory { frame, draws, .. } = &memory;
-        let shading = shading(scene, draws, frame, &self.shadows.maps);
+        let nearest = std::mem::take(&mut self.nearest);
+        let occlusion = screen_space(scene, frame, draws, threads, nearest)?;
+        let shading = shading(scene, draws, frame, &self.shadows.maps, occlusion.as_ref());
         picture.resize(image.width, image.height);
         let encoder = SrgbEncoder::shared();
         timings.measure("pixels", || {
             frame.draw(&shading, image.background, threads, &mut picture.pixels, encoder);
         });
+        self.nearest = occlusion.map(|space| space.nearest).unwrap_or_default();
         self.take_back(memory);
         Ok(())
     }
@@ -114,11 +124,13 @@ pub(super) fn shading<'a>(
     draws: &'a DrawList<'a>,
     frame: &Frame,
     shadows: &'a [Option<ShadowMap>],
+    occlusion: Option<&'a ScreenSpace>,
 ) -> Shading<'a> {
     Shading {
         draws,
         lights: &scene.lights,
         shadows,
+        occlusion,
         environment: scene.environment.as_deref(),
         develop: scene.develop,
         viewer: scene.shot.viewer(),

@@ -8,7 +8,8 @@ use super::assemble::Images;
 use super::stage::Stage;
 use crate::scene::Scene;
 use crate::shade::{Draw, DrawList, ShadowMap};
-use casters::{Casters, add_casters};
+pub(super) use casters::Casters;
+use casters::add_casters;
 use fit::Fit;
 use glam::DMat4;
 use raster::{Frame, Samples};
@@ -25,6 +26,11 @@ pub(super) struct ShadowMemory {
 }
 
 impl ShadowMemory {
+    /// Takes all maps out and keeps their memory.
+    pub(super) fn clear(&mut self) {
+        self.spare.extend(self.maps.drain(..).flatten());
+    }
+
     /// Makes the maps of a scene's lights with up to `threads` threads, whose number does not change them.
     pub(super) fn render<'a>(
         &mut self,
@@ -32,7 +38,7 @@ impl ShadowMemory {
         textures: &'a super::Textures<'a>,
         threads: usize,
     ) -> Result<(), RenderError> {
-        self.spare.extend(self.maps.drain(..).flatten());
+        self.clear();
         if scene.lights.iter().all(|light| light.shadow().is_none()) {
             return Ok(());
         }

@@ -9,7 +9,7 @@ use raster::{GUARD_BAND, ScreenVertex};
 use viewport::Viewport;
 
 /// The way from the world to the screen.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Stage {
     world_to_clip: Projective<World, Clip>,
     /// What is kept: the view volume with a guard band.

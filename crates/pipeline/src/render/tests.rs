@@ -48,6 +48,7 @@ fn eight_fragments_at_once_have_the_colours_of_one_by_one() {
                 draws: &draws,
                 lights: &scene.lights,
                 shadows: &[],
+                occlusion: None,
                 environment: scene.environment.as_deref(),
                 develop: scene.develop,
                 viewer,

@@ -5,9 +5,11 @@
 
 mod camera;
 mod environment;
+mod ground;
 mod light;
 mod lines;
 mod look;
+mod occlusion;
 mod overlay;
 mod projection;
 mod shadow;
@@ -15,9 +17,11 @@ mod sheet;
 
 pub use self::camera::{CameraChoice, CameraFile, FromFile, USUAL_PADDING, ViewFile};
 pub use self::environment::EnvironmentFile;
+pub use self::ground::GroundFile;
 pub use self::light::LightFile;
 pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, WidthFile};
 pub use self::look::{BackgroundFile, ImageFile, StyleFile, ToneMappingFile};
+pub use self::occlusion::AmbientOcclusionFile;
 pub use self::overlay::OverlayFile;
 pub use self::projection::{PrincipalFile, ProjectionFile};
 pub use self::shadow::ShadowsFile;
@@ -39,12 +43,16 @@ pub struct SceneFile {
     #[serde(default)]
     pub camera: CameraFile,
     /// The lights. Default: those of the models; where they have none and there is no environment either, a key light from above
-    /// the viewer's left shoulder, and ambient light.
+    /// the viewer's left shoulder, and ambient light; with an environment the key light alone, if there are to be shadows.
     pub lights: Option<Vec<LightFile>>,
     /// The shadows of all suns and spots that say nothing of theirs, those of the models too. Default: `Off`.
     pub shadows: Option<ShadowsFile>,
-    /// Light from all around. Default: none.
+    /// What is below the models. Default: nothing.
+    pub ground: Option<GroundFile>,
+    /// Light from all around. Default: none; a bare model without lights of its own stands in the `Studio()`.
     pub environment: Option<EnvironmentFile>,
+    /// Less light from all around where the picture shows something in its way. Default: none.
+    pub ambient_occlusion: Option<AmbientOcclusionFile>,
     /// How surfaces are drawn. Default: `Shaded`.
     #[serde(default)]
     pub style: StyleFile,
@@ -119,7 +127,9 @@ impl SceneFile {
             camera: CameraFile::default(),
             lights: None,
             shadows: None,
+            ground: None,
             environment: None,
+            ambient_occlusion: None,
             style: StyleFile::default(),
             image: ImageFile::default(),
             overlays: Vec::new(),

@@ -16,11 +16,19 @@ pub(super) fn resolve_lights(
     models: &[Placed],
     shot: &Shot,
 ) -> Result<Vec<Light>, SceneError> {
-    let shadow = resolve_shadow(origin, file.shadows.as_ref(), &[Field("shadows")])?;
+    // Ground that only shows shadows is there for the sake of shadows.
+    let of_ground = file.ground.map(|_| ShadowsFile::USUAL);
+    let asked = file.shadows.or(of_ground);
+    let shadow = resolve_shadow(origin, asked.as_ref(), &[Field("shadows")])?;
     let Some(lights) = &file.lights else {
         let theirs = lights_of(models, shadow);
-        let none_else = theirs.is_empty() && file.environment.is_none();
-        return Ok(if none_else { default_lights(shot, shadow) } else { theirs });
+        let is_dark = file.surroundings(origin, models).is_none();
+        return Ok(match (theirs.is_empty(), is_dark) {
+            (true, true) => default_lights(shot, shadow),
+            // Shadows were asked for, and somebody must cast them.
+            (true, false) if shadow.is_some() => vec![key_light(shot, 1.5, shadow)],
+            _ => theirs,
+        });
     };
     let mut resolved = Vec::new();
     for (number, light) in lights.iter().enumerate() {
@@ -59,13 +67,14 @@ fn lights_of(models: &[Placed], shadow: Option<Shadow>) -> Vec<Light> {
 
 /// A key light from above the viewer's left shoulder, so that shape reads from every side, and a quarter as much ambient.
 fn default_lights(shot: &Shot, shadow: Option<Shadow>) -> Vec<Light> {
+    vec![key_light(shot, 2.5, shadow), Light::Ambient { lux: [0.7; 3] }]
+}
+
+fn key_light(shot: &Shot, lux: f32, shadow: Option<Shadow>) -> Light {
     let camera = shot.camera;
     let towards = camera.u() * -0.45 + camera.v() * 0.65 + camera.w();
     let towards = towards.normalized().unwrap_or(camera.w());
-    vec![
-        Light::Sun { towards: towards.raw().as_vec3().to_array(), lux: [2.5; 3], shadow },
-        Light::Ambient { lux: [0.7; 3] },
-    ]
+    Light::Sun { towards: towards.raw().as_vec3().to_array(), lux: [lux; 3], shadow }
 }
 
 /// A light of the file, with the scene's shadows where it says nothing of its own; `None` for those of the models.

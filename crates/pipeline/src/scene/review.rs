@@ -45,7 +45,8 @@ pub fn review(origin: &Origin, file: &SceneFile, options: &ResolveOptions) -> Ve
     mistakes.extend(lights.filter_map(|(at, light)| resolve_light(origin, at, light, None).err()));
     let shadows = resolve_shadow(origin, file.shadows.as_ref(), &[Step::Field("shadows")]);
     mistakes.extend(shadows.err());
-    mistakes.extend(resolve_environment(origin, file, &options.import.allow_outside).err());
+    mistakes
+        .extend(resolve_environment(origin, file, &models, &options.import.allow_outside).err());
     mistakes.extend(resolve_style(origin, &file.style).err());
     let sheet = file.sheet.iter();
     mistakes.extend(sheet.filter_map(|sheet| Sheet::resolve(origin, sheet).err()));

@@ -7,11 +7,11 @@ use crate::render::assemble::{DEFAULT_MATERIAL, Images, cover_of, triangle};
 use crate::render::stage::{Stage, Whereabouts};
 use crate::render::vertices::{Parts, uv_set};
 use crate::scene::Scene;
-use crate::shade::{Draw, DrawList, Maps, Tangents};
+use crate::shade::{Draw, DrawList, Maps, Role, Tangents};
 use raster::{Cover, Cull, Fragment, Frame, Surface};
 
-/// The masked draws among the casters.
-pub(super) struct Casters<'a, 'b>(pub(super) &'b DrawList<'a>);
+/// What of draws is there at all: their colours do not count.
+pub(in crate::render) struct Casters<'a, 'b>(pub(in crate::render) &'b DrawList<'a>);
 
 impl Surface for Casters<'_, '_> {
     fn keeps(&self, fragment: &Fragment<'_>) -> bool {
@@ -81,7 +81,7 @@ pub(super) fn add_casters<'a>(
                     smooth: false,
                     uv_set,
                     colors: model.posed_colors(instance, primitive),
-                    backdrop: None,
+                    role: Role::Surface,
                     mirrored: false,
                 });
             }
