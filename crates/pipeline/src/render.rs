@@ -8,6 +8,7 @@
 
 mod assemble;
 mod ground;
+mod images;
 mod lines;
 mod occlusion;
 mod pixel;

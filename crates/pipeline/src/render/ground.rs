@@ -39,7 +39,10 @@ impl Assembler<'_> {
         };
         let cull = self.cull(&draw);
         let Memory { images, frame, .. } = &mut self.memory;
-        images.anywhere(&stage, model_to_clip, &ground.corners);
+        images.whole.clear(4);
+        images.cut.clear(4);
+        images.cut.add_all(2);
+        images.project(&stage, model_to_clip, &ground.corners, 1);
         for (id, corners) in (first_id..).zip(BACKDROP.indices.as_chunks::<3>().0) {
             triangle(&stage, images, frame, *corners, id, Cover::Translucent, cull);
         }

@@ -1,7 +1,8 @@
 //! One picture after the other, in the memory of the first.
 
 use super::RenderError;
-use super::assemble::{Images, assemble};
+use super::assemble::assemble;
+use super::images::Images;
 use super::occlusion::screen_space;
 use super::shadows::ShadowMemory;
 use super::textures::Textures;

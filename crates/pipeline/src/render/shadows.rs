@@ -4,7 +4,7 @@ mod casters;
 mod fit;
 
 use super::RenderError;
-use super::assemble::Images;
+use super::images::Images;
 use super::stage::Stage;
 use crate::scene::Scene;
 use crate::shade::{Draw, DrawList, ShadowMap};

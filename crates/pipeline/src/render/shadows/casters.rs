@@ -1,10 +1,11 @@
 //! What casts shadows: the triangles of a scene that let no light through.
 
-use crate::model::{AlphaMode, Posed, TextureSlot, TextureUse, Topology};
+use crate::model::{AlphaMode, TextureSlot, TextureUse, Topology};
 use crate::render::RenderError;
 use crate::render::Textures;
-use crate::render::assemble::{DEFAULT_MATERIAL, Images, cover_of, triangle};
-use crate::render::stage::{Stage, Whereabouts};
+use crate::render::assemble::{DEFAULT_MATERIAL, cover_of, triangle};
+use crate::render::images::Images;
+use crate::render::stage::Stage;
 use crate::render::vertices::{Parts, uv_set};
 use crate::scene::Scene;
 use crate::shade::{Draw, DrawList, Maps, Role, Tangents};
@@ -45,21 +46,17 @@ pub(super) fn add_casters<'a>(
                 continue;
             }
             let posed = model.posed(instance, primitive);
-            let Posed { positions, to_model, .. } = &posed;
-            let model_to_world = to_model.then(placed.model_to_world);
+            let model_to_world = posed.to_model.then(placed.model_to_world);
             let model_to_clip = stage.model_to_clip(model_to_world);
             let triangles = primitive.indices.as_chunks::<3>().0;
-            match stage.whereabouts(model_to_clip, positions) {
-                Whereabouts::Outside => continue,
-                Whereabouts::Inside => {
-                    images.inside(stage, model_to_clip, positions, threads);
-                    frame.mesh(&images.screen, triangles, first_id, cover, Cull::Nothing);
-                }
-                Whereabouts::Unknown => {
-                    images.anywhere(stage, model_to_clip, positions);
-                    for (id, corners) in (first_id..).zip(triangles) {
-                        triangle(stage, images, frame, *corners, id, cover, Cull::Nothing);
-                    }
+            images.select(stage, model_to_clip, primitive, &posed, None);
+            images.project(stage, model_to_clip, &posed.positions, threads);
+            for (whole, cut) in images.runs() {
+                let screen = &images.screen;
+                frame.mesh_part(screen, triangles, whole, first_id, cover, Cull::Nothing);
+                let cut = cut.start.min(triangles.len())..cut.end.min(triangles.len());
+                for (number, corners) in (first_id..).zip(triangles).take(cut.end).skip(cut.start) {
+                    triangle(stage, images, frame, *corners, number, cover, Cull::Nothing);
                 }
             }
             if cover == Cover::Masked {
@@ -70,7 +67,14 @@ pub(super) fn add_casters<'a>(
                 let uvs = uv_set.and_then(|set| model.posed_uvs(instance, primitive, set));
                 let mut vertices = Vec::new();
                 let parts = Parts { positions: None, normals: None, uvs: uvs.as_deref() };
-                parts.vertices(positions.len(), model_to_world, threads, &mut vertices);
+                let selected = [&images.whole, &images.cut];
+                parts.vertices(
+                    posed.positions.len(),
+                    selected,
+                    model_to_world,
+                    threads,
+                    &mut vertices,
+                );
                 draws.draws.push(Draw {
                     first_id,
                     primitive,
