@@ -12,6 +12,7 @@ mod drawings;
 mod explain;
 mod files;
 mod info;
+mod light;
 mod matrix;
 mod messages;
 mod overlays;

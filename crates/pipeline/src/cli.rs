@@ -8,6 +8,7 @@ mod explain;
 mod failure;
 mod format;
 mod info;
+mod light;
 mod loading;
 mod look;
 mod matrix;

@@ -7,10 +7,13 @@
 //! ```
 
 mod assemble;
+mod ground;
 mod images;
 mod lines;
+mod occlusion;
 mod pixel;
 mod renderer;
+mod shadows;
 mod shot;
 mod stage;
 #[cfg(test)]

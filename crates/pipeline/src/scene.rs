@@ -7,6 +7,7 @@ pub(crate) mod bounds;
 mod classical;
 mod error;
 pub mod file;
+mod ground;
 mod lights;
 mod locate;
 mod look;
@@ -18,12 +19,14 @@ mod parse;
 mod radiance;
 mod resolve;
 mod review;
+mod shadows;
 mod sheet;
 mod surroundings;
 mod viewpoint;
 
 pub use error::SceneError;
 pub use file::SceneFile;
+pub use ground::Ground;
 pub use origin::Origin;
 pub use parse::parse;
 pub use resolve::{ResolveOptions, chosen_animation};
@@ -48,8 +51,12 @@ pub struct Scene {
     pub shot: Shot,
     /// The lights.
     pub lights: Vec<Light>,
+    /// What is below the models.
+    pub ground: Option<Ground>,
     /// Light from all around.
     pub environment: Option<Arc<Environment>>,
+    /// How far away things still take light from all around, in the units of the world; `None` if they do not.
+    pub occlusion_radius: Option<f64>,
     /// How light becomes colours.
     pub develop: Develop,
     /// How surfaces are drawn.

@@ -49,7 +49,8 @@ pub(crate) struct AnimateArgs {
 pub(crate) fn run(args: &AnimateArgs) -> Result<(), Failure> {
     let (origin, mut file) = open(&args.input)?;
     args.look.override_in(&mut file);
-    let scene = Scene::resolve(&origin, &file, &ResolveOptions { import: args.load.options() })?;
+    let scene =
+        Scene::resolve(&origin, &file, &ResolveOptions { import: args.look.import(&args.load) })?;
     warn(&scene);
     let film = args.film(&origin, &file, scene)?;
     let mut sink = Sink::open(&args.output, &film, args.fps)?;

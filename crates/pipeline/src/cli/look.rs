@@ -1,9 +1,12 @@
 //! Flags that change what a scene says of its picture: the size, the camera, the style, the state of the models.
 
 use super::args::{OverlayArg, ProjectionArg, StyleArg};
+use super::light::LightArgs;
+use super::loading::LoadArgs;
 use super::pick::PickArgs;
 use camera::NamedView;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use pipeline::import::ImportOptions;
 use pipeline::scene::file::{
     BackgroundFile, CameraChoice, CameraFile, OverlayFile, PrincipalFile, ProjectionFile,
     SceneFile, StyleFile, USUAL_PADDING, ViewFile,
@@ -38,6 +41,8 @@ pub(crate) struct LookArgs {
     /// Coverage samples per pixel: 1, 4, 8 or 16
     #[arg(long, value_name = "N")]
     pub(crate) samples: Option<u32>,
+    #[command(flatten)]
+    light: LightArgs,
 }
 
 impl LookArgs {
@@ -59,7 +64,15 @@ impl LookArgs {
         }
         file.overlays.extend(self.overlay.iter().copied().map(OverlayFile::from));
         file.models.iter_mut().for_each(|model| self.pick.override_in(model));
+        self.light.override_in(file);
         self.override_camera(&mut file.camera);
+    }
+
+    /// How models are loaded by these flags too: a file that they name may be read wherever it is.
+    pub(crate) fn import(&self, load: &LoadArgs) -> ImportOptions {
+        let mut options = load.options();
+        options.allow_outside.extend(self.light.named_file());
+        options
     }
 
     fn override_camera(&self, file: &mut CameraFile) {

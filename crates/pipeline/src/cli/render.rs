@@ -23,7 +23,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let (origin, mut file) = open(&args.input)?;
     args.look.override_in(&mut file);
     let timings = if args.timings { Timings::measuring() } else { Timings::default() };
-    let import = ImportOptions { timings: timings.clone(), ..args.load.options() };
+    let import = ImportOptions { timings: timings.clone(), ..args.look.import(&args.load) };
     let options = ResolveOptions { import };
     let scene = Scene::resolve(&origin, &file, &options)?;
     progress.stage("rendering");

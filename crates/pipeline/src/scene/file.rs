@@ -5,20 +5,26 @@
 
 mod camera;
 mod environment;
+mod ground;
 mod light;
 mod lines;
 mod look;
+mod occlusion;
 mod overlay;
 mod projection;
+mod shadow;
 mod sheet;
 
 pub use self::camera::{CameraChoice, CameraFile, FromFile, USUAL_PADDING, ViewFile};
 pub use self::environment::EnvironmentFile;
+pub use self::ground::GroundFile;
 pub use self::light::LightFile;
 pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, WidthFile};
 pub use self::look::{BackgroundFile, ImageFile, StyleFile, ToneMappingFile};
+pub use self::occlusion::AmbientOcclusionFile;
 pub use self::overlay::OverlayFile;
 pub use self::projection::{PrincipalFile, ProjectionFile};
+pub use self::shadow::ShadowsFile;
 pub use self::sheet::{
     AngleFile, AxonometricFile, OrientationFile, PaperFile, SheetFile, SideFile, UnitFile,
 };
@@ -37,10 +43,16 @@ pub struct SceneFile {
     #[serde(default)]
     pub camera: CameraFile,
     /// The lights. Default: those of the models; where they have none and there is no environment either, a key light from above
-    /// the viewer's left shoulder, and ambient light.
+    /// the viewer's left shoulder, and ambient light; with an environment the key light alone, if there are to be shadows.
     pub lights: Option<Vec<LightFile>>,
-    /// Light from all around. Default: none.
+    /// The shadows of all suns and spots that say nothing of theirs, those of the models too. Default: `Off`.
+    pub shadows: Option<ShadowsFile>,
+    /// What is below the models. Default: nothing.
+    pub ground: Option<GroundFile>,
+    /// Light from all around. Default: none; a bare model without lights of its own stands in the `Studio()`.
     pub environment: Option<EnvironmentFile>,
+    /// Less light from all around where the picture shows something in its way. Default: none.
+    pub ambient_occlusion: Option<AmbientOcclusionFile>,
     /// How surfaces are drawn. Default: `Shaded`.
     #[serde(default)]
     pub style: StyleFile,
@@ -114,7 +126,10 @@ impl SceneFile {
             models: vec![model],
             camera: CameraFile::default(),
             lights: None,
+            shadows: None,
+            ground: None,
             environment: None,
+            ambient_occlusion: None,
             style: StyleFile::default(),
             image: ImageFile::default(),
             overlays: Vec::new(),

@@ -88,8 +88,11 @@ impl Order<'_> {
     fn picture(&self, input: &Path, output: &Path) -> Result<Vec<String>, Failure> {
         let (origin, mut file) = open(input)?;
         self.args.look.override_in(&mut file);
-        let scene =
-            Scene::resolve(&origin, &file, &ResolveOptions { import: self.args.load.options() })?;
+        let scene = Scene::resolve(
+            &origin,
+            &file,
+            &ResolveOptions { import: self.args.look.import(&self.args.load) },
+        )?;
         let png = render(&scene, 1)?.to_png();
         if let Some(folder) = output.parent() {
             let fault = |cause| {
