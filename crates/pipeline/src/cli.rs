@@ -14,6 +14,7 @@ mod matrix;
 mod pick;
 mod progress;
 mod render;
+mod section;
 mod sheet;
 
 pub(crate) use args::Args;

@@ -18,6 +18,7 @@ mod parse;
 mod radiance;
 mod resolve;
 mod review;
+mod section;
 mod sheet;
 mod surroundings;
 mod viewpoint;
@@ -34,7 +35,7 @@ use crate::import::ImportError;
 use crate::model::Model;
 use crate::render::Shot;
 use crate::shade::{Develop, Environment, Light};
-use homog::{Affine, Model as ModelSpace, Point, World};
+use homog::{Affine, Model as ModelSpace, Plane, Point, World};
 use raster::Samples;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -58,6 +59,8 @@ pub struct Scene {
     pub image: ImageSpec,
     /// What is drawn over it.
     pub overlays: Vec<Overlay>,
+    /// Planes that cut the models open in line drawings; their unit normals point to what is kept.
+    pub sections: Vec<Plane<World>>,
 }
 
 impl Scene {

@@ -6,6 +6,7 @@ use super::locate::Step::{Field, Index};
 use super::look::resolve_style;
 use super::number::Positive;
 use super::parse::suggestion;
+use super::section::resolve_sections;
 use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
 use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile};
@@ -76,7 +77,8 @@ impl Scene {
         let develop = Develop::new(file.image.exposure_ev.map_or(0.0, Finite::value), curve);
         let style = resolve_style(origin, &file.style)?;
         let overlays = resolve_overlays(origin, &file.overlays, &models, image)?;
-        Ok(Self { models, shot, lights, environment, develop, style, image, overlays })
+        let sections = resolve_sections(origin, &file.sections)?;
+        Ok(Self { models, shot, lights, environment, develop, style, image, overlays, sections })
     }
 }
 

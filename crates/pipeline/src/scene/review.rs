@@ -6,6 +6,7 @@ use super::lights::resolve_light;
 use super::look::resolve_style;
 use super::origin::Origin;
 use super::resolve::{ModelFault, load_model, placement, resolve_image, resolve_overlays};
+use super::section::resolve_sections;
 use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
 use super::{Placed, ResolveOptions};
@@ -43,6 +44,7 @@ pub fn review(origin: &Origin, file: &SceneFile, options: &ResolveOptions) -> Ve
     mistakes.extend(lights.filter_map(|(at, light)| resolve_light(origin, at, light).err()));
     mistakes.extend(resolve_environment(origin, file, &options.import.allow_outside).err());
     mistakes.extend(resolve_style(origin, &file.style).err());
+    mistakes.extend(resolve_sections(origin, &file.sections).err());
     let sheet = file.sheet.iter();
     mistakes.extend(sheet.filter_map(|sheet| Sheet::resolve(origin, sheet).err()));
     mistakes.sort_by_key(|mistake| mistake.span.start);
