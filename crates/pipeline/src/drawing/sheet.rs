@@ -17,6 +17,7 @@
 //! the standard series (ISO 5455); frame and title block follow ISO 5457 and ISO 7200, dimensions ISO 129-1.
 
 mod arrange;
+mod cut_line;
 mod dimension;
 mod frame;
 mod scale_bar;
@@ -158,6 +159,7 @@ impl Sheet {
         for placed in &arrangement.placed {
             self.draw_view(&mut page, placed, scene, threads)?;
         }
+        page.layers.extend(cut_line::layers(self, scene, &arrangement, ink));
         self.draw_apparatus(&mut page, &arrangement, ink);
         Ok(page)
     }
@@ -174,6 +176,8 @@ impl Sheet {
         let is_principal = NamedView::PRINCIPAL.contains(&view.name);
         let hidden = if is_principal { self.look.hidden } else { HiddenLines::Removed };
         let look = LineLook { hidden, ..self.look };
+        let mut scene = scene.clone();
+        scene.sections.retain(|plane| placed.shows(*plane));
         let drawing = view.draw(scene, &look, placed.scale, threads)?;
         let placement = view.placement(&drawing, placed.scale, placed.centre);
         let (prefix, ink) = (format!("{}-", view.name), self.look.ink.unwrap_or(INK));

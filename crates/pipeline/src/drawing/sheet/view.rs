@@ -23,13 +23,13 @@ const ROOM: f64 = 1.02;
 #[derive(Clone, Debug)]
 pub(super) struct View {
     pub(super) name: NamedView,
-    camera: Camera,
+    pub(super) camera: Camera,
     /// From where to where the object reaches ahead of the camera, in units of the scene.
     depths: [f64; 2],
     /// Width and height of the object in this view, in millimetres of the thing.
     pub(super) size: DVec2,
     /// Millimetres in a unit of the scene.
-    unit: f64,
+    pub(super) unit: f64,
 }
 
 impl View {
@@ -62,7 +62,7 @@ impl View {
     /// The lines of the view.
     pub(super) fn draw(
         &self,
-        scene: &Scene,
+        mut scene: Scene,
         look: &LineLook,
         scale: DrawingScale,
         threads: usize,
@@ -75,7 +75,6 @@ impl View {
         let volume = volume
             .map_err(|error| SheetError::View { view: self.name, reason: error.to_string() })?;
         let view_to_clip = volume.view_to_clip(Convention::CHAPTER);
-        let mut scene = scene.clone();
         scene.shot = Shot { camera: self.camera, view_to_clip };
         let pixels = (window * (PIXELS / window.max_element())).ceil().max(DVec2::ONE);
         (scene.image.width, scene.image.height) = (pixels.x as u32, pixels.y as u32);
