@@ -84,6 +84,7 @@ pub fn scene(model: &Arc<Model>, kind: Kind, side: usize) -> Result<Scene, Strin
         style: Style::Flat,
         image: ImageSpec { width, height, background: [0.0; 4], backdrop: None, samples },
         overlays: Vec::new(),
+        sections: Vec::new(),
     })
 }
 

@@ -18,6 +18,7 @@ mod messages;
 mod overlays;
 mod pictures;
 mod real;
+mod sections;
 mod variants;
 mod vectors;
 mod viewers;

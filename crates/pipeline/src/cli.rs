@@ -15,6 +15,7 @@ mod matrix;
 mod pick;
 mod progress;
 mod render;
+mod section;
 mod sheet;
 
 pub(crate) use args::Args;

@@ -19,6 +19,7 @@ mod parse;
 mod radiance;
 mod resolve;
 mod review;
+mod section;
 mod shadows;
 mod sheet;
 mod surroundings;
@@ -37,7 +38,7 @@ use crate::import::ImportError;
 use crate::model::Model;
 use crate::render::Shot;
 use crate::shade::{Develop, Environment, Light};
-use homog::{Affine, Model as ModelSpace, Point, World};
+use homog::{Affine, Model as ModelSpace, Plane, Point, World};
 use raster::Samples;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -65,6 +66,8 @@ pub struct Scene {
     pub image: ImageSpec,
     /// What is drawn over it.
     pub overlays: Vec<Overlay>,
+    /// Planes that cut the models open in line drawings; their unit normals point to what is kept.
+    pub sections: Vec<Plane<World>>,
 }
 
 impl Scene {

@@ -51,7 +51,7 @@ pub(crate) fn run(args: &AnimateArgs) -> Result<(), Failure> {
     args.look.override_in(&mut file);
     let scene =
         Scene::resolve(&origin, &file, &ResolveOptions { import: args.look.import(&args.load) })?;
-    warn(&scene);
+    warn(&scene, &[]);
     let film = args.film(&origin, &file, scene)?;
     let mut sink = Sink::open(&args.output, &film, args.fps)?;
     let counter = Counter::start(film.frames());

@@ -4,6 +4,7 @@ use super::args::{OverlayArg, ProjectionArg, StyleArg};
 use super::light::LightArgs;
 use super::loading::LoadArgs;
 use super::pick::PickArgs;
+use super::section::SectionArgs;
 use camera::NamedView;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use pipeline::import::ImportOptions;
@@ -35,6 +36,8 @@ pub(crate) struct LookArgs {
     /// What is drawn over the picture to explain it; may be given several times
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     pub(crate) overlay: Vec<OverlayArg>,
+    #[command(flatten)]
+    pub(crate) section: SectionArgs,
     /// What is seen where no model is: transparent, or a colour such as #f4f1ea
     #[arg(long, value_name = "COLOR")]
     pub(crate) background: Option<String>,
@@ -62,6 +65,7 @@ impl LookArgs {
         if let Some(style) = self.style {
             file.style = style.into();
         }
+        self.section.add_to(file);
         file.overlays.extend(self.overlay.iter().copied().map(OverlayFile::from));
         file.models.iter_mut().for_each(|model| self.pick.override_in(model));
         self.light.override_in(file);

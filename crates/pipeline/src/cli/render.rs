@@ -8,7 +8,7 @@ use pipeline::drawing::{self, Agreement, Hidden, Options};
 use pipeline::import::ImportOptions;
 use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::SceneFile;
-use pipeline::{Origin, Scene, Timings, draw, render_timed};
+use pipeline::{Origin, Scene, Timings, draw, render_reported};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -27,14 +27,15 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let options = ResolveOptions { import };
     let scene = Scene::resolve(&origin, &file, &options)?;
     progress.stage("rendering");
-    let bytes = match format {
+    let (bytes, warnings) = match format {
         Format::Png => {
-            let picture = render_timed(&scene, threads(args.threads), &timings)?;
-            timings.measure("encode", || picture.to_png())
+            let (picture, warnings) = render_reported(&scene, threads(args.threads), &timings)?;
+            (timings.measure("encode", || picture.to_png()), warnings)
         }
         Format::Svg | Format::Pdf => {
-            let page = draw(&scene, threads(args.threads), &timings)?;
-            timings.measure("encode", || format.vectors(&[page]))
+            let mut page = draw(&scene, threads(args.threads), &timings)?;
+            let warnings = std::mem::take(&mut page.warnings);
+            (timings.measure("encode", || format.vectors(&[page])), warnings)
         }
     };
     progress.stage("writing");
@@ -46,7 +47,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         let _ = writeln!(std::io::stderr(), "{}", told(&agreement));
     }
     tell(&timings);
-    warn(&scene);
+    warn(&scene, &warnings);
     Ok(())
 }
 
@@ -104,7 +105,9 @@ pub(super) fn threads(wanted: Option<u16>) -> usize {
     wanted.map_or_else(all, usize::from)
 }
 
-pub(super) fn warn(scene: &Scene) {
+/// Tells what is wrong with the models, and what could not be drawn.
+pub(super) fn warn(scene: &Scene, drawing: &[drawing::Warning]) {
+    drawing.iter().for_each(|warning| complain("warning", &warning.to_string()));
     let mut told: Vec<&str> = Vec::new();
     for placed in &scene.models {
         let model = &placed.model;

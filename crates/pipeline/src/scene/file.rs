@@ -12,6 +12,7 @@ mod look;
 mod occlusion;
 mod overlay;
 mod projection;
+mod section;
 mod shadow;
 mod sheet;
 
@@ -19,11 +20,12 @@ pub use self::camera::{CameraChoice, CameraFile, FromFile, USUAL_PADDING, ViewFi
 pub use self::environment::EnvironmentFile;
 pub use self::ground::GroundFile;
 pub use self::light::LightFile;
-pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, WidthFile};
+pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, ToneFile, WidthFile};
 pub use self::look::{BackgroundFile, ImageFile, StyleFile, ToneMappingFile};
 pub use self::occlusion::AmbientOcclusionFile;
 pub use self::overlay::OverlayFile;
 pub use self::projection::{PrincipalFile, ProjectionFile};
+pub use self::section::SectionFile;
 pub use self::shadow::ShadowsFile;
 pub use self::sheet::{
     AngleFile, AxonometricFile, OrientationFile, PaperFile, SheetFile, SideFile, UnitFile,
@@ -62,6 +64,9 @@ pub struct SceneFile {
     /// What is drawn over the picture. Default: nothing.
     #[serde(default)]
     pub overlays: Vec<OverlayFile>,
+    /// Planes that cut the models open, one after the other, in line drawings and on sheets; at most 16. Default: none.
+    #[serde(default)]
+    pub sections: Vec<SectionFile>,
     /// How `alberti sheet` puts the models on paper. Default: as its flags say.
     pub sheet: Option<SheetFile>,
 }
@@ -133,6 +138,7 @@ impl SceneFile {
             style: StyleFile::default(),
             image: ImageFile::default(),
             overlays: Vec::new(),
+            sections: Vec::new(),
             sheet: None,
         }
     }

@@ -8,6 +8,7 @@ use super::locate::Step::{Field, Index};
 use super::look::resolve_style;
 use super::number::Positive;
 use super::parse::suggestion;
+use super::section::resolve_sections;
 use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
 use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile, Style};
@@ -87,6 +88,7 @@ impl Scene {
         let environment = || resolve_environment(origin, file, &models, allowed);
         let environment = if is_lit { environment()? } else { None };
         let overlays = resolve_overlays(origin, &file.overlays, &models, image)?;
+        let sections = resolve_sections(origin, &file.sections)?;
         Ok(Self {
             models,
             shot,
@@ -98,6 +100,7 @@ impl Scene {
             style,
             image,
             overlays,
+            sections,
         })
     }
 }

@@ -45,6 +45,7 @@ pub fn scene(model: Model, shot: Shot) -> Scene {
             samples: raster::Samples::One,
         },
         overlays: Vec::new(),
+        sections: Vec::new(),
     }
 }
 
