@@ -17,6 +17,8 @@ mod messages;
 mod overlays;
 mod pictures;
 mod real;
+mod reference;
+mod scene;
 mod variants;
 mod vectors;
 mod viewers;

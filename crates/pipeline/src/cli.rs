@@ -13,13 +13,16 @@ mod look;
 mod matrix;
 mod pick;
 mod progress;
+mod reference;
 mod render;
+mod scene;
 mod sheet;
 
 pub(crate) use args::Args;
 pub(crate) use failure::Failure;
 
 use args::Command;
+use clap::CommandFactory;
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -34,8 +37,19 @@ pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
         Command::Explain(args) => explain::run(&args)?,
         Command::Animate(args) => animate::run(&args)?,
         Command::Batch(args) => return batch::run(&args),
+        Command::Scene(args) => return scene::run(&args),
+        Command::Reference(args) => reference::run(&args, Args::command())?,
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Writes to the standard output. A reader who has seen enough and closed it is no failure.
+pub(crate) fn say(bytes: &[u8]) -> Result<(), Failure> {
+    let mut stdout = std::io::stdout().lock();
+    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error.into()),
+        _ => Ok(()),
+    }
 }
 
 /// Tells the person something on the standard error stream. That the stream may be closed is no reason to fail.

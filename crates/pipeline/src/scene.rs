@@ -3,10 +3,12 @@
 //! A scene is written in a file ([`SceneFile`], RON, by people) and resolved ([`Scene`]): models are loaded, angles are
 //! radians, every default is decided, and what does not make sense has become an error that points at its place.
 
+mod advice;
 pub(crate) mod bounds;
 mod classical;
 mod error;
 pub mod file;
+mod layout;
 mod lights;
 mod locate;
 mod look;
@@ -16,14 +18,17 @@ mod number;
 mod origin;
 mod parse;
 mod radiance;
+pub mod reference;
 mod resolve;
 mod review;
 mod sheet;
 mod surroundings;
 mod viewpoint;
 
+pub use advice::{Advice, advise};
 pub use error::SceneError;
 pub use file::SceneFile;
+pub use layout::laid_out;
 pub use origin::Origin;
 pub use parse::parse;
 pub use resolve::{ResolveOptions, chosen_animation};

@@ -7,6 +7,8 @@ use super::loading::LoadArgs;
 use super::look::LookArgs;
 use super::matrix::MatrixArgs;
 use super::pick::PickArgs;
+use super::reference::ReferenceArgs;
+use super::scene::SceneArgs;
 use super::sheet::SheetArgs;
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -34,6 +36,8 @@ Examples:
   alberti explain model.glb --point 0,1,0         where a point goes, stage by stage
   alberti animate model.glb --turntable -o turn.png
   alberti batch models --out thumbs --size 256x256
+  alberti scene init model.glb                    a scene file to begin with
+  alberti reference camera                        what a field or a flag means
 
 Exit codes: 0 done, 1 the input or the work failed (no output file is touched), 2 wrong usage.
 `check` ends with 1 if there are errors, and with 0 if there are only warnings and notes.";
@@ -56,6 +60,10 @@ pub(crate) enum Command {
     Animate(AnimateArgs),
     /// Make pictures of many models: thumbnails, a report, a contact sheet
     Batch(BatchArgs),
+    /// Begin, check and lay out scene files, and tell what they may say
+    Scene(SceneArgs),
+    /// Tell what every flag and every field of scene files means
+    Reference(ReferenceArgs),
 }
 
 #[derive(Debug, clap::Args)]

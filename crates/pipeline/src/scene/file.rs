@@ -60,13 +60,13 @@ pub struct SceneFile {
 pub struct ModelFile {
     /// The path of a `.gltf` or `.glb` file, from the folder of the scene file.
     pub path: String,
-    /// The translation.
+    /// The translation, in metres as glTF has them. Default: (0, 0, 0).
     #[serde(default)]
     pub translate: Triple,
-    /// Turns about the x, then the y, then the z axis.
+    /// Turns about the x, then the y, then the z axis, in degrees. Default: (0, 0, 0).
     #[serde(default)]
     pub rotate_degrees: Triple,
-    /// One factor for all axes, or one for each.
+    /// One factor for all axes, or one for each; none of them 0. Default: 1.
     #[serde(default)]
     pub scale: Scale,
     /// The scene of the model that is shown. Default: its default scene, else its first.

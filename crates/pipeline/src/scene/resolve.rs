@@ -174,11 +174,26 @@ impl ModelFault {
             Self::File(error) if origin.text.is_empty() => error.into(),
             Self::File(error) => {
                 let at = [Field("models"), Index(number), Field("path")];
-                origin.fault(&at, format!("{}: {}", entry.path, error.fault), None).into()
+                let help = namesake(&origin.folder.join(&entry.path));
+                origin.fault(&at, format!("{}: {}", entry.path, error.fault), help).into()
             }
             Self::Scene(error) => error.into(),
         }
     }
+}
+
+/// For a model that is not there, one in the same folder with a similar name.
+fn namesake(path: &Path) -> Option<String> {
+    let folder = path.parent().filter(|_| !path.exists())?;
+    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let names = std::fs::read_dir(here)
+        .ok()?
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    let is_model = |name: &String| name.ends_with(".glb") || name.ends_with(".gltf");
+    let mut names: Vec<String> = names.filter(is_model).collect();
+    names.sort();
+    let wanted = path.file_name()?.to_str()?;
+    suggestion(wanted, &names).filter(|hint| hint.starts_with("did you mean"))
 }
 
 /// Loads a model and poses it.
