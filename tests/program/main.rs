@@ -14,6 +14,7 @@ mod files;
 mod info;
 mod matrix;
 mod messages;
+mod outputs;
 mod overlays;
 mod pictures;
 mod real;

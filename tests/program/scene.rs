@@ -106,7 +106,7 @@ fn what_is_probably_not_meant_is_a_warning_with_its_place() {
     bench.bring("crate.glb");
     let away = "camera: (view: LookTo(eye: (0, 0.5, 6), gaze: (0, 0, 1)), projection: Perspective(near: 0.1, far: 100))";
     let cases = [
-        (away, "nothing-visible", "3:11", "behind the eye: turn the camera round"),
+        (away, "nothing-visible", "3:11", "all of it is behind the eye"),
         (
             "camera: (view: LookTo(eye: (0, 0.5, 90), gaze: (0, 0, -1)), projection: Perspective(near: 1, far: 9))",
             "nothing-visible",
@@ -132,7 +132,7 @@ fn what_is_probably_not_meant_is_a_warning_with_its_place() {
             "the far plane cuts off",
         ),
         (
-            "camera: (projection: Frustum(left: -1, right: 1, bottom: -1, top: 1, near: 2))",
+            "camera: (projection: Frustum(left: -0.3, right: 0.3, bottom: -0.3, top: 0.3, near: 0.5))",
             "aspect-mismatch",
             "3:24",
             "stretched",
@@ -159,7 +159,7 @@ fn a_model_beside_the_picture_is_named() {
     bench.bring("crate.glb");
     bench.write(
         "scene.ron",
-        "Scene(\n  models: [(path: \"crate.glb\"), (path: \"crate.glb\", translate: (900, 0, 0))],\n  \
+        "Scene(\n  models: [(path: \"crate.glb\"), (path: \"crate.glb\", translate: (30, 0, -16))],\n  \
          camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0))),\n)",
     );
     let run = bench.run(&["scene", "check", "scene.ron"]);
@@ -173,6 +173,90 @@ fn a_model_beside_the_picture_is_named() {
     let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
     let advice = &report["files"][0]["advice"][0];
     assert_eq!((&advice["code"], &advice["line"]), (&json!("model-not-visible"), &json!(2)));
+}
+
+#[test]
+fn included_files_are_joined_and_mistakes_point_into_the_right_one() {
+    let bench = Bench::new("scene_include");
+    bench.bring("crate.glb");
+    std::fs::create_dir(bench.path("lib")).expect("a folder");
+    std::fs::copy(bench.path("crate.glb"), bench.path("lib/other.glb")).expect("a copy");
+    let view = "camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0)))";
+    let image = "image: (size: (24, 16), background: Color(\"#fff\"))";
+    bench.write(
+        "lib/studio.ron",
+        format!(
+            "Scene(\n  include: \"paper.ron\",\n  models: [(path: \"other.glb\")],\n  {view},\n)"
+        ),
+    );
+    bench.write("lib/paper.ron", format!("Scene({image}, style: Flat)"));
+    let main = |rest: &str| {
+        format!(
+            "Scene(\n  include: [\"lib/studio.ron\"],\n  models: [(path: \"crate.glb\", translate: (1, 0, 0))],\n  {rest}\n)"
+        )
+    };
+    bench.write("scene.ron", main("style: Shaded"));
+    let run = bench.run(&["render", "scene.ron", "-o", "out.png"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    let one = "models: [(path: \"lib/other.glb\"), (path: \"crate.glb\", translate: (1, 0, 0))]";
+    bench.write("one.ron", format!("Scene({one}, {view}, {image}, style: Shaded)"));
+    assert_eq!(bench.run(&["render", "one.ron", "-o", "one.png"]).code, 0);
+    assert!(bench.picture("out.png") == bench.picture("one.png"));
+    // A mistake in each of the three.
+    let cases = [
+        (
+            "lib/studio.ron",
+            format!("Scene(models: [\n  (path: \"no.glb\")],\n {view})"),
+            "lib/studio.ron:2:10",
+        ),
+        ("lib/paper.ron", "Scene(image: (samples: 3))".to_owned(), "lib/paper.ron:1:24"),
+        ("scene.ron", main("image: (samples: 3)"), "scene.ron:4:20"),
+        ("lib/paper.ron", "Scene(imag: ())".to_owned(), "lib/paper.ron:1:7"),
+    ];
+    for (name, text, place) in cases {
+        bench.write("lib/studio.ron", format!("Scene(include: \"paper.ron\", {view})"));
+        bench.write("lib/paper.ron", format!("Scene({image})"));
+        bench.write("scene.ron", main(""));
+        bench.write(name, text);
+        for command in [&["render", "scene.ron"][..], &["scene", "check", "scene.ron"]] {
+            let run = bench.run(command);
+            let told = run.stdout + &run.stderr;
+            assert!(run.code == 1 && told.contains(&format!("--> {place}\n")), "{place}\n{told}");
+        }
+    }
+}
+
+#[test]
+fn includes_go_neither_in_circles_nor_astray() {
+    let bench = Bench::new("scene_include_refused");
+    bench.bring("crate.glb");
+    std::fs::create_dir(bench.path("in")).expect("a folder");
+    bench.write("outside.ron", "Scene(style: Flat)");
+    bench.write("in/a.ron", "Scene(\n  include: \"b.ron\",\n)");
+    bench.write("in/b.ron", "Scene(include: [\n  \"./a.ron\",\n])");
+    let run = bench.run(&["scene", "check", "in/a.ron"]);
+    assert_eq!(run.code, 1);
+    for words in ["in/b.ron:2:3", "the file includes itself: in/a.ron → in/b.ron → in/./a.ron"]
+    {
+        assert!(run.stdout.contains(words), "{words}\n{}", run.stdout);
+    }
+    for (path, words) in [
+        ("../outside.ron", "leads out of the scene's folder"),
+        ("no.ron", "cannot read"),
+        ("/etc/hostname", "leads out of the scene's folder"),
+    ] {
+        bench.write("in/c.ron", format!("Scene(\n  include: \"{path}\",\n)"));
+        let run = bench.run(&["render", "in/c.ron"]);
+        let pointed = run.stderr.contains("in/c.ron:2:12") && run.stderr.contains(words);
+        assert!(run.code == 1 && pointed, "{path}\n{}", run.stderr);
+    }
+    bench.write(
+        "in/d.ron",
+        "Scene(include: \"../outside.ron\", models: [(path: \"../crate.glb\")])",
+    );
+    let draw = ["render", "in/d.ron", "--size", "16x16", "-o", "out.png", "--allow-outside", "."];
+    let run = bench.run(&draw);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
 }
 
 #[test]

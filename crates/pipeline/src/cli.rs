@@ -17,6 +17,7 @@ mod reference;
 mod render;
 mod scene;
 mod sheet;
+mod template;
 
 pub(crate) use args::Args;
 pub(crate) use failure::Failure;
@@ -29,7 +30,7 @@ use std::process::ExitCode;
 /// Does what was asked for.
 pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
     match args.command {
-        Command::Render(args) => render::run(&args)?,
+        Command::Render(args) => return render::run(&args),
         Command::Sheet(args) => sheet::run(&args)?,
         Command::Info(args) => info::run(&args)?,
         Command::Check(args) => return check::run(&args),

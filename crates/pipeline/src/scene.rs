@@ -8,6 +8,7 @@ pub(crate) mod bounds;
 mod classical;
 mod error;
 pub mod file;
+mod include;
 mod layout;
 mod lights;
 mod locate;

@@ -3,13 +3,15 @@
 use super::animate::AnimateArgs;
 use super::batch::BatchArgs;
 use super::explain::ExplainArgs;
+use super::format::Format;
 use super::loading::LoadArgs;
-use super::look::LookArgs;
+use super::look::{LookArgs, named_view};
 use super::matrix::MatrixArgs;
 use super::pick::PickArgs;
 use super::reference::ReferenceArgs;
 use super::scene::SceneArgs;
 use super::sheet::SheetArgs;
+use camera::NamedView;
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -68,12 +70,21 @@ pub(crate) enum Command {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct RenderArgs {
-    /// A scene (.ron) or a model (.gltf, .glb)
-    pub(crate) input: PathBuf,
-    /// Where the picture goes: .png, or a line drawing as .svg or .pdf [default: the input's name with .png, in the current
-    /// folder]
+    /// Scenes (.ron) or models (.gltf, .glb); `-` reads one from the standard input
+    #[arg(required = true, value_name = "INPUT")]
+    pub(crate) inputs: Vec<PathBuf>,
+    /// Where the picture goes: .png, or a line drawing as .svg or .pdf; `-` is the standard output. In the name {stem}, {camera},
+    /// {view}, {style}, {projection} and {variant} stand for the input's name and what the flags say, {frame} for the number of
+    /// the picture among those of its input and {index} among all, both from 0; {index:04} has four digits, {{ and }} are braces
+    /// [default: {stem}.png in the current folder, {stem}_{view}.png for several views]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
+    /// What is written [default: by the end of the output's name; png to the standard output]
+    #[arg(long)]
+    pub(crate) format: Option<Format>,
+    /// A picture from each of these sides, such as front,right,top,iso
+    #[arg(long, value_name = "VIEWS", value_delimiter = ',', value_parser = named_view(), conflicts_with_all = ["view", "camera"])]
+    pub(crate) views: Vec<NamedView>,
     #[command(flatten)]
     pub(crate) look: LookArgs,
     /// Threads to use; the picture does not depend on it [default: as many as there are cores]

@@ -71,7 +71,7 @@ fn check_scene(input: &Path, options: &ImportOptions) -> Result<Findings, Failur
         advice,
         models,
     };
-    let (origin, file) = match Origin::read(input) {
+    let (origin, file) = match Origin::read_below(input, &options.allow_outside) {
         Err(ResolveError::Scene(mistake)) => {
             return Ok(found(vec![mistake], Vec::new(), Vec::new()));
         }

@@ -61,19 +61,18 @@ impl Adviser<'_> {
     /// Models that are not in the picture, or one piece of advice if none is.
     fn unseen(&self) -> Vec<Advice> {
         let is_unseen = |survey: &Survey| survey.all > 0 && survey.inside == 0;
-        let (from, up_to) = ("the view volume", self.surveys.len());
-        if up_to > 0 && self.surveys.iter().all(is_unseen) {
+        if !self.surveys.is_empty() && self.surveys.iter().all(is_unseen) {
             let whole = self.surveys.iter().fold(Survey::default(), |sum, one| sum.with(one));
-            let message = format!("nothing is in the picture: {}", rejected(&whole));
-            let help = help_against(&whole, self.scene.shot.viewer().w() != 0.0);
+            let message = format!("nothing is in the picture: {}", self.rejected(&whole));
+            let help = self.help_against(&whole);
             let fault = self.origin.fault(&[Field("camera")], message, Some(help));
             return vec![Advice { code: "nothing-visible", fault }];
         }
         let unseen = self.surveys.iter().enumerate().filter(|(_, survey)| is_unseen(survey));
         let advice = unseen.map(|(number, survey)| {
-            let what = rejected(survey);
+            let what = self.rejected(survey);
             let message = format!("{} is not in the picture: {what}", self.name(number));
-            let help = format!("place it inside of {from}, or leave it out");
+            let help = "place it where the camera looks, or leave it out".to_owned();
             let fault = self.origin.fault(&[Field("models"), Index(number)], message, Some(help));
             Advice { code: "model-not-visible", fault }
         });
@@ -145,37 +144,50 @@ impl Adviser<'_> {
         let fault = self.origin.fault(&[Field("lights")], message, Some(help.to_owned()));
         Some(Advice { code: "no-light", fault })
     }
-}
 
-/// Which planes everything is outside of, in words.
-fn rejected(survey: &Survey) -> String {
-    let counts = PlaneIndex::BOX.iter().zip(survey.outside).filter(|(_, count)| *count > 0);
-    let whole: Vec<String> = counts
-        .clone()
-        .filter(|(_, count)| *count == survey.all)
-        .map(|(plane, _)| plane.to_string())
-        .collect();
-    if !whole.is_empty() {
-        return format!("all of it is outside of the {} plane", whole.join(" and the "));
+    /// Whether all of it is behind the eye of a perspective.
+    fn is_behind(&self, survey: &Survey) -> bool {
+        let perspective = self.scene.shot.viewer().w() != 0.0;
+        perspective && survey.nearest_and_farthest().is_some_and(|(_, far)| far <= 0.0)
     }
-    let each: Vec<String> =
-        counts.map(|(plane, count)| format!("{count} outside of {plane}")).collect();
-    format!("of {} points, lines and triangles {}", survey.all, each.join(", "))
-}
 
-/// What to do if nothing is seen.
-fn help_against(survey: &Survey, perspective: bool) -> String {
-    let behind = perspective && survey.nearest_and_farthest().is_some_and(|(_, far)| far <= 0.0);
-    let of = |plane: PlaneIndex| survey.outside[plane.index()] == survey.all;
-    if behind {
-        "it is behind the eye: turn the camera round, or use Frame(…)".to_owned()
-    } else if let Some((near, far)) =
-        survey.nearest_and_farthest().filter(|_| of(PlaneIndex::NEAR) || of(PlaneIndex::FAR))
-    {
-        format!(
-            "it is {near:.4} to {far:.4} before the eye: leave `near` and `far` out, or set them around that"
-        )
-    } else {
-        "look towards it, or use Frame(…), which finds the place to look from".to_owned()
+    /// Which planes everything is outside of, in words.
+    fn rejected(&self, survey: &Survey) -> String {
+        if self.is_behind(survey) {
+            return "all of it is behind the eye".to_owned();
+        }
+        let counts = PlaneIndex::BOX.iter().zip(survey.outside).filter(|(_, count)| *count > 0);
+        let whole = counts.clone().filter(|(_, count)| *count == survey.all);
+        let whole: Vec<String> = whole.map(|(plane, _)| plane.to_string()).collect();
+        match whole.as_slice() {
+            [] => {
+                let each = counts.map(|(plane, count)| format!("{count} outside of {plane}"));
+                let each = each.collect::<Vec<_>>().join(", ");
+                format!("of {} points, lines and triangles {each}", survey.all)
+            }
+            [plane] => format!("all of it is outside of the {plane} plane"),
+            [planes @ .., last] => {
+                format!(
+                    "all of it is outside of the {} and the {last} plane",
+                    planes.join(", the ")
+                )
+            }
+        }
+    }
+
+    /// What to do if nothing is seen.
+    fn help_against(&self, survey: &Survey) -> String {
+        let of = |plane: PlaneIndex| survey.outside[plane.index()] == survey.all;
+        let span = survey.nearest_and_farthest();
+        let in_depth = span.filter(|_| of(PlaneIndex::NEAR) || of(PlaneIndex::FAR));
+        match in_depth {
+            _ if self.is_behind(survey) => "turn the camera round, or use Frame(…)".to_owned(),
+            Some((near, far)) => format!(
+                "it is {near:.4} to {far:.4} before the eye: leave `near` and `far` out, or set them around that"
+            ),
+            None => {
+                "look towards it, or use Frame(…), which finds the place to look from".to_owned()
+            }
+        }
     }
 }

@@ -5,6 +5,7 @@
 
 mod camera;
 mod environment;
+mod include;
 mod light;
 mod lines;
 mod look;
@@ -14,6 +15,7 @@ mod sheet;
 
 pub use self::camera::{CameraChoice, CameraFile, FromFile, USUAL_PADDING, ViewFile};
 pub use self::environment::EnvironmentFile;
+pub use self::include::Paths;
 pub use self::light::LightFile;
 pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, WidthFile};
 pub use self::look::{BackgroundFile, ImageFile, StyleFile, ToneMappingFile};
@@ -28,10 +30,16 @@ use crate::import;
 use serde::Deserialize;
 
 /// A scene file.
-#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[derive(Clone, PartialEq, Default, Debug, Deserialize)]
 #[serde(rename = "Scene", deny_unknown_fields)]
 pub struct SceneFile {
-    /// The models to draw.
+    /// Other scene files to begin with, in this order. Their models, lights and overlays come before those of this file; of all
+    /// other fields this file's goes before theirs, whole, and a later file's before an earlier one's. Paths in an included file
+    /// begin at its own folder; it must lie below the folder of the scene. Default: none.
+    #[serde(default)]
+    pub include: Paths,
+    /// The models to draw. A scene needs one; a file that is included does not. Default: none.
+    #[serde(default)]
     pub models: Vec<ModelFile>,
     /// From where, and by which projection. Default: framed from a named direction, in perspective.
     #[serde(default)]
@@ -111,6 +119,7 @@ impl SceneFile {
             time: None,
         };
         Self {
+            include: Paths::default(),
             models: vec![model],
             camera: CameraFile::default(),
             lights: None,

@@ -11,7 +11,7 @@ use super::viewpoint::resolve_shot;
 use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile};
 use crate::color::parse_hex;
 use crate::drawing::Overlay;
-use crate::import::{FaultKind, ImportError, ImportOptions, load};
+use crate::import::{FaultKind, ImportError, ImportOptions, load, load_bytes};
 use crate::model::Model;
 use crate::shade::{Develop, ToneMapping};
 use homog::{Affine, Model as ModelSpace, Vector, World};
@@ -215,7 +215,10 @@ pub(super) fn load_model(
         variant: entry.variant.clone().map(Into::into).or(options.import.variant.clone()),
         ..options.import.clone()
     };
-    let loaded = load(&origin.folder.join(&entry.path), &import);
+    let loaded = match &origin.model {
+        Some(bytes) => load_bytes(&entry.path, bytes, &import),
+        None => load(&origin.folder.join(&entry.path), &import),
+    };
     let mut model = loaded.map_err(|error| choice_fault(origin, number, entry, error))?;
     if entry.animation.is_some() || entry.time.is_some() {
         let field = if entry.animation.is_some() { "animation" } else { "time" };

@@ -20,9 +20,11 @@ pub(super) fn cut(adviser: &Adviser<'_>) -> Vec<Advice> {
                 adviser.name(number)
             );
             let (near, far) = survey.nearest_and_farthest().unwrap_or_default();
-            let help = format!(
-                "it is {near:.4} to {far:.4} before the eye: leave `{plane}` out, or set it beyond that"
-            );
+            let help = if plane == "near" {
+                format!("it begins {near:.4} before the eye: set `near` to less than that")
+            } else {
+                format!("it ends {far:.4} before the eye: leave `far` out, or set it to more")
+            };
             let fault = adviser.origin.fault(&place(adviser, plane), message, Some(help));
             let code = if plane == "near" { "cut-by-near" } else { "cut-by-far" };
             advice.push(Advice { code, fault });
