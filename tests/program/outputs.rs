@@ -85,7 +85,7 @@ fn pictures_come_from_the_standard_input_and_go_to_the_standard_output() {
     assert!(piped == (0, expected.clone()), "a model in, a picture out");
     let scene = b"Scene(models: [(path: \"crate.glb\")], image: (size: (24, 18)))";
     assert!(bench.pipe(&["render", "-", "-o", "-"], scene) == (0, expected), "a scene in");
-    for (format, magic) in [("svg", &b"<?xml"[..]), ("pdf", b"%PDF-")] {
+    for (format, magic) in [("svg", &b"<svg"[..]), ("pdf", b"%PDF-")] {
         let (code, bytes) = bench.pipe(&["render", "-", "-o", "-", "--format", format], &model);
         assert!(code == 0 && bytes.starts_with(magic), "{format}");
     }

@@ -168,7 +168,7 @@ fn a_model_beside_the_picture_is_named() {
         told.contains("warning[model-not-visible]") && told.contains("scene.ron:2:33"),
         "{told}"
     );
-    assert!(told.contains("outside of the right plane"), "{told}");
+    assert!(told.contains("all of it is outside of the right"), "{told}");
     let run = bench.run(&["scene", "check", "scene.ron", "--json"]);
     let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
     let advice = &report["files"][0]["advice"][0];

@@ -4,12 +4,14 @@ mod animate;
 mod args;
 mod batch;
 mod check;
+mod color;
 mod explain;
 mod failure;
 mod format;
 mod info;
 mod loading;
 mod look;
+mod manual;
 mod matrix;
 mod pick;
 mod progress;
@@ -29,6 +31,7 @@ use std::process::ExitCode;
 
 /// Does what was asked for.
 pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
+    color::choose(args.color);
     match args.command {
         Command::Render(args) => return render::run(&args),
         Command::Sheet(args) => sheet::run(&args)?,
@@ -39,6 +42,8 @@ pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
         Command::Animate(args) => animate::run(&args)?,
         Command::Batch(args) => return batch::run(&args),
         Command::Scene(args) => return scene::run(&args),
+        Command::Completions(args) => manual::completions(&args, Args::command())?,
+        Command::Man(args) => manual::pages(&args, Args::command())?,
         Command::Reference(args) => reference::run(&args, Args::command())?,
     }
     Ok(ExitCode::SUCCESS)
@@ -55,5 +60,6 @@ pub(crate) fn say(bytes: &[u8]) -> Result<(), Failure> {
 
 /// Tells the person something on the standard error stream. That the stream may be closed is no reason to fail.
 pub(crate) fn complain(level: &str, message: &str) {
+    let level = color::level(level, color::on_stderr());
     let _ = writeln!(std::io::stderr(), "{level}: {message}");
 }

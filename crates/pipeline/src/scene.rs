@@ -25,6 +25,7 @@ mod review;
 mod sheet;
 mod surroundings;
 mod viewpoint;
+mod wording;
 
 pub use advice::{Advice, advise};
 pub use error::SceneError;

@@ -2,10 +2,12 @@
 
 use super::animate::AnimateArgs;
 use super::batch::BatchArgs;
+use super::color::ColorArg;
 use super::explain::ExplainArgs;
 use super::format::Format;
 use super::loading::LoadArgs;
 use super::look::{LookArgs, named_view};
+use super::manual::{CompletionArgs, ManArgs};
 use super::matrix::MatrixArgs;
 use super::pick::PickArgs;
 use super::reference::ReferenceArgs;
@@ -23,6 +25,9 @@ use std::path::PathBuf;
 pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) command: Command,
+    /// Colours in messages; with `auto` on a terminal, unless the variable NO_COLOR says no
+    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    pub(crate) color: ColorArg,
 }
 
 const EXAMPLES: &str = "\
@@ -64,6 +69,10 @@ pub(crate) enum Command {
     Batch(BatchArgs),
     /// Begin, check and lay out scene files, and tell what they may say
     Scene(SceneArgs),
+    /// Write the completions of a shell to the standard output
+    Completions(CompletionArgs),
+    /// Write the manual page of the program or of a command
+    Man(ManArgs),
     /// Tell what every flag and every field of scene files means
     Reference(ReferenceArgs),
 }

@@ -5,7 +5,7 @@ mod json;
 use super::args::CheckArgs;
 use super::loading::LoadArgs;
 use super::render::is_scene;
-use super::{Failure, say};
+use super::{Failure, color, say};
 use pipeline::import::{ImportOptions, Report, check};
 use pipeline::scene::{Advice, ResolveOptions, advise, review};
 use pipeline::{Origin, ResolveError, Scene, SceneError, SceneFile};
@@ -113,13 +113,19 @@ impl Findings {
 
     /// A line for each problem, the worst first, and a summary of each file. Writing to a `String` cannot fail.
     fn text(&self) -> String {
-        let mut text = String::new();
+        let (mut text, color) = (String::new(), color::on_stdout());
         if let Some(mistakes) = &self.scene {
             for mistake in mistakes {
-                let _ = writeln!(text, "error: {mistake}\n");
+                let _ =
+                    writeln!(text, "{}: {}\n", color::level("error", color), mistake.told(color));
             }
             for Advice { code, fault } in &self.advice {
-                let _ = writeln!(text, "warning[{code}]: {fault}\n");
+                let _ = writeln!(
+                    text,
+                    "{}: {}\n",
+                    color::level(&format!("warning[{code}]"), color),
+                    fault.told(color)
+                );
             }
             let mistakes = counted(mistakes.len(), "mistake");
             let advice = match self.advice.len() {

@@ -27,7 +27,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
     for job in &jobs {
         match one(args, job) {
             Err(failure) if jobs.len() > 1 => {
-                complain("error", &format!("{}: {failure}", job.input.display()));
+                complain("error", &format!("{}: {}", job.input.display(), failure.told()));
                 code = ExitCode::FAILURE;
             }
             made => made?,

@@ -38,7 +38,7 @@ impl Template {
             }
             let inside = brace.strip_prefix('{').and_then(|inside| inside.split_once('}'));
             let (field, behind) = inside.ok_or_else(|| {
-                format!("a brace in the output {text} has no partner\n  = help: {{{{ and }}}} stand for braces")
+                format!("a brace in the template {text} has no partner\n  = help: {{{{ and }}}} stand for braces")
             })?;
             parts.push(place(text, field, words, numbers)?);
             rest = behind;
@@ -93,19 +93,19 @@ fn place(
             format.strip_prefix('0')?.parse().ok().filter(|digits| (1..=9).contains(digits))
         });
         return digits.map(|digits| Part::Number(number, digits)).ok_or_else(|| {
-            format!("`{{{field}}}` in the output {text} is no number\n  = help: write {{{name}}}, or {{{name}:04}} for four digits")
+            format!("`{{{field}}}` in the template {text} is no number\n  = help: write {{{name}}}, or {{{name}:04}} for four digits")
         });
     }
     match (found(words), format) {
         (Some(word), None) => Ok(Part::Word(word)),
         (Some(_), Some(_)) => Err(format!(
-            "`{{{field}}}` in the output {text} is a word and has no digits\n  = help: write {{{name}}}"
+            "`{{{field}}}` in the template {text} is a word and has no digits\n  = help: write {{{name}}}"
         )),
         (None, _) => {
             let known = words.iter().chain(numbers).map(|name| format!("{{{name}}}"));
             let known = known.collect::<Vec<_>>().join(", ");
             Err(format!(
-                "there is no `{{{name}}}` for the output {text}\n  = help: possible here: {known}; {{{{ and }}}} stand for braces"
+                "there is no `{{{name}}}` for the template {text}\n  = help: possible here: {known}; {{{{ and }}}} stand for braces"
             ))
         }
     }

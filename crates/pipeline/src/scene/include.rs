@@ -153,7 +153,8 @@ impl Gatherer<'_> {
             let help = Some("remove one of these includes".to_owned());
             return Err(fault(format!("the file includes itself: {circle}"), help).into());
         }
-        let text = read_text(&whole).map_err(|error| fault(error.to_string(), None))?;
+        let help = "check the path: it begins at the folder of this file".to_owned();
+        let text = read_text(&whole).map_err(|error| fault(error.to_string(), Some(help)))?;
         let file = parse(&name, &text)?;
         let number = self.written.files.len();
         self.written.files.push((name.clone(), text.clone()));

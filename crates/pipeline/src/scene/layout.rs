@@ -9,6 +9,8 @@
 mod tokens;
 mod tree;
 
+pub(super) use tokens::{Kind, of as tokens};
+
 use super::{SceneError, parse};
 use tree::{Element, Group, Item, Part};
 

@@ -5,9 +5,9 @@ use super::lights::resolve_lights;
 use super::locate::Step::{Field, Index};
 use super::look::resolve_style;
 use super::number::Positive;
-use super::parse::suggestion;
 use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
+use super::wording::suggestion;
 use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile};
 use crate::color::parse_hex;
 use crate::drawing::Overlay;
@@ -256,7 +256,8 @@ pub fn chosen_animation(
 ) -> Result<usize, (String, Option<String>)> {
     let count = model.animations.len();
     if count == 0 {
-        return Err((format!("the model {} has no animation", model.name), None));
+        let help = "leave the animation and the time out".to_owned();
+        return Err((format!("the model {} has no animation", model.name), Some(help)));
     }
     let named = |wanted: &str| {
         model.animations.iter().position(|animation| animation.name.as_deref() == Some(wanted))

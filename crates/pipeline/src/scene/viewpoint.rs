@@ -3,7 +3,7 @@
 use super::bounds::{DepthSpan, world_points};
 use super::file::{CameraChoice, CameraFile, FromFile, ProjectionFile, ViewFile};
 use super::locate::Step::{self, Field};
-use super::parse::suggestion;
+use super::wording::suggestion;
 use super::{ImageSpec, Origin, Placed, SceneError};
 use crate::model::{Instance, Lens, LensKind};
 use crate::render::Shot;
@@ -288,7 +288,7 @@ impl<'a> Resolver<'a> {
             CameraChoice::Name(name) => name.clone(),
         };
         let (message, help) = if names.is_empty() {
-            let help = "leave the camera out, or choose a view such as Frame(from: Front)";
+            let help = "leave it out, or choose a view: Frame(from: Front) in a scene, --view front as a flag";
             ("the models have no camera".to_owned(), Some(help.to_owned()))
         } else {
             (format!("the models have no camera `{wanted}`"), suggestion(&wanted, names))

@@ -2,14 +2,14 @@
 
 /// A token, and the line breaks before it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Token<'a> {
-    pub(super) kind: Kind,
-    pub(super) text: &'a str,
-    pub(super) breaks: usize,
+pub(in crate::scene) struct Token<'a> {
+    pub(in crate::scene) kind: Kind,
+    pub(in crate::scene) text: &'a str,
+    pub(in crate::scene) breaks: usize,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Kind {
+pub(in crate::scene) enum Kind {
     /// A name, a number, a string.
     Word,
     Colon,
@@ -22,7 +22,7 @@ pub(super) enum Kind {
     Block,
 }
 
-pub(super) fn of(text: &str) -> Vec<Token<'_>> {
+pub(in crate::scene) fn of(text: &str) -> Vec<Token<'_>> {
     let mut rest = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut tokens = Vec::new();
     loop {
