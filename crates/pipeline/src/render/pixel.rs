@@ -4,7 +4,8 @@
 //! colour is the picture's.
 
 use super::RenderError;
-use super::assemble::{Images, assemble};
+use super::assemble::assemble;
+use super::images::Images;
 use super::renderer::{Memory, shading};
 use super::textures::Textures;
 use crate::color::SrgbEncoder;
