@@ -24,9 +24,12 @@
 //! | models from memory | [`import::load_bytes`], [`Scene::of_models`] | |
 //! | what a scene file may say | [`scene::reference`] | |
 //!
+//! A picture that nobody waits for any more is stopped by a [`Cancel`]; a film stops when whoever takes its pictures returns an error.
+//!
 //! Nothing here prints, and nothing is global: scenes, renderers and pictures can go to any thread and live side by side. What is
 //! wrong is a typed error that says what, where and what to do.
 
+mod cancel;
 mod canvas;
 mod color;
 pub mod drawing;
@@ -41,6 +44,7 @@ pub mod scene;
 pub mod shade;
 mod timings;
 
+pub use cancel::Cancel;
 pub use output::{Draft, OutputError, write_file};
 pub use picture::Picture;
 pub use render::{RenderError, Renderer, Textures, draw, render, render_timed};

@@ -7,7 +7,7 @@ use super::textures::Textures;
 use crate::color::SrgbEncoder;
 use crate::scene::Scene;
 use crate::shade::{Draw, DrawList, Shading, Vertex};
-use crate::{Picture, Timings};
+use crate::{Cancel, Picture, Timings};
 use raster::Frame;
 
 /// Renders surfaces again and again: the same models from elsewhere, in other light, in another pose.
@@ -35,6 +35,7 @@ pub struct Renderer {
     /// No draws, but room for them.
     draws: Vec<Draw<'static>>,
     spare: Vec<Vec<Vertex>>,
+    cancel: Cancel,
 }
 
 /// What a picture is put together in.
@@ -48,11 +49,17 @@ pub(super) struct Memory<'a> {
 }
 
 impl Renderer {
+    /// The same renderer, whose pictures end early once `cancel` says so: with [`RenderError::Cancelled`], and a picture that is none.
+    #[must_use]
+    pub fn cancelled_by(self, cancel: Cancel) -> Self {
+        Self { cancel, ..self }
+    }
+
     /// Renders the surfaces of a scene with up to `threads` threads, whose number does not change the picture. `textures` are
     /// those of the scene's models.
     ///
     /// # Errors
-    /// If the picture's size is out of range or the scene holds too much.
+    /// If the picture's size is out of range or the scene holds too much, or it was [cancelled](Self::cancelled_by).
     pub fn render(
         &mut self,
         scene: &Scene,
@@ -72,7 +79,7 @@ impl Renderer {
             frame.draw(&shading, image.background, threads, &mut picture.pixels, encoder);
         });
         self.take_back(memory);
-        Ok(())
+        if self.cancel.is_cancelled() { Err(RenderError::Cancelled) } else { Ok(()) }
     }
 
     /// The memory, with an empty frame for the scene's picture.
@@ -92,14 +99,16 @@ impl Renderer {
         let draws = DrawList { draws: emptied(std::mem::take(&mut self.draws)) };
         let images = std::mem::take(&mut self.images);
         let spare = std::mem::take(&mut self.spare);
-        Ok(Memory { frame: frame.with_threads(threads), draws, images, spare })
+        let frame = frame.with_threads(threads).with_stop(self.cancel.flag());
+        Ok(Memory { frame, draws, images, spare })
     }
 
     fn take_back(&mut self, memory: Memory<'_>) {
         let Memory { frame, mut draws, images, mut spare } = memory;
         // The first list that is asked for next time is the one of the first draw.
         spare.extend(draws.draws.drain(..).rev().map(|draw| draw.vertices));
-        *self = Self { frame: Some(frame), images, draws: emptied(draws.draws), spare };
+        let cancel = self.cancel.clone();
+        *self = Self { frame: Some(frame), images, draws: emptied(draws.draws), spare, cancel };
     }
 }
 

@@ -38,7 +38,7 @@ pub(super) fn explain(
             });
             (at_place("expected one of several words, without quotation marks"), asked)
         }
-        Code::ExpectedNamedStructLike(_) if !source.trim().is_empty() => {
+        Code::ExpectedNamedStructLike(_) if !ends(source, at) => {
             let name = place.as_ref().and(struct_name(code));
             name.map_or(("this is no scene".to_owned(), help(SAMPLE)), |name| {
                 let write = format!("write {name}(…), or just (…), with its fields inside");
@@ -90,9 +90,10 @@ fn grammar_fault(code: &Code, source: &str, at: &Range<usize>) -> Option<(String
     let rest = &source[at.start.min(source.len())..];
     let open = || open_bracket(&source[..at.start.min(source.len())]);
     Some(match code {
-        Code::Eof if source.trim().is_empty() => ("the file is empty".into(), help(SAMPLE)),
-        Code::ExpectedNamedStructLike(_) => ("the file is empty".into(), help(SAMPLE)),
-        Code::Eof => {
+        Code::Eof | Code::ExpectedNamedStructLike(_) if source.trim().is_empty() => {
+            ("the file is empty".into(), help(SAMPLE))
+        }
+        Code::Eof | Code::ExpectedNamedStructLike(_) => {
             // The last bracket may be the one that the error points at.
             let open = open_bracket(source)
                 .map(|(bracket, line)| format!("close the `{bracket}` of line {line}"));
@@ -131,6 +132,11 @@ fn grammar_fault(code: &Code, source: &str, at: &Range<usize>) -> Option<(String
         ),
         _ => return None,
     })
+}
+
+/// Whether nothing but blanks stands from a place on.
+fn ends(source: &str, at: &Range<usize>) -> bool {
+    source.get(at.start..).is_none_or(|rest| rest.trim().is_empty())
 }
 
 #[allow(clippy::unnecessary_wraps, reason = "it stands where a help may be missing")]

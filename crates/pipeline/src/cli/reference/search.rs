@@ -2,8 +2,8 @@
 
 use super::{Entry, Section};
 
-/// The sections and entries that `word` names: a section by its title, a path of fields from the scene on, or entries of that name
-/// wherever they are.
+/// The sections and entries that `word` names: a section by its title; a path of fields from the scene on, with the types at its
+/// end; or entries of that name wherever they are.
 ///
 /// # Errors
 /// If there is nothing of that name: what there is that looks like it.
@@ -63,6 +63,9 @@ fn by_path(sections: &[Section], steps: &[&str]) -> Vec<Section> {
         scopes =
             found.iter().flat_map(|part| opened(sections, part, &part.entries, step)).collect();
     }
+    // What can stand there.
+    let types = scopes.into_iter().filter(|scope| found.iter().all(|part| part.title != scope.title));
+    found.extend(types.collect::<Vec<_>>());
     found
 }
 
