@@ -3,11 +3,14 @@
 //! A scene is written in a file ([`SceneFile`], RON, by people) and resolved ([`Scene`]): models are loaded, angles are
 //! radians, every default is decided, and what does not make sense has become an error that points at its place.
 
+mod advice;
 pub(crate) mod bounds;
 mod classical;
 mod error;
 pub mod file;
 mod ground;
+mod include;
+mod layout;
 mod lights;
 mod locate;
 mod look;
@@ -17,6 +20,7 @@ mod number;
 mod origin;
 mod parse;
 mod radiance;
+pub mod reference;
 mod resolve;
 mod review;
 mod section;
@@ -24,10 +28,13 @@ mod shadows;
 mod sheet;
 mod surroundings;
 mod viewpoint;
+mod wording;
 
+pub use advice::{Advice, advise};
 pub use error::SceneError;
 pub use file::SceneFile;
 pub use ground::Ground;
+pub use layout::laid_out;
 pub use origin::Origin;
 pub use parse::parse;
 pub use resolve::{ResolveOptions, chosen_animation};
