@@ -77,6 +77,8 @@ pub fn scene(model: &Arc<Model>, kind: Kind, side: usize) -> Result<Scene, Strin
         models: vec![Placed { model: Arc::clone(model), model_to_world }],
         shot: shot?,
         lights: Vec::new(),
+        ground: None,
+        occlusion_radius: None,
         environment: None,
         develop: pipeline::shade::Develop::default(),
         style: Style::Flat,

@@ -7,10 +7,13 @@
 //! ```
 
 mod assemble;
+mod ground;
 mod images;
 mod lines;
+mod occlusion;
 mod pixel;
 mod renderer;
+mod shadows;
 mod shot;
 mod stage;
 #[cfg(test)]
@@ -38,6 +41,9 @@ pub enum RenderError {
     /// The picture has no viewport.
     #[error(transparent)]
     Viewport(#[from] viewport::ViewportError),
+    /// Somebody asked for its end by a [`Cancel`](crate::Cancel).
+    #[error("the picture was cancelled")]
+    Cancelled,
     /// There are more points, lines and triangles than can be told apart.
     #[error("the scene has more than {} points, lines and triangles", u32::MAX)]
     TooManyPrimitives,

@@ -3,10 +3,14 @@
 //! A scene is written in a file ([`SceneFile`], RON, by people) and resolved ([`Scene`]): models are loaded, angles are
 //! radians, every default is decided, and what does not make sense has become an error that points at its place.
 
+mod advice;
 pub(crate) mod bounds;
 mod classical;
 mod error;
 pub mod file;
+mod ground;
+mod include;
+mod layout;
 mod lights;
 mod locate;
 mod look;
@@ -16,15 +20,21 @@ mod number;
 mod origin;
 mod parse;
 mod radiance;
+pub mod reference;
 mod resolve;
 mod review;
 mod section;
+mod shadows;
 mod sheet;
 mod surroundings;
 mod viewpoint;
+mod wording;
 
+pub use advice::{Advice, advise};
 pub use error::SceneError;
 pub use file::SceneFile;
+pub use ground::Ground;
+pub use layout::laid_out;
 pub use origin::Origin;
 pub use parse::parse;
 pub use resolve::{ResolveOptions, chosen_animation};
@@ -49,8 +59,12 @@ pub struct Scene {
     pub shot: Shot,
     /// The lights.
     pub lights: Vec<Light>,
+    /// What is below the models.
+    pub ground: Option<Ground>,
     /// Light from all around.
     pub environment: Option<Arc<Environment>>,
+    /// How far away things still take light from all around, in the units of the world; `None` if they do not.
+    pub occlusion_radius: Option<f64>,
     /// How light becomes colours.
     pub develop: Develop,
     /// How surfaces are drawn.

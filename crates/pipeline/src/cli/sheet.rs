@@ -127,7 +127,7 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), Failure> {
     let output = args.output.clone().map_or_else(|| beside(args), Ok)?;
     let format = Format::of(&output)?;
     let progress = Progress::start("loading");
-    let (origin, mut file) = open(&args.input)?;
+    let (origin, mut file) = open(&args.input, &args.load.options())?;
     file.models.iter_mut().for_each(|model| args.pick.override_in(model));
     args.section.add_to(&mut file);
     // The views are the sheet's; what the scene says of its camera does not matter.

@@ -3,12 +3,14 @@
 use super::RenderError;
 use super::assemble::assemble;
 use super::images::Images;
+use super::occlusion::screen_space;
+use super::shadows::ShadowMemory;
 use super::textures::Textures;
 use crate::color::SrgbEncoder;
 use crate::scene::Scene;
-use crate::shade::{Draw, DrawList, Shading, Vertex};
-use crate::{Picture, Timings};
-use raster::Frame;
+use crate::shade::{Draw, DrawList, ScreenSpace, Shading, ShadowMap, Vertex};
+use crate::{Cancel, Picture, Timings};
+use raster::{Frame, Nearest};
 
 /// Renders surfaces again and again: the same models from elsewhere, in other light, in another pose.
 ///
@@ -35,6 +37,9 @@ pub struct Renderer {
     /// No draws, but room for them.
     draws: Vec<Draw<'static>>,
     spare: Vec<Vec<Vertex>>,
+    shadows: ShadowMemory,
+    nearest: Vec<Nearest>,
+    cancel: Cancel,
 }
 
 /// What a picture is put together in.
@@ -48,11 +53,17 @@ pub(super) struct Memory<'a> {
 }
 
 impl Renderer {
+    /// The same renderer, whose pictures end early once `cancel` says so: with [`RenderError::Cancelled`], and a picture that is none.
+    #[must_use]
+    pub fn cancelled_by(self, cancel: Cancel) -> Self {
+        Self { cancel, ..self }
+    }
+
     /// Renders the surfaces of a scene with up to `threads` threads, whose number does not change the picture. `textures` are
     /// those of the scene's models.
     ///
     /// # Errors
-    /// If the picture's size is out of range or the scene holds too much.
+    /// If the picture's size is out of range or the scene holds too much, or it was [cancelled](Self::cancelled_by).
     pub fn render(
         &mut self,
         scene: &Scene,
@@ -62,17 +73,26 @@ impl Renderer {
         picture: &mut Picture,
     ) -> Result<(), RenderError> {
         let image = scene.image;
+        let shadows = || self.shadows.render(scene, textures, threads);
+        if scene.lights.iter().any(|light| light.shadow().is_some()) {
+            timings.measure("shadows", shadows)?;
+        } else {
+            self.shadows.clear();
+        }
         let memory = self.lend(scene, threads)?;
         let memory = timings.measure("vertices", || assemble(scene, textures, threads, memory))?;
         let Memory { frame, draws, .. } = &memory;
-        let shading = shading(scene, draws, frame);
+        let nearest = std::mem::take(&mut self.nearest);
+        let occlusion = screen_space(scene, frame, draws, threads, nearest)?;
+        let shading = shading(scene, draws, frame, &self.shadows.maps, occlusion.as_ref());
         picture.resize(image.width, image.height);
         let encoder = SrgbEncoder::shared();
         timings.measure("pixels", || {
             frame.draw(&shading, image.background, threads, &mut picture.pixels, encoder);
         });
+        self.nearest = occlusion.map(|space| space.nearest).unwrap_or_default();
         self.take_back(memory);
-        Ok(())
+        if self.cancel.is_cancelled() { Err(RenderError::Cancelled) } else { Ok(()) }
     }
 
     /// The memory, with an empty frame for the scene's picture.
@@ -92,22 +112,34 @@ impl Renderer {
         let draws = DrawList { draws: emptied(std::mem::take(&mut self.draws)) };
         let images = std::mem::take(&mut self.images);
         let spare = std::mem::take(&mut self.spare);
-        Ok(Memory { frame: frame.with_threads(threads), draws, images, spare })
+        let frame = frame.with_threads(threads).with_stop(self.cancel.flag());
+        Ok(Memory { frame, draws, images, spare })
     }
 
     fn take_back(&mut self, memory: Memory<'_>) {
         let Memory { frame, mut draws, images, mut spare } = memory;
         // The first list that is asked for next time is the one of the first draw.
         spare.extend(draws.draws.drain(..).rev().map(|draw| draw.vertices));
-        *self = Self { frame: Some(frame), images, draws: emptied(draws.draws), spare };
+        self.frame = Some(frame);
+        self.images = images;
+        self.draws = emptied(draws.draws);
+        self.spare = spare;
     }
 }
 
 /// What the fragments of a frame are shaded with.
-pub(super) fn shading<'a>(scene: &'a Scene, draws: &'a DrawList<'a>, frame: &Frame) -> Shading<'a> {
+pub(super) fn shading<'a>(
+    scene: &'a Scene,
+    draws: &'a DrawList<'a>,
+    frame: &Frame,
+    shadows: &'a [Option<ShadowMap>],
+    occlusion: Option<&'a ScreenSpace>,
+) -> Shading<'a> {
     Shading {
         draws,
         lights: &scene.lights,
+        shadows,
+        occlusion,
         environment: scene.environment.as_deref(),
         develop: scene.develop,
         viewer: scene.shot.viewer(),

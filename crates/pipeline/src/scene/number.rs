@@ -59,6 +59,11 @@ checked_number! {
     Percent, "a number from 0 to 100", |x| (0.0..=100.0).contains(&x)
 }
 checked_number! {
+    /// How large a light looks, in degrees across, from 0 to 30.
+    Softness, "an angle from 0 to 30 degrees", |x| (0.0..=30.0).contains(&x)
+}
+
+checked_number! {
     /// An angle between two faces in degrees, from 0 to 180.
     Crease, "an angle from 0 to 180 degrees", |x| (0.0..=180.0).contains(&x)
 }

@@ -32,6 +32,8 @@ pub fn scene(model: Model, shot: Shot) -> Scene {
         models: vec![placed],
         shot,
         lights: Vec::new(),
+        ground: None,
+        occlusion_radius: None,
         environment: None,
         develop: pipeline::shade::Develop::default(),
         style: Style::Flat,

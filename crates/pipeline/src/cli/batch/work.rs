@@ -57,7 +57,7 @@ impl Order<'_> {
     }
 
     fn one(&self, job: &Job, before: Option<&Record>) -> Record {
-        let key = key(&job.input, self.settings);
+        let key = key(&job.input, self.settings, &self.args.load.options().allow_outside);
         let output = self.args.out.join(&job.output);
         if let Some(before) = before.filter(|before| before.key == key && output.is_file()) {
             return Record { status: KEPT.to_owned(), ..before.clone() };
@@ -86,10 +86,13 @@ impl Order<'_> {
 
     /// Makes one picture; gives the warnings.
     fn picture(&self, input: &Path, output: &Path) -> Result<Vec<String>, Failure> {
-        let (origin, mut file) = open(input)?;
+        let (origin, mut file) = open(input, &self.args.load.options())?;
         self.args.look.override_in(&mut file);
-        let scene =
-            Scene::resolve(&origin, &file, &ResolveOptions { import: self.args.load.options() })?;
+        let scene = Scene::resolve(
+            &origin,
+            &file,
+            &ResolveOptions { import: self.args.look.import(&self.args.load) },
+        )?;
         let (picture, drawing) = render_reported(&scene, 1, &Timings::default())?;
         let png = picture.to_png();
         if let Some(folder) = output.parent() {
