@@ -10,6 +10,7 @@ mod corners;
 mod develop;
 mod draw;
 mod environment;
+mod fibres;
 mod ground;
 mod inputs;
 mod layers;
@@ -278,8 +279,11 @@ impl Draw<'_> {
             alpha *= carried;
         }
         if let Some(map) = self.maps.of_base_color() {
-            let [_, _, _, [texel]] =
-                map.chain.sample(&self.uvs(&corners, fragment, &map.used), true);
+            let [_, _, _, [texel]] = map.chain.sample_along(
+                &self.uvs(&corners, fragment, &map.used),
+                true,
+                self.maps.anisotropy,
+            );
             alpha *= texel;
         }
         alpha
