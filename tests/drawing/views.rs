@@ -91,6 +91,7 @@ pub fn scene(model: &Arc<Model>, kind: Kind, side: usize) -> Result<Scene, Strin
             anisotropy: 1,
         },
         overlays: Vec::new(),
+        sections: Vec::new(),
     })
 }
 

@@ -27,7 +27,7 @@ pub use renderer::Renderer;
 pub use shot::Shot;
 pub use textures::Textures;
 
-use crate::drawing::overlays;
+use crate::drawing::{Warning, overlays};
 use crate::scene::{Scene, Style};
 use crate::{Picture, Timings};
 
@@ -41,6 +41,9 @@ pub enum RenderError {
     /// The picture has no viewport.
     #[error(transparent)]
     Viewport(#[from] viewport::ViewportError),
+    /// Somebody asked for its end by a [`Cancel`](crate::Cancel).
+    #[error("the picture was cancelled")]
+    Cancelled,
     /// There are more points, lines and triangles than can be told apart.
     #[error("the scene has more than {} points, lines and triangles", u32::MAX)]
     TooManyPrimitives,
@@ -63,10 +66,24 @@ pub fn render_timed(
     threads: usize,
     timings: &Timings,
 ) -> Result<Picture, RenderError> {
+    render_reported(scene, threads, timings).map(|(picture, _)| picture)
+}
+
+/// Renders a scene, and tells what could not be drawn as it should.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_reported(
+    scene: &Scene,
+    threads: usize,
+    timings: &Timings,
+) -> Result<(Picture, Vec<Warning>), RenderError> {
     match scene.style {
         Style::Shaded | Style::Flat => {
             let picture = surfaces(scene, threads, timings)?;
-            Ok(picture.under(&overlays(scene)))
+            let is_cut = !scene.sections.is_empty();
+            let warnings = is_cut.then_some(Warning::SectionsUnseen).into_iter().collect();
+            Ok((picture.under(&overlays(scene)), warnings))
         }
         Style::Wireframe | Style::Lines(_) => lines::picture(scene, threads, timings),
     }

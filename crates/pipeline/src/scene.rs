@@ -3,11 +3,14 @@
 //! A scene is written in a file ([`SceneFile`], RON, by people) and resolved ([`Scene`]): models are loaded, angles are
 //! radians, every default is decided, and what does not make sense has become an error that points at its place.
 
+mod advice;
 pub(crate) mod bounds;
 mod classical;
 mod error;
 pub mod file;
 mod ground;
+mod include;
+mod layout;
 mod lights;
 mod locate;
 mod look;
@@ -17,16 +20,21 @@ mod number;
 mod origin;
 mod parse;
 mod radiance;
+pub mod reference;
 mod resolve;
 mod review;
+mod section;
 mod shadows;
 mod sheet;
 mod surroundings;
 mod viewpoint;
+mod wording;
 
+pub use advice::{Advice, advise};
 pub use error::SceneError;
 pub use file::SceneFile;
 pub use ground::Ground;
+pub use layout::laid_out;
 pub use origin::Origin;
 pub use parse::parse;
 pub use resolve::{ResolveOptions, chosen_animation};
@@ -37,7 +45,7 @@ use crate::import::ImportError;
 use crate::model::Model;
 use crate::render::Shot;
 use crate::shade::{Develop, Environment, Light};
-use homog::{Affine, Model as ModelSpace, Point, World};
+use homog::{Affine, Model as ModelSpace, Plane, Point, World};
 use raster::Samples;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -65,6 +73,8 @@ pub struct Scene {
     pub image: ImageSpec,
     /// What is drawn over it.
     pub overlays: Vec<Overlay>,
+    /// Planes that cut the models open in line drawings; their unit normals point to what is kept.
+    pub sections: Vec<Plane<World>>,
 }
 
 impl Scene {

@@ -72,9 +72,11 @@ pub struct Shading<'a> {
 
 impl Surface for Shading<'_> {
     fn keeps(&self, fragment: &Fragment<'_>) -> bool {
-        let (draw, _) = self.draws.of(fragment.id);
-        let AlphaMode::Mask { cutoff } = draw.material.alpha_mode else { return true };
-        draw.alpha(fragment) >= cutoff
+        self.draws.keeps(fragment)
+    }
+
+    fn keeps_eight(&self, fragments: &Fragments<'_>) -> [bool; WIDE] {
+        self.draws.keeps_eight(fragments, self.instructions)
     }
 
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
@@ -85,6 +87,41 @@ impl Surface for Shading<'_> {
 
     fn shade_eight(&self, fragments: &Fragments<'_>) -> [Eight; 4] {
         self.instructions.run(ShadeEight { shading: self, fragments })
+    }
+}
+
+/// The question whether eight fragments of one masked primitive are there.
+struct KeepEight<'a> {
+    draws: &'a DrawList<'a>,
+    fragments: &'a Fragments<'a>,
+}
+
+impl Work for KeepEight<'_> {
+    type Output = [bool; WIDE];
+
+    #[inline(always)]
+    fn run(self) -> [bool; WIDE] {
+        let id = self.fragments.id(0);
+        let (draw, _) = self.draws.of(id);
+        draw.keeps(&draw.items(&[id; WIDE], true), &Wide::new(self.fragments))
+    }
+}
+
+impl DrawList<'_> {
+    /// Whether a masked primitive is there in a fragment.
+    pub(crate) fn keeps(&self, fragment: &Fragment<'_>) -> bool {
+        let (draw, _) = self.of(fragment.id);
+        let [keeps] = draw.keeps(&draw.items(&[fragment.id], true), fragment);
+        keeps
+    }
+
+    /// The same for eight fragments of one primitive.
+    pub(crate) fn keeps_eight(
+        &self,
+        fragments: &Fragments<'_>,
+        instructions: Instructions,
+    ) -> [bool; WIDE] {
+        instructions.run(KeepEight { draws: self, fragments })
     }
 }
 
@@ -269,23 +306,33 @@ impl Draw<'_> {
         !self.material.unlit && self.primitive.topology == Topology::Triangles
     }
 
-    /// The alpha of a fragment: factor × texture × vertex colour (glTF 2.0 §3.9.4).
-    pub(crate) fn alpha(&self, fragment: &Fragment<'_>) -> f32 {
-        let corners = self.corners(&self.items(&[fragment.id], true));
-        let mut alpha = self.material.base_color[3];
+    /// Whether fragments of a masked primitive are there.
+    #[inline(always)]
+    fn keeps<const N: usize>(&self, items: &Items<N>, seen: &impl Seen<N>) -> [bool; N] {
+        let mut keeps = [true; N];
+        if let AlphaMode::Mask { cutoff } = self.material.alpha_mode {
+            let alpha = self.alpha(items, seen);
+            for lane in 0..N {
+                keeps[lane] = alpha[lane] >= cutoff;
+            }
+        }
+        keeps
+    }
+
+    /// The alpha of fragments: factor × texture × vertex colour (glTF 2.0 §3.9.4).
+    #[inline(always)]
+    fn alpha<const N: usize>(&self, items: &Items<N>, seen: &impl Seen<N>) -> [f32; N] {
+        let corners = self.corners(items);
+        let mut alpha = [[self.material.base_color[3]; N]];
         if let Some(colors) = &self.colors {
-            let [[carried]] =
-                blend::<1, 1>(&corners.carried(colors, 3), &fragment.weights.map(|w| [w]));
-            alpha *= carried;
+            scale(&mut alpha, &blend::<N, 1>(&corners.carried(colors, 3), &seen.weights()));
         }
         if let Some(map) = self.maps.of_base_color() {
-            let [_, _, _, [texel]] = map.chain.sample_along(
-                &self.uvs(&corners, fragment, &map.used),
-                true,
-                self.maps.anisotropy,
-            );
-            alpha *= texel;
+            let uvs = self.uvs(&corners, seen, &map.used);
+            let [_, _, _, texel] = map.chain.sample_along(&uvs, true, self.maps.anisotropy);
+            scale(&mut alpha, &[texel]);
         }
+        let [alpha] = alpha;
         alpha
     }
 }

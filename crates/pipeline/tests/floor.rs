@@ -69,7 +69,7 @@ fn scene(anisotropy: u32) -> Scene {
     );
     let file = parse("floor.ron", &text).expect("a scene");
     let placed = Placed { model: Arc::new(floor()), model_to_world: Affine::IDENTITY };
-    let origin = Origin { file: "floor.ron".into(), text, folder: ".".into() };
+    let origin = Origin::of_text("floor.ron", text, ".".into());
     Scene::of_models(&origin, &file, vec![placed]).expect("a scene that makes sense")
 }
 

@@ -84,7 +84,7 @@ fn scene(parts: Vec<(Primitive, Material)>, rest: &str) -> Scene {
     let text = format!(r#"Scene(models: [(path: "made")], {rest})"#);
     let file = parse("made.ron", &text).expect("a scene");
     let placed = Placed { model: Arc::new(model(parts)), model_to_world: Affine::IDENTITY };
-    let origin = Origin { file: "made.ron".into(), text, folder: ".".into() };
+    let origin = Origin::of_text("made.ron", text, ".".into());
     Scene::of_models(&origin, &file, vec![placed]).expect("a scene that makes sense")
 }
 

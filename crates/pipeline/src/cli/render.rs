@@ -1,44 +1,66 @@
-//! `alberti render`: a scene or a bare model becomes a PNG, or as a line drawing an SVG or a PDF.
+//! `alberti render`: scenes and bare models become PNGs, or as line drawings SVGs or PDFs.
+
+mod jobs;
 
 use super::args::RenderArgs;
 use super::format::Format;
 use super::progress::Progress;
-use super::{Failure, complain};
+use super::{Failure, complain, say};
+use jobs::Job;
 use pipeline::drawing::{self, Agreement, Hidden, Options};
 use pipeline::import::ImportOptions;
 use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::SceneFile;
-use pipeline::{Origin, Scene, Timings, draw, render_timed};
-use std::io::Write;
+use pipeline::{Origin, Scene, Timings, draw, render_reported};
+use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 use std::time::Duration;
 
 /// The most warnings of one model that are told; the rest is counted.
 const MOST_WARNINGS: usize = 8;
 
-pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
-    let output = output_of(args)?;
-    let format = Format::of(&output)?;
+/// Makes the pictures; one that cannot be made does not stop the others.
+pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
+    let jobs = jobs::of(args)?;
+    let mut code = ExitCode::SUCCESS;
+    for job in &jobs {
+        match one(args, job) {
+            Err(failure) if jobs.len() > 1 => {
+                complain("error", &format!("{}: {}", job.input.display(), failure.told()));
+                code = ExitCode::FAILURE;
+            }
+            made => made?,
+        }
+    }
+    Ok(code)
+}
+
+/// Makes one picture.
+fn one(args: &RenderArgs, job: &Job) -> Result<(), Failure> {
     let progress = Progress::start("loading");
-    let (origin, mut file) = open(&args.input)?;
-    args.look.override_in(&mut file);
     let timings = if args.timings { Timings::measuring() } else { Timings::default() };
-    let import = ImportOptions { timings: timings.clone(), ..args.look.import(&args.load) };
-    let options = ResolveOptions { import };
-    let scene = Scene::resolve(&origin, &file, &options)?;
+    let import = ImportOptions { timings: timings.clone(), ..job.look.import(&args.load) };
+    let (origin, mut file) = open(&job.input, &import)?;
+    job.look.override_in(&mut file);
+    let scene = Scene::resolve(&origin, &file, &ResolveOptions { import })?;
     progress.stage("rendering");
-    let bytes = match format {
+    let (bytes, warnings) = match job.format {
         Format::Png => {
-            let picture = render_timed(&scene, threads(args.threads), &timings)?;
-            timings.measure("encode", || picture.to_png())
+            let (picture, warnings) = render_reported(&scene, threads(args.threads), &timings)?;
+            (timings.measure("encode", || picture.to_png()), warnings)
         }
         Format::Svg | Format::Pdf => {
-            let page = draw(&scene, threads(args.threads), &timings)?;
-            timings.measure("encode", || format.vectors(&[page]))
+            let mut page = draw(&scene, threads(args.threads), &timings)?;
+            let warnings = std::mem::take(&mut page.warnings);
+            (timings.measure("encode", || job.format.vectors(&[page])), warnings)
         }
     };
     progress.stage("writing");
-    timings.measure("write", || pipeline::write_file(&output, &bytes))?;
+    timings.measure("write", || match &job.output {
+        Some(output) => pipeline::write_file(output, &bytes).map_err(Failure::from),
+        None => say(&bytes),
+    })?;
     let agreement = args.verify.then(|| compared(&scene, threads(args.threads))).transpose()?;
     drop(progress);
     if let Some(agreement) = agreement {
@@ -46,7 +68,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         let _ = writeln!(std::io::stderr(), "{}", told(&agreement));
     }
     tell(&timings);
-    warn(&scene);
+    warn(&scene, &warnings);
     Ok(())
 }
 
@@ -82,20 +104,36 @@ pub(super) fn is_scene(input: &Path) -> bool {
     input.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"))
 }
 
-/// A scene file, or the scene of a bare model.
-pub(super) fn open(input: &Path) -> Result<(Origin, SceneFile), Failure> {
-    if is_scene(input) { Ok(Origin::read(input)?) } else { Ok(Origin::bare_model(input)) }
+/// A scene file, with those it includes, or the scene of a bare model; `-` reads either from the standard input.
+pub(super) fn open(input: &Path, options: &ImportOptions) -> Result<(Origin, SceneFile), Failure> {
+    if input.as_os_str() == "-" {
+        return read_stdin(options);
+    }
+    if is_scene(input) {
+        Ok(Origin::read_below(input, &options.allow_outside)?)
+    } else {
+        Ok(Origin::bare_model(input))
+    }
 }
 
-fn output_of(args: &RenderArgs) -> Result<PathBuf, Failure> {
-    if let Some(output) = &args.output {
-        return Ok(output.clone());
+/// A model if it begins like one, in binary or as JSON; else a scene, whose paths begin at the current folder.
+fn read_stdin(options: &ImportOptions) -> Result<(Origin, SceneFile), Failure> {
+    let most = options.limits.file_bytes;
+    let mut bytes = Vec::new();
+    let read = std::io::stdin().lock().take(most.saturating_add(1)).read_to_end(&mut bytes);
+    let fault = |why: String| Failure::Usage(format!("cannot read the standard input: {why}"));
+    read.map_err(|cause| fault(cause.to_string()))?;
+    if bytes.len() as u64 > most {
+        return Err(fault(format!("it has more than {most} bytes; --max-file-bytes allows more")));
     }
-    let stem = args.input.file_stem();
-    let stem = stem.ok_or_else(|| Failure::Usage("name the output with -o FILE".to_owned()))?;
-    let mut name = stem.to_owned();
-    name.push(".png");
-    Ok(PathBuf::from(name))
+    let is_json = bytes.trim_ascii_start().starts_with(b"{");
+    if is_json || bytes.starts_with(b"glTF") {
+        return Ok(Origin::model_in_memory("stdin", bytes));
+    }
+    let text = String::from_utf8(bytes)
+        .map_err(|_| fault("it is neither a scene nor a model in glTF's binary form".to_owned()))?;
+    let origin = Origin::of_text("<stdin>", text, PathBuf::new());
+    Ok(origin.with_includes(&options.allow_outside)?)
 }
 
 /// As many threads as are wanted, or as there are cores.
@@ -104,7 +142,9 @@ pub(super) fn threads(wanted: Option<u16>) -> usize {
     wanted.map_or_else(all, usize::from)
 }
 
-pub(super) fn warn(scene: &Scene) {
+/// Tells what is wrong with the models, and what could not be drawn.
+pub(super) fn warn(scene: &Scene, drawing: &[drawing::Warning]) {
+    drawing.iter().for_each(|warning| complain("warning", &warning.to_string()));
     let mut told: Vec<&str> = Vec::new();
     for placed in &scene.models {
         let model = &placed.model;

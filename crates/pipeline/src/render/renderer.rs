@@ -9,7 +9,7 @@ use super::textures::Textures;
 use crate::color::SrgbEncoder;
 use crate::scene::Scene;
 use crate::shade::{Draw, DrawList, ScreenSpace, Shading, ShadowMap, Vertex};
-use crate::{Picture, Timings};
+use crate::{Cancel, Picture, Timings};
 use raster::{Frame, Nearest};
 
 /// Renders surfaces again and again: the same models from elsewhere, in other light, in another pose.
@@ -39,6 +39,7 @@ pub struct Renderer {
     spare: Vec<Vec<Vertex>>,
     shadows: ShadowMemory,
     nearest: Vec<Nearest>,
+    cancel: Cancel,
 }
 
 /// What a picture is put together in.
@@ -52,11 +53,17 @@ pub(super) struct Memory<'a> {
 }
 
 impl Renderer {
+    /// The same renderer, whose pictures end early once `cancel` says so: with [`RenderError::Cancelled`], and a picture that is none.
+    #[must_use]
+    pub fn cancelled_by(self, cancel: Cancel) -> Self {
+        Self { cancel, ..self }
+    }
+
     /// Renders the surfaces of a scene with up to `threads` threads, whose number does not change the picture. `textures` are
     /// those of the scene's models.
     ///
     /// # Errors
-    /// If the picture's size is out of range or the scene holds too much.
+    /// If the picture's size is out of range or the scene holds too much, or it was [cancelled](Self::cancelled_by).
     pub fn render(
         &mut self,
         scene: &Scene,
@@ -85,7 +92,7 @@ impl Renderer {
         });
         self.nearest = occlusion.map(|space| space.nearest).unwrap_or_default();
         self.take_back(memory);
-        Ok(())
+        if self.cancel.is_cancelled() { Err(RenderError::Cancelled) } else { Ok(()) }
     }
 
     /// The memory, with an empty frame for the scene's picture.
@@ -105,7 +112,8 @@ impl Renderer {
         let draws = DrawList { draws: emptied(std::mem::take(&mut self.draws)) };
         let images = std::mem::take(&mut self.images);
         let spare = std::mem::take(&mut self.spare);
-        Ok(Memory { frame: frame.with_threads(threads), draws, images, spare })
+        let frame = frame.with_threads(threads).with_stop(self.cancel.flag());
+        Ok(Memory { frame, draws, images, spare })
     }
 
     fn take_back(&mut self, memory: Memory<'_>) {

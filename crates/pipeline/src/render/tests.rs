@@ -27,7 +27,7 @@ fn scene(name: &str) -> Scene {
     let text = std::fs::read_to_string(folder.join(name)).expect("a scene of the project");
     let mut file = parse(name, &text).expect("a scene");
     file.image.size = (200, 130);
-    let origin = Origin { file: name.into(), text, folder };
+    let origin = Origin::of_text(name, text, folder);
     Scene::resolve(&origin, &file, &Default::default()).expect("a scene that makes sense")
 }
 

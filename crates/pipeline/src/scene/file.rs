@@ -6,24 +6,28 @@
 mod camera;
 mod environment;
 mod ground;
+mod include;
 mod light;
 mod lines;
 mod look;
 mod occlusion;
 mod overlay;
 mod projection;
+mod section;
 mod shadow;
 mod sheet;
 
 pub use self::camera::{CameraChoice, CameraFile, FromFile, USUAL_PADDING, ViewFile};
 pub use self::environment::EnvironmentFile;
 pub use self::ground::GroundFile;
+pub use self::include::Paths;
 pub use self::light::LightFile;
-pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, WidthFile};
+pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, ToneFile, WidthFile};
 pub use self::look::{BackgroundFile, ImageFile, StyleFile, ToneMappingFile};
 pub use self::occlusion::AmbientOcclusionFile;
 pub use self::overlay::OverlayFile;
 pub use self::projection::{PrincipalFile, ProjectionFile};
+pub use self::section::SectionFile;
 pub use self::shadow::ShadowsFile;
 pub use self::sheet::{
     AngleFile, AxonometricFile, OrientationFile, PaperFile, SheetFile, SideFile, UnitFile,
@@ -34,10 +38,16 @@ use crate::import;
 use serde::Deserialize;
 
 /// A scene file.
-#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[derive(Clone, PartialEq, Default, Debug, Deserialize)]
 #[serde(rename = "Scene", deny_unknown_fields)]
 pub struct SceneFile {
-    /// The models to draw.
+    /// Other scene files to begin with, in this order. Their models, lights, overlays and sections come before those of this file; of all
+    /// other fields this file's goes before theirs, whole, and a later file's before an earlier one's. Paths in an included file
+    /// begin at its own folder; it must lie below the folder of the scene. Default: none.
+    #[serde(default)]
+    pub include: Paths,
+    /// The models to draw. A scene needs one; a file that is included does not. Default: none.
+    #[serde(default)]
     pub models: Vec<ModelFile>,
     /// From where, and by which projection. Default: framed from a named direction, in perspective.
     #[serde(default)]
@@ -62,6 +72,9 @@ pub struct SceneFile {
     /// What is drawn over the picture. Default: nothing.
     #[serde(default)]
     pub overlays: Vec<OverlayFile>,
+    /// Planes that cut the models open, one after the other, in line drawings and on sheets; at most 16. Default: none.
+    #[serde(default)]
+    pub sections: Vec<SectionFile>,
     /// How `alberti sheet` puts the models on paper. Default: as its flags say.
     pub sheet: Option<SheetFile>,
 }
@@ -72,13 +85,13 @@ pub struct SceneFile {
 pub struct ModelFile {
     /// The path of a `.gltf` or `.glb` file, from the folder of the scene file.
     pub path: String,
-    /// The translation.
+    /// The translation, in metres as glTF has them. Default: (0, 0, 0).
     #[serde(default)]
     pub translate: Triple,
-    /// Turns about the x, then the y, then the z axis.
+    /// Turns about the x, then the y, then the z axis, in degrees. Default: (0, 0, 0).
     #[serde(default)]
     pub rotate_degrees: Triple,
-    /// One factor for all axes, or one for each.
+    /// One factor for all axes, or one for each; none of them 0. Default: 1.
     #[serde(default)]
     pub scale: Scale,
     /// The scene of the model that is shown. Default: its default scene, else its first.
@@ -123,6 +136,7 @@ impl SceneFile {
             time: None,
         };
         Self {
+            include: Paths::default(),
             models: vec![model],
             camera: CameraFile::default(),
             lights: None,
@@ -133,6 +147,7 @@ impl SceneFile {
             style: StyleFile::default(),
             image: ImageFile::default(),
             overlays: Vec::new(),
+            sections: Vec::new(),
             sheet: None,
         }
     }

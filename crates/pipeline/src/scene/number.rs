@@ -68,6 +68,16 @@ checked_number! {
     Crease, "an angle from 0 to 180 degrees", |x| (0.0..=180.0).contains(&x)
 }
 
+checked_number! {
+    /// The distance between lines of hatching in millimetres, from 0.1 to 1000.
+    Spacing, "a distance from 0.1 to 1000 millimetres", |x| (0.1..=1000.0).contains(&x)
+}
+
+impl Spacing {
+    /// 2 millimetres.
+    pub const USUAL: Self = Self(2.0);
+}
+
 impl Percent {
     /// Nothing.
     pub const ZERO: Self = Self(0.0);

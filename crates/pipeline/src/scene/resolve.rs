@@ -9,13 +9,14 @@ use super::lights::resolve_lights;
 use super::locate::Step::{Field, Index};
 use super::look::resolve_style;
 use super::number::Positive;
-use super::parse::suggestion;
+use super::section::resolve_sections;
 use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
+use super::wording::suggestion;
 use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile, Style};
 use crate::color::parse_hex;
 use crate::drawing::Overlay;
-use crate::import::{FaultKind, ImportError, ImportOptions, load};
+use crate::import::{FaultKind, ImportError, ImportOptions, load, load_bytes};
 use crate::model::Model;
 use crate::shade::{Develop, ToneMapping};
 use homog::{Affine, Bounds, Model as ModelSpace, Vector, World};
@@ -89,6 +90,7 @@ impl Scene {
         let environment = || resolve_environment(origin, file, &models, allowed);
         let environment = if is_lit { environment()? } else { None };
         let overlays = resolve_overlays(origin, &file.overlays, &models, image)?;
+        let sections = resolve_sections(origin, &file.sections)?;
         Ok(Self {
             models,
             shot,
@@ -100,6 +102,7 @@ impl Scene {
             style,
             image,
             overlays,
+            sections,
         })
     }
 }
@@ -206,11 +209,26 @@ impl ModelFault {
             Self::File(error) if origin.text.is_empty() => error.into(),
             Self::File(error) => {
                 let at = [Field("models"), Index(number), Field("path")];
-                origin.fault(&at, format!("{}: {}", entry.path, error.fault), None).into()
+                let help = namesake(&origin.folder.join(&entry.path));
+                origin.fault(&at, format!("{}: {}", entry.path, error.fault), help).into()
             }
             Self::Scene(error) => error.into(),
         }
     }
+}
+
+/// For a model that is not there, one in the same folder with a similar name.
+fn namesake(path: &Path) -> Option<String> {
+    let folder = path.parent().filter(|_| !path.exists())?;
+    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let names = std::fs::read_dir(here)
+        .ok()?
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    let is_model = |name: &String| name.ends_with(".glb") || name.ends_with(".gltf");
+    let mut names: Vec<String> = names.filter(is_model).collect();
+    names.sort();
+    let wanted = path.file_name()?.to_str()?;
+    suggestion(wanted, &names).filter(|hint| hint.starts_with("did you mean"))
 }
 
 /// Loads a model and poses it.
@@ -232,7 +250,10 @@ pub(super) fn load_model(
         variant: entry.variant.clone().map(Into::into).or(options.import.variant.clone()),
         ..options.import.clone()
     };
-    let loaded = load(&origin.folder.join(&entry.path), &import);
+    let loaded = match &origin.model {
+        Some(bytes) => load_bytes(&entry.path, bytes, &import),
+        None => load(&origin.folder.join(&entry.path), &import),
+    };
     let mut model = loaded.map_err(|error| choice_fault(origin, number, entry, error))?;
     if entry.animation.is_some() || entry.time.is_some() {
         let field = if entry.animation.is_some() { "animation" } else { "time" };
@@ -270,7 +291,8 @@ pub fn chosen_animation(
 ) -> Result<usize, (String, Option<String>)> {
     let count = model.animations.len();
     if count == 0 {
-        return Err((format!("the model {} has no animation", model.name), None));
+        let help = "leave the animation and the time out".to_owned();
+        return Err((format!("the model {} has no animation", model.name), Some(help)));
     }
     let named = |wanted: &str| {
         model.animations.iter().position(|animation| animation.name.as_deref() == Some(wanted))

@@ -7,6 +7,7 @@ use super::locate::Step;
 use super::look::resolve_style;
 use super::origin::Origin;
 use super::resolve::{ModelFault, load_model, placement, resolve_image, resolve_overlays};
+use super::section::resolve_sections;
 use super::shadows::resolve_shadow;
 use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
@@ -48,6 +49,7 @@ pub fn review(origin: &Origin, file: &SceneFile, options: &ResolveOptions) -> Ve
     mistakes
         .extend(resolve_environment(origin, file, &models, &options.import.allow_outside).err());
     mistakes.extend(resolve_style(origin, &file.style).err());
+    mistakes.extend(resolve_sections(origin, &file.sections).err());
     let sheet = file.sheet.iter();
     mistakes.extend(sheet.filter_map(|sheet| Sheet::resolve(origin, sheet).err()));
     mistakes.sort_by_key(|mistake| mistake.span.start);

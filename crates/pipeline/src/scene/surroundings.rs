@@ -104,8 +104,10 @@ fn read(origin: &Origin, path: &str, allowed: &[PathBuf]) -> Result<Vec<u8>, Sce
         return Err(fault(origin, message, Some(help.to_owned())));
     }
     let full = origin.folder.join(path);
-    let unreadable =
-        |cause: std::io::Error| fault(origin, format!("cannot read {path}: {cause}"), None);
+    let unreadable = |cause: std::io::Error| {
+        let help = "check the path: it begins at the folder of the scene".to_owned();
+        fault(origin, format!("cannot read {path}: {cause}"), Some(help))
+    };
     let about = std::fs::metadata(&full).map_err(unreadable)?;
     if !about.is_file() || about.len() > LONGEST {
         let message = format!("{path} is no file of at most {LONGEST} bytes");

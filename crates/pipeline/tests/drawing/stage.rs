@@ -46,6 +46,7 @@ pub fn scene(model: Model, shot: Shot) -> Scene {
             anisotropy: 1,
         },
         overlays: Vec::new(),
+        sections: Vec::new(),
     }
 }
 

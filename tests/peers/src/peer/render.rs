@@ -54,6 +54,7 @@ impl Render {
             style: Style::Shaded,
             image: ImageSpec { width, height, background: [0.0; 4], backdrop: None, samples, anisotropy: 1 },
             overlays: Vec::new(),
+        sections: Vec::new(),
         };
         // As long as the process: there are few, and their textures refer to them.
         let models: &'static [Placed] = scene.models.clone().leak();

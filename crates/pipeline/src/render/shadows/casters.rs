@@ -1,6 +1,6 @@
 //! What casts shadows: the triangles of a scene that let no light through.
 
-use crate::model::{AlphaMode, TextureSlot, TextureUse, Topology};
+use crate::model::{TextureSlot, TextureUse, Topology};
 use crate::render::RenderError;
 use crate::render::Textures;
 use crate::render::assemble::{DEFAULT_MATERIAL, cover_of, triangle};
@@ -9,16 +9,18 @@ use crate::render::stage::Stage;
 use crate::render::vertices::{Parts, uv_set};
 use crate::scene::Scene;
 use crate::shade::{Draw, DrawList, Maps, Role, Tangents};
-use raster::{Cover, Cull, Fragment, Frame, Surface};
+use raster::{Cover, Cull, Fragment, Fragments, Frame, Instructions, Surface, WIDE};
 
 /// What of draws is there at all: their colours do not count.
 pub(in crate::render) struct Casters<'a, 'b>(pub(in crate::render) &'b DrawList<'a>);
 
 impl Surface for Casters<'_, '_> {
     fn keeps(&self, fragment: &Fragment<'_>) -> bool {
-        let (draw, _) = self.0.of(fragment.id);
-        let AlphaMode::Mask { cutoff } = draw.material.alpha_mode else { return true };
-        draw.alpha(fragment) >= cutoff
+        self.0.keeps(fragment)
+    }
+
+    fn keeps_eight(&self, fragments: &Fragments<'_>) -> [bool; WIDE] {
+        self.0.keeps_eight(fragments, Instructions::best())
     }
 
     fn shade(&self, _: &Fragment<'_>) -> [f32; 4] {

@@ -59,11 +59,11 @@ impl StyleFile {
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(rename = "Image", deny_unknown_fields, default)]
 pub struct ImageFile {
-    /// Width and height in pixels.
+    /// Width and height in pixels, each from 1 to 16384. Default: (960, 720).
     pub size: (u32, u32),
-    /// What is seen where no model is.
+    /// What is seen where no model is. Default: `Transparent`.
     pub background: BackgroundFile,
-    /// Coverage samples per pixel: 1, 4, 8 or 16.
+    /// Coverage samples per pixel: 1, 4, 8 or 16. Default: 4.
     pub samples: u32,
     /// The exposure in stops: each doubles all light. Default: 0.
     pub exposure_ev: Option<Finite>,
