@@ -52,7 +52,7 @@ impl Render {
         environment: None,
             develop: pipeline::shade::Develop::default(),
             style: Style::Shaded,
-            image: ImageSpec { width, height, background: [0.0; 4], backdrop: None, samples },
+            image: ImageSpec { width, height, background: [0.0; 4], backdrop: None, samples, anisotropy: 1 },
             overlays: Vec::new(),
         sections: Vec::new(),
         };
