@@ -9,6 +9,7 @@ mod explain;
 mod failure;
 mod format;
 mod info;
+mod light;
 mod loading;
 mod look;
 mod manual;
@@ -18,6 +19,7 @@ mod progress;
 mod reference;
 mod render;
 mod scene;
+mod section;
 mod sheet;
 mod template;
 

@@ -47,7 +47,7 @@ mod timings;
 pub use cancel::Cancel;
 pub use output::{Draft, OutputError, write_file};
 pub use picture::Picture;
-pub use render::{RenderError, Renderer, Textures, draw, render, render_timed};
+pub use render::{RenderError, Renderer, Textures, draw, render, render_reported, render_timed};
 pub use scene::{Origin, ResolveError, Scene, SceneError, SceneFile};
 pub use timings::Timings;
 

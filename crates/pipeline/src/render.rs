@@ -7,10 +7,13 @@
 //! ```
 
 mod assemble;
+mod ground;
 mod images;
 mod lines;
+mod occlusion;
 mod pixel;
 mod renderer;
+mod shadows;
 mod shot;
 mod stage;
 #[cfg(test)]
@@ -24,7 +27,7 @@ pub use renderer::Renderer;
 pub use shot::Shot;
 pub use textures::Textures;
 
-use crate::drawing::overlays;
+use crate::drawing::{Warning, overlays};
 use crate::scene::{Scene, Style};
 use crate::{Picture, Timings};
 
@@ -63,10 +66,24 @@ pub fn render_timed(
     threads: usize,
     timings: &Timings,
 ) -> Result<Picture, RenderError> {
+    render_reported(scene, threads, timings).map(|(picture, _)| picture)
+}
+
+/// Renders a scene, and tells what could not be drawn as it should.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_reported(
+    scene: &Scene,
+    threads: usize,
+    timings: &Timings,
+) -> Result<(Picture, Vec<Warning>), RenderError> {
     match scene.style {
         Style::Shaded | Style::Flat => {
             let picture = surfaces(scene, threads, timings)?;
-            Ok(picture.under(&overlays(scene)))
+            let is_cut = !scene.sections.is_empty();
+            let warnings = is_cut.then_some(Warning::SectionsUnseen).into_iter().collect();
+            Ok((picture.under(&overlays(scene)), warnings))
         }
         Style::Wireframe | Style::Lines(_) => lines::picture(scene, threads, timings),
     }

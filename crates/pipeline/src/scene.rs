@@ -8,6 +8,7 @@ pub(crate) mod bounds;
 mod classical;
 mod error;
 pub mod file;
+mod ground;
 mod include;
 mod layout;
 mod lights;
@@ -22,6 +23,8 @@ mod radiance;
 pub mod reference;
 mod resolve;
 mod review;
+mod section;
+mod shadows;
 mod sheet;
 mod surroundings;
 mod viewpoint;
@@ -30,6 +33,7 @@ mod wording;
 pub use advice::{Advice, advise};
 pub use error::SceneError;
 pub use file::SceneFile;
+pub use ground::Ground;
 pub use layout::laid_out;
 pub use origin::Origin;
 pub use parse::parse;
@@ -41,7 +45,7 @@ use crate::import::ImportError;
 use crate::model::Model;
 use crate::render::Shot;
 use crate::shade::{Develop, Environment, Light};
-use homog::{Affine, Model as ModelSpace, Point, World};
+use homog::{Affine, Model as ModelSpace, Plane, Point, World};
 use raster::Samples;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -55,8 +59,12 @@ pub struct Scene {
     pub shot: Shot,
     /// The lights.
     pub lights: Vec<Light>,
+    /// What is below the models.
+    pub ground: Option<Ground>,
     /// Light from all around.
     pub environment: Option<Arc<Environment>>,
+    /// How far away things still take light from all around, in the units of the world; `None` if they do not.
+    pub occlusion_radius: Option<f64>,
     /// How light becomes colours.
     pub develop: Develop,
     /// How surfaces are drawn.
@@ -65,6 +73,8 @@ pub struct Scene {
     pub image: ImageSpec,
     /// What is drawn over it.
     pub overlays: Vec<Overlay>,
+    /// Planes that cut the models open in line drawings; their unit normals point to what is kept.
+    pub sections: Vec<Plane<World>>,
 }
 
 impl Scene {

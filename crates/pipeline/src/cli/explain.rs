@@ -64,9 +64,10 @@ struct SubjectArgs {
 }
 
 pub(crate) fn run(args: &ExplainArgs) -> Result<(), Failure> {
-    let (origin, mut file) = open(&args.input, &args.load.options())?;
+    let (origin, mut file) = open(&args.input, &args.look.import(&args.load))?;
     args.look.override_in(&mut file);
-    let scene = Scene::resolve(&origin, &file, &ResolveOptions { import: args.load.options() })?;
+    let scene =
+        Scene::resolve(&origin, &file, &ResolveOptions { import: args.look.import(&args.load) })?;
     let size = (scene.image.width, scene.image.height);
     let chain =
         Chain::of(&scene.shot, size, args.conventions).map_err(pipeline::RenderError::from)?;

@@ -1,9 +1,13 @@
 //! Flags that change what a scene says of its picture: the size, the camera, the style, the state of the models.
 
 use super::args::{OverlayArg, ProjectionArg, StyleArg};
+use super::light::LightArgs;
+use super::loading::LoadArgs;
 use super::pick::PickArgs;
+use super::section::SectionArgs;
 use camera::NamedView;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use pipeline::import::ImportOptions;
 use pipeline::scene::file::{
     BackgroundFile, CameraChoice, CameraFile, OverlayFile, PrincipalFile, ProjectionFile,
     SceneFile, StyleFile, USUAL_PADDING, ViewFile,
@@ -35,12 +39,16 @@ pub(crate) struct LookArgs {
     /// What is drawn over the picture to explain it; may be given several times
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     pub(crate) overlay: Vec<OverlayArg>,
+    #[command(flatten)]
+    pub(crate) section: SectionArgs,
     /// What is seen where no model is: transparent, or a colour such as #f4f1ea
     #[arg(long, value_name = "COLOR", value_parser = parse_background)]
     pub(crate) background: Option<String>,
     /// Coverage samples per pixel: 1, 4, 8 or 16
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     pub(crate) samples: Option<u32>,
+    #[command(flatten)]
+    light: LightArgs,
 }
 
 impl LookArgs {
@@ -65,9 +73,18 @@ impl LookArgs {
         if let Some(style) = self.style {
             file.style = style.into();
         }
+        self.section.add_to(file);
         file.overlays.extend(self.overlay.iter().copied().map(OverlayFile::from));
         file.models.iter_mut().for_each(|model| self.pick.override_in(model));
+        self.light.override_in(file);
         self.override_camera(&mut file.camera);
+    }
+
+    /// How models are loaded by these flags too: a file that they name may be read wherever it is.
+    pub(crate) fn import(&self, load: &LoadArgs) -> ImportOptions {
+        let mut options = load.options();
+        options.allow_outside.extend(self.light.named_file());
+        options
     }
 
     fn override_camera(&self, file: &mut CameraFile) {

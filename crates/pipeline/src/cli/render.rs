@@ -11,7 +11,7 @@ use pipeline::drawing::{self, Agreement, Hidden, Options};
 use pipeline::import::ImportOptions;
 use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::SceneFile;
-use pipeline::{Origin, Scene, Timings, draw, render_timed};
+use pipeline::{Origin, Scene, Timings, draw, render_reported};
 use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -40,19 +40,20 @@ pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
 fn one(args: &RenderArgs, job: &Job) -> Result<(), Failure> {
     let progress = Progress::start("loading");
     let timings = if args.timings { Timings::measuring() } else { Timings::default() };
-    let import = ImportOptions { timings: timings.clone(), ..args.load.options() };
+    let import = ImportOptions { timings: timings.clone(), ..job.look.import(&args.load) };
     let (origin, mut file) = open(&job.input, &import)?;
     job.look.override_in(&mut file);
     let scene = Scene::resolve(&origin, &file, &ResolveOptions { import })?;
     progress.stage("rendering");
-    let bytes = match job.format {
+    let (bytes, warnings) = match job.format {
         Format::Png => {
-            let picture = render_timed(&scene, threads(args.threads), &timings)?;
-            timings.measure("encode", || picture.to_png())
+            let (picture, warnings) = render_reported(&scene, threads(args.threads), &timings)?;
+            (timings.measure("encode", || picture.to_png()), warnings)
         }
         Format::Svg | Format::Pdf => {
-            let page = draw(&scene, threads(args.threads), &timings)?;
-            timings.measure("encode", || job.format.vectors(&[page]))
+            let mut page = draw(&scene, threads(args.threads), &timings)?;
+            let warnings = std::mem::take(&mut page.warnings);
+            (timings.measure("encode", || job.format.vectors(&[page])), warnings)
         }
     };
     progress.stage("writing");
@@ -67,7 +68,7 @@ fn one(args: &RenderArgs, job: &Job) -> Result<(), Failure> {
         let _ = writeln!(std::io::stderr(), "{}", told(&agreement));
     }
     tell(&timings);
-    warn(&scene);
+    warn(&scene, &warnings);
     Ok(())
 }
 
@@ -141,7 +142,9 @@ pub(super) fn threads(wanted: Option<u16>) -> usize {
     wanted.map_or_else(all, usize::from)
 }
 
-pub(super) fn warn(scene: &Scene) {
+/// Tells what is wrong with the models, and what could not be drawn.
+pub(super) fn warn(scene: &Scene, drawing: &[drawing::Warning]) {
+    drawing.iter().for_each(|warning| complain("warning", &warning.to_string()));
     let mut told: Vec<&str> = Vec::new();
     for placed in &scene.models {
         let model = &placed.model;

@@ -2,7 +2,7 @@
 
 use super::RenderError;
 use crate::color::SrgbEncoder;
-use crate::drawing::{self, Ink, LineLook, Page};
+use crate::drawing::{self, Ink, LineLook, Page, Warning};
 use crate::scene::{Scene, Style};
 use crate::{Picture, Timings};
 
@@ -24,16 +24,18 @@ pub fn draw(scene: &Scene, threads: usize, timings: &Timings) -> Result<Page, Re
     Ok(timings.measure("chains", page))
 }
 
-/// The line drawing as a picture.
+/// The line drawing as a picture, and what is missing in it.
 pub(super) fn picture(
     scene: &Scene,
     threads: usize,
     timings: &Timings,
-) -> Result<Picture, RenderError> {
-    let page = draw(scene, threads, timings)?;
+) -> Result<(Picture, Vec<Warning>), RenderError> {
+    let mut page = draw(scene, threads, timings)?;
+    let warnings = std::mem::take(&mut page.warnings);
     let (width, height) = (scene.image.width, scene.image.height);
     let too_large = raster::RasterError::Size { x: 0, y: 0, width, height };
-    timings.measure("pixels", || page.to_picture(width, height)).ok_or(too_large.into())
+    let picture = timings.measure("pixels", || page.to_picture(width, height));
+    Ok((picture.ok_or(too_large)?, warnings))
 }
 
 impl Style {

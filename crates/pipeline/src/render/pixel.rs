@@ -6,7 +6,9 @@
 use super::RenderError;
 use super::assemble::assemble;
 use super::images::Images;
+use super::occlusion::whole_screen_space;
 use super::renderer::{Memory, shading};
+use super::shadows::ShadowMemory;
 use super::textures::Textures;
 use crate::color::SrgbEncoder;
 use crate::model::Model;
@@ -67,7 +69,10 @@ pub fn pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelMakeup>, Rende
         spare: Vec::new(),
     };
     let memory = assemble(scene, &textures, 1, memory)?;
-    let surface = shading(scene, &memory.draws, &memory.frame);
+    let mut shadows = ShadowMemory::default();
+    shadows.render(scene, &textures, 1)?;
+    let occlusion = whole_screen_space(scene, &textures)?;
+    let surface = shading(scene, &memory.draws, &memory.frame, &shadows.maps, occlusion.as_ref());
     let witness = Witness { surface: &surface, place: [x, y], seen: Mutex::default() };
     let mut color = [[0; 4]];
     memory.frame.draw(&witness, image.background, 1, &mut color, SrgbEncoder::shared());

@@ -3,12 +3,14 @@
 use super::RenderError;
 use super::assemble::assemble;
 use super::images::Images;
+use super::occlusion::screen_space;
+use super::shadows::ShadowMemory;
 use super::textures::Textures;
 use crate::color::SrgbEncoder;
 use crate::scene::Scene;
-use crate::shade::{Draw, DrawList, Shading, Vertex};
+use crate::shade::{Draw, DrawList, ScreenSpace, Shading, ShadowMap, Vertex};
 use crate::{Cancel, Picture, Timings};
-use raster::Frame;
+use raster::{Frame, Nearest};
 
 /// Renders surfaces again and again: the same models from elsewhere, in other light, in another pose.
 ///
@@ -36,6 +38,8 @@ pub struct Renderer {
     draws: Vec<Draw<'static>>,
     spare: Vec<Vec<Vertex>>,
     cancel: Cancel,
+    shadows: ShadowMemory,
+    nearest: Vec<Nearest>,
 }
 
 /// What a picture is put together in.
@@ -69,15 +73,24 @@ impl Renderer {
         picture: &mut Picture,
     ) -> Result<(), RenderError> {
         let image = scene.image;
+        let shadows = || self.shadows.render(scene, textures, threads);
+        if scene.lights.iter().any(|light| light.shadow().is_some()) {
+            timings.measure("shadows", shadows)?;
+        } else {
+            self.shadows.clear();
+        }
         let memory = self.lend(scene, threads)?;
         let memory = timings.measure("vertices", || assemble(scene, textures, threads, memory))?;
         let Memory { frame, draws, .. } = &memory;
-        let shading = shading(scene, draws, frame);
+        let nearest = std::mem::take(&mut self.nearest);
+        let occlusion = screen_space(scene, frame, draws, threads, nearest)?;
+        let shading = shading(scene, draws, frame, &self.shadows.maps, occlusion.as_ref());
         picture.resize(image.width, image.height);
         let encoder = SrgbEncoder::shared();
         timings.measure("pixels", || {
             frame.draw(&shading, image.background, threads, &mut picture.pixels, encoder);
         });
+        self.nearest = occlusion.map(|space| space.nearest).unwrap_or_default();
         self.take_back(memory);
         if self.cancel.is_cancelled() { Err(RenderError::Cancelled) } else { Ok(()) }
     }
@@ -107,16 +120,26 @@ impl Renderer {
         let Memory { frame, mut draws, images, mut spare } = memory;
         // The first list that is asked for next time is the one of the first draw.
         spare.extend(draws.draws.drain(..).rev().map(|draw| draw.vertices));
-        let cancel = self.cancel.clone();
-        *self = Self { frame: Some(frame), images, draws: emptied(draws.draws), spare, cancel };
+        self.frame = Some(frame);
+        self.images = images;
+        self.draws = emptied(draws.draws);
+        self.spare = spare;
     }
 }
 
 /// What the fragments of a frame are shaded with.
-pub(super) fn shading<'a>(scene: &'a Scene, draws: &'a DrawList<'a>, frame: &Frame) -> Shading<'a> {
+pub(super) fn shading<'a>(
+    scene: &'a Scene,
+    draws: &'a DrawList<'a>,
+    frame: &Frame,
+    shadows: &'a [Option<ShadowMap>],
+    occlusion: Option<&'a ScreenSpace>,
+) -> Shading<'a> {
     Shading {
         draws,
         lights: &scene.lights,
+        shadows,
+        occlusion,
         environment: scene.environment.as_deref(),
         develop: scene.develop,
         viewer: scene.shot.viewer(),

@@ -1,6 +1,6 @@
 //! The way from the world to the screen.
 
-use super::RenderError;
+use super::{RenderError, Shot};
 use crate::scene::Scene;
 use clip::{Extent, Outcode, Volume, clip_segment};
 use glam::DVec3;
@@ -9,7 +9,7 @@ use raster::{GUARD_BAND, ScreenVertex};
 use viewport::Viewport;
 
 /// The way from the world to the screen.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Stage {
     world_to_clip: Projective<World, Clip>,
     /// What is kept: the view volume with a guard band.
@@ -31,7 +31,11 @@ pub(super) enum Whereabouts {
 
 impl Stage {
     pub(super) fn of(scene: &Scene) -> Result<Self, RenderError> {
-        let (width, height) = (scene.image.width, scene.image.height);
+        Self::new(&scene.shot, scene.image.width, scene.image.height)
+    }
+
+    /// The way to a picture of this size.
+    pub(super) fn new(shot: &Shot, width: u32, height: u32) -> Result<Self, RenderError> {
         let viewport = Viewport::image(width, height)?;
         // Clip only what would leave the rasteriser's grid, with a pixel to spare: its tiles cut the rest (CL-4).
         let band = |side: u32| {
@@ -41,10 +45,10 @@ impl Stage {
         let volume = Volume::CHAPTER;
         let volume = volume.with_guard_band(band(width), band(height)).unwrap_or(volume);
         Ok(Self {
-            world_to_clip: scene.shot.world_to_clip(),
+            world_to_clip: shot.world_to_clip(),
             volume,
             ndc_to_screen: viewport.ndc_to_screen(),
-            mirrors: scene.shot.mirrors(),
+            mirrors: shot.mirrors(),
         })
     }
 

@@ -47,6 +47,8 @@ fn eight_fragments_at_once_have_the_colours_of_one_by_one() {
             let shading = Shading {
                 draws: &draws,
                 lights: &scene.lights,
+                shadows: &[],
+                occlusion: None,
                 environment: scene.environment.as_deref(),
                 develop: scene.develop,
                 viewer,

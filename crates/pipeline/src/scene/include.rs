@@ -19,7 +19,8 @@ use std::path::{Path, PathBuf};
 const MOST_FILES: usize = 64;
 
 /// The fields of a scene that are taken whole.
-const SINGLE: [&str; 5] = ["camera", "environment", "style", "image", "sheet"];
+const SINGLE: [&str; 8] =
+    ["camera", "shadows", "ground", "environment", "ambient_occlusion", "style", "image", "sheet"];
 
 /// Which parts of a scene are written in which included file. What is not here is in the scene file itself.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
@@ -122,6 +123,7 @@ impl Gatherer<'_> {
             ("models", elements(file.models.len())),
             ("lights", elements(file.lights.as_ref().map_or(0, Vec::len))),
             ("overlays", elements(file.overlays.len())),
+            ("sections", elements(file.sections.len())),
         ];
         let fields = said.map(|field| (field, page.file)).collect();
         Ok(laid_over(below, Layer { file, fields, lists: lists.into() }))
@@ -183,22 +185,44 @@ fn rebase(file: &mut SceneFile, folder: &Path) {
 /// Two layers as one.
 fn laid_over(below: Layer, above: Layer) -> Layer {
     // All fields by name: who adds one to the scene decides here whether it is joined or replaced.
-    let SceneFile { include, models, camera, lights, environment, style, image, overlays, sheet } =
-        above.file;
+    let SceneFile {
+        include,
+        models,
+        camera,
+        lights,
+        shadows,
+        ground,
+        environment,
+        ambient_occlusion,
+        style,
+        image,
+        overlays,
+        sections,
+        sheet,
+    } = above.file;
+    let old = below.file;
     let has = |field: &str| above.fields.contains_key(field);
     let file = SceneFile {
         include,
-        models: joined(below.file.models, models),
-        camera: if has("camera") { camera } else { below.file.camera },
-        lights: match (below.file.lights, lights) {
-            (Some(below), Some(above)) => Some(joined(below, above)),
-            (below, above) => above.or(below),
+        models: joined(old.models, models),
+        camera: if has("camera") { camera } else { old.camera },
+        lights: match (old.lights, lights) {
+            (Some(old), Some(new)) => Some(joined(old, new)),
+            (old, new) => new.or(old),
         },
-        environment: if has("environment") { environment } else { below.file.environment },
-        style: if has("style") { style } else { below.file.style },
-        image: if has("image") { image } else { below.file.image },
-        overlays: joined(below.file.overlays, overlays),
-        sheet: if has("sheet") { sheet } else { below.file.sheet },
+        shadows: if has("shadows") { shadows } else { old.shadows },
+        ground: if has("ground") { ground } else { old.ground },
+        environment: if has("environment") { environment } else { old.environment },
+        ambient_occlusion: if has("ambient_occlusion") {
+            ambient_occlusion
+        } else {
+            old.ambient_occlusion
+        },
+        style: if has("style") { style } else { old.style },
+        image: if has("image") { image } else { old.image },
+        overlays: joined(old.overlays, overlays),
+        sections: joined(old.sections, sections),
+        sheet: if has("sheet") { sheet } else { old.sheet },
     };
     let fields = below.fields.into_iter().chain(above.fields).collect();
     let mut lists = below.lists;

@@ -1,20 +1,23 @@
 //! From what a person wrote to what drawing needs, or to an error that points.
 
+use super::bounds::world_points;
 use super::file::{BackgroundFile, Choice, Finite, ModelFile, OverlayFile, ToneMappingFile};
+use super::ground::resolve_ground;
 use super::lights::resolve_lights;
 use super::locate::Step::{Field, Index};
 use super::look::resolve_style;
 use super::number::Positive;
+use super::section::resolve_sections;
 use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
 use super::wording::suggestion;
-use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile};
+use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile, Style};
 use crate::color::parse_hex;
 use crate::drawing::Overlay;
 use crate::import::{FaultKind, ImportError, ImportOptions, load, load_bytes};
 use crate::model::Model;
 use crate::shade::{Develop, ToneMapping};
-use homog::{Affine, Model as ModelSpace, Vector, World};
+use homog::{Affine, Bounds, Model as ModelSpace, Vector, World};
 use raster::Samples;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -57,7 +60,7 @@ impl Scene {
     }
 
     /// The scene around its models; the environment's file may lie in one of the `allowed` folders too.
-    fn around(
+    pub(crate) fn around(
         origin: &Origin,
         file: &SceneFile,
         models: Vec<Placed>,
@@ -66,7 +69,12 @@ impl Scene {
         let image = resolve_image(origin, file)?;
         let shot = resolve_shot(origin, &file.camera, &models, image)?;
         let lights = resolve_lights(origin, file, &models, &shot)?;
-        let environment = resolve_environment(origin, file, allowed)?;
+        let ground = resolve_ground(file, &models, &lights);
+        let occlusion_radius = file.ambient_occlusion.map(|file| {
+            let usual =
+                || Bounds::of(world_points(&models)).map_or(1.0, |all| all.diagonal() / 12.0);
+            file.radius.map_or_else(usual, Positive::value)
+        });
         let curve = match file.image.tone_mapping {
             ToneMappingFile::None => ToneMapping::None,
             ToneMappingFile::Neutral => ToneMapping::Neutral,
@@ -75,8 +83,25 @@ impl Scene {
         };
         let develop = Develop::new(file.image.exposure_ev.map_or(0.0, Finite::value), curve);
         let style = resolve_style(origin, &file.style)?;
+        // Nothing is mirrored in line drawings.
+        let is_lit = matches!(style, Style::Shaded | Style::Flat);
+        let environment = || resolve_environment(origin, file, &models, allowed);
+        let environment = if is_lit { environment()? } else { None };
         let overlays = resolve_overlays(origin, &file.overlays, &models, image)?;
-        Ok(Self { models, shot, lights, environment, develop, style, image, overlays })
+        let sections = resolve_sections(origin, &file.sections)?;
+        Ok(Self {
+            models,
+            shot,
+            lights,
+            ground,
+            environment,
+            occlusion_radius,
+            develop,
+            style,
+            image,
+            overlays,
+            sections,
+        })
     }
 }
 

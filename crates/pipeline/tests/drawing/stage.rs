@@ -32,6 +32,8 @@ pub fn scene(model: Model, shot: Shot) -> Scene {
         models: vec![placed],
         shot,
         lights: Vec::new(),
+        ground: None,
+        occlusion_radius: None,
         environment: None,
         develop: pipeline::shade::Develop::default(),
         style: Style::Flat,
@@ -43,6 +45,7 @@ pub fn scene(model: Model, shot: Shot) -> Scene {
             samples: raster::Samples::One,
         },
         overlays: Vec::new(),
+        sections: Vec::new(),
     }
 }
 

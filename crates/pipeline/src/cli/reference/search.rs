@@ -64,7 +64,8 @@ fn by_path(sections: &[Section], steps: &[&str]) -> Vec<Section> {
             found.iter().flat_map(|part| opened(sections, part, &part.entries, step)).collect();
     }
     // What can stand there.
-    let types = scopes.into_iter().filter(|scope| found.iter().all(|part| part.title != scope.title));
+    let types =
+        scopes.into_iter().filter(|scope| found.iter().all(|part| part.title != scope.title));
     found.extend(types.collect::<Vec<_>>());
     found
 }
