@@ -48,7 +48,7 @@ pub(crate) struct LookArgs {
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     pub(crate) samples: Option<u32>,
     #[command(flatten)]
-    light: LightArgs,
+    pub(crate) light: LightArgs,
 }
 
 impl LookArgs {

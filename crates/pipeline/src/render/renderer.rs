@@ -37,9 +37,9 @@ pub struct Renderer {
     /// No draws, but room for them.
     draws: Vec<Draw<'static>>,
     spare: Vec<Vec<Vertex>>,
-    cancel: Cancel,
     shadows: ShadowMemory,
     nearest: Vec<Nearest>,
+    cancel: Cancel,
 }
 
 /// What a picture is put together in.
