@@ -31,6 +31,7 @@ mod viewpoint;
 mod wording;
 
 pub use advice::{Advice, advise};
+pub(crate) use bounds::DepthSpan;
 pub use error::SceneError;
 pub use file::SceneFile;
 pub use ground::Ground;
