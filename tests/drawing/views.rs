@@ -82,7 +82,14 @@ pub fn scene(model: &Arc<Model>, kind: Kind, side: usize) -> Result<Scene, Strin
         environment: None,
         develop: pipeline::shade::Develop::default(),
         style: Style::Flat,
-        image: ImageSpec { width, height, background: [0.0; 4], backdrop: None, samples },
+        image: ImageSpec {
+            width,
+            height,
+            background: [0.0; 4],
+            backdrop: None,
+            samples,
+            anisotropy: 1,
+        },
         overlays: Vec::new(),
         sections: Vec::new(),
     })

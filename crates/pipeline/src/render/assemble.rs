@@ -31,8 +31,15 @@ pub(super) fn assemble<'a>(
 ) -> Result<Memory<'a>, RenderError> {
     let stage = Stage::of(scene)?;
     let is_flat = scene.style == Style::Flat;
-    let mut assembler =
-        Assembler { stage, viewer: scene.shot.viewer(), is_flat, threads, memory, next_id: 0 };
+    let mut assembler = Assembler {
+        stage,
+        viewer: scene.shot.viewer(),
+        is_flat,
+        anisotropy: scene.image.anisotropy,
+        threads,
+        memory,
+        next_id: 0,
+    };
     for (number, placed) in scene.models.iter().enumerate() {
         for (instance, primitive) in placed.model.shown_primitives() {
             let texture = |slot, used: TextureUse| textures.chain(number, slot, used.texture);
@@ -52,6 +59,7 @@ pub(super) struct Assembler<'a> {
     pub(super) stage: Stage,
     viewer: HPoint<World>,
     is_flat: bool,
+    anisotropy: u32,
     threads: usize,
     pub(super) memory: Memory<'a>,
     pub(super) next_id: u32,
@@ -96,7 +104,7 @@ impl<'a> Assembler<'a> {
             first_id,
             primitive,
             material,
-            maps: Maps::of(material, texture),
+            maps: Maps::of(material, self.anisotropy, texture),
             vertices: self.memory.spare.pop().unwrap_or_default(),
             tangents: tangents(model, instance, primitive, material, &posed, model_to_world),
             smooth: normals.is_some() && !self.is_flat,

@@ -1,7 +1,9 @@
 //! From what a person wrote to what drawing needs, or to an error that points.
 
 use super::bounds::world_points;
-use super::file::{BackgroundFile, Choice, Finite, ModelFile, OverlayFile, ToneMappingFile};
+use super::file::{
+    BackgroundFile, Choice, EnvironmentFile, Finite, ModelFile, OverlayFile, ToneMappingFile,
+};
 use super::ground::resolve_ground;
 use super::lights::resolve_lights;
 use super::locate::Step::{Field, Index};
@@ -120,7 +122,9 @@ pub(super) fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSp
     })?;
     let background = match &file.image.background {
         BackgroundFile::Transparent => [0.0; 4],
-        BackgroundFile::Environment { .. } if file.environment.is_none() => {
+        BackgroundFile::Environment { .. }
+            if matches!(file.environment, None | Some(EnvironmentFile::Dark)) =>
+        {
             let help = Some("add one, such as environment: Studio()".to_owned());
             let at = [Field("image"), Field("background")];
             return Err(origin.fault(&at, "the scene has no environment to be seen", help));
@@ -141,7 +145,13 @@ pub(super) fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSp
         }
         _ => None,
     };
-    Ok(ImageSpec { width, height, background, backdrop, samples })
+    let anisotropy = file.image.anisotropy;
+    if !(1..=8).contains(&anisotropy) {
+        let message = format!("textures cannot be read at {anisotropy} places");
+        let help = Some("from 1 to 8 are possible".to_owned());
+        return Err(origin.fault(&[Field("image"), Field("anisotropy")], message, help));
+    }
+    Ok(ImageSpec { width, height, background, backdrop, samples, anisotropy })
 }
 
 pub(super) fn no_model(origin: &Origin) -> SceneError {

@@ -17,9 +17,12 @@ use glam::DMat4;
 use raster::Nearest;
 use std::f32::consts::{FRAC_PI_2, PI};
 
-/// How many planes through the view are looked along, and how many steps to either side.
+/// How many planes through the view are looked along.
 const SLICES: usize = 8;
-const STEPS: usize = 10;
+/// The most steps to either side, and how many pixels there are to each where things are near enough: fewer steps show as copies of
+/// the borders of what is in the way.
+const STEPS: f32 = 32.0;
+const PER_STEP: f32 = 5.0;
 /// No step is farther away than so many pixels.
 const FARTHEST: f32 = 200.0;
 
@@ -136,8 +139,9 @@ impl ScreenSpace {
     ) -> f32 {
         let low = libm::cosf(lowest);
         let mut highest = low;
-        for step in 0..STEPS {
-            let t = (step as f32 + 0.5) / STEPS as f32;
+        let steps = (reach / PER_STEP).clamp(6.0, STEPS) as i32;
+        for step in 0..steps {
+            let t = (step as f32 + 0.5) / steps as f32;
             let far = 1.0 + t * t * (reach - 1.0);
             let (x, y) = (here[0] + way[0] * far, here[1] + way[1] * far);
             let Some(depth) = self.depth(x, y) else { continue };

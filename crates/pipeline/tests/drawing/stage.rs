@@ -43,6 +43,7 @@ pub fn scene(model: Model, shot: Shot) -> Scene {
             background: [0.0; 4],
             backdrop: None,
             samples: raster::Samples::One,
+            anisotropy: 1,
         },
         overlays: Vec::new(),
         sections: Vec::new(),

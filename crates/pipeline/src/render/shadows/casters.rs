@@ -81,7 +81,7 @@ pub(super) fn add_casters<'a>(
                     first_id,
                     primitive,
                     material,
-                    maps: Maps::of(material, texture),
+                    maps: Maps::of(material, 1, texture),
                     vertices,
                     tangents: Tangents::None,
                     smooth: false,

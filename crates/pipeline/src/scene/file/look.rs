@@ -69,6 +69,9 @@ pub struct ImageFile {
     pub exposure_ev: Option<Finite>,
     /// The curve that brings bright light into the range of a picture. Default: none.
     pub tone_mapping: ToneMappingFile,
+    /// How many places textures are read at along the longer side of what a pixel covers of them, from 1 to 8: surfaces that are
+    /// seen from the side are blurred with 1, and sharp with more. Default: 4.
+    pub anisotropy: u32,
 }
 
 impl Default for ImageFile {
@@ -79,6 +82,7 @@ impl Default for ImageFile {
             samples: 4,
             exposure_ev: None,
             tone_mapping: ToneMappingFile::None,
+            anisotropy: 4,
         }
     }
 }
