@@ -18,7 +18,8 @@ fn next(renderer: &mut Renderer, scene: &Scene, textures: &Textures<'_>, picture
 
 #[test]
 fn a_second_picture_allocates_but_short_lists() {
-    for name in ["crates.ron", "panes.ron", "room.ron", "teapot.ron"] {
+    for name in ["crates.ron", "panes.ron", "product.ron", "room.ron", "shadows.ron", "teapot.ron"]
+    {
         let scene = scene(name, (160, 120));
         let models = scene.models.clone();
         let textures = Textures::of(&models);
