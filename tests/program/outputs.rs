@@ -82,8 +82,11 @@ fn pictures_come_from_the_standard_input_and_go_to_the_standard_output() {
     assert_eq!(file.code, 0);
     let expected = std::fs::read(bench.path("file.png")).expect("a picture");
     let piped = bench.pipe(&[&["render", "-", "-o", "-"], &small[..]].concat(), &model);
-    assert!(piped == (0, expected.clone()), "a model in, a picture out");
+    assert!(piped == (0, expected), "a model in, a picture out");
     let scene = b"Scene(models: [(path: \"crate.glb\")], image: (size: (24, 18)))";
+    bench.write("scene.ron", scene);
+    assert_eq!(bench.run(&["render", "scene.ron"]).code, 0);
+    let expected = std::fs::read(bench.path("scene.png")).expect("a picture");
     assert!(bench.pipe(&["render", "-", "-o", "-"], scene) == (0, expected), "a scene in");
     for (format, magic) in [("svg", &b"<svg"[..]), ("pdf", b"%PDF-")] {
         let (code, bytes) = bench.pipe(&["render", "-", "-o", "-", "--format", format], &model);

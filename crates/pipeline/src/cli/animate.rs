@@ -47,7 +47,7 @@ pub(crate) struct AnimateArgs {
 }
 
 pub(crate) fn run(args: &AnimateArgs) -> Result<(), Failure> {
-    let (origin, mut file) = open(&args.input, &args.load.options())?;
+    let (origin, mut file) = open(&args.input, &args.look.import(&args.load))?;
     args.look.override_in(&mut file);
     let scene =
         Scene::resolve(&origin, &file, &ResolveOptions { import: args.look.import(&args.load) })?;

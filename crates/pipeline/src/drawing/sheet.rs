@@ -164,7 +164,7 @@ impl Sheet {
         Ok(page)
     }
 
-    /// The lines of a view. Hidden ones would only confuse in an axonometric view.
+    /// The lines of a view. Hidden ones would only confuse in an axonometric view, and where a cut shows what is inside.
     fn draw_view(
         &self,
         page: &mut Page,
@@ -173,11 +173,11 @@ impl Sheet {
         threads: usize,
     ) -> Result<(), SheetError> {
         let view = placed.view;
-        let is_principal = NamedView::PRINCIPAL.contains(&view.name);
-        let hidden = if is_principal { self.look.hidden } else { HiddenLines::Removed };
-        let look = LineLook { hidden, ..self.look };
         let mut scene = scene.clone();
         scene.sections.retain(|plane| placed.shows(*plane));
+        let is_outside = NamedView::PRINCIPAL.contains(&view.name) && scene.sections.is_empty();
+        let hidden = if is_outside { self.look.hidden } else { HiddenLines::Removed };
+        let look = LineLook { hidden, ..self.look };
         let drawing = view.draw(scene, &look, placed.scale, threads)?;
         let placement = view.placement(&drawing, placed.scale, placed.centre);
         let (prefix, ink) = (format!("{}-", view.name), self.look.ink.unwrap_or(INK));

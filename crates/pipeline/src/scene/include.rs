@@ -200,28 +200,29 @@ fn laid_over(below: Layer, above: Layer) -> Layer {
         sections,
         sheet,
     } = above.file;
+    let old = below.file;
     let has = |field: &str| above.fields.contains_key(field);
     let file = SceneFile {
         include,
-        models: joined(below.file.models, models),
-        camera: if has("camera") { camera } else { below.file.camera },
-        lights: match (below.file.lights, lights) {
-            (Some(below), Some(above)) => Some(joined(below, above)),
-            (below, above) => above.or(below),
+        models: joined(old.models, models),
+        camera: if has("camera") { camera } else { old.camera },
+        lights: match (old.lights, lights) {
+            (Some(old), Some(new)) => Some(joined(old, new)),
+            (old, new) => new.or(old),
         },
-        shadows: if has("shadows") { shadows } else { below.file.shadows },
-        ground: if has("ground") { ground } else { below.file.ground },
+        shadows: if has("shadows") { shadows } else { old.shadows },
+        ground: if has("ground") { ground } else { old.ground },
+        environment: if has("environment") { environment } else { old.environment },
         ambient_occlusion: if has("ambient_occlusion") {
             ambient_occlusion
         } else {
-            below.file.ambient_occlusion
+            old.ambient_occlusion
         },
-        environment: if has("environment") { environment } else { below.file.environment },
-        style: if has("style") { style } else { below.file.style },
-        image: if has("image") { image } else { below.file.image },
-        overlays: joined(below.file.overlays, overlays),
-        sections: joined(below.file.sections, sections),
-        sheet: if has("sheet") { sheet } else { below.file.sheet },
+        style: if has("style") { style } else { old.style },
+        image: if has("image") { image } else { old.image },
+        overlays: joined(old.overlays, overlays),
+        sections: joined(old.sections, sections),
+        sheet: if has("sheet") { sheet } else { old.sheet },
     };
     let fields = below.fields.into_iter().chain(above.fields).collect();
     let mut lists = below.lists;

@@ -86,7 +86,7 @@ impl Order<'_> {
 
     /// Makes one picture; gives the warnings.
     fn picture(&self, input: &Path, output: &Path) -> Result<Vec<String>, Failure> {
-        let (origin, mut file) = open(input, &self.args.load.options())?;
+        let (origin, mut file) = open(input, &self.args.look.import(&self.args.load))?;
         self.args.look.override_in(&mut file);
         let scene = Scene::resolve(
             &origin,

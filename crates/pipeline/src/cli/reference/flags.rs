@@ -40,7 +40,16 @@ fn argument(arg: &Arg) -> Entry {
     } else {
         format!(" [default: {defaults}]")
     };
-    let words = if takes_value { arg.get_possible_values() } else { Vec::new() };
+    let mut words = if takes_value { arg.get_possible_values() } else { Vec::new() };
+    words.retain(|word| !word.is_hide_set());
+    // Words that speak for themselves need no line each.
+    let silent = words.iter().all(|word| word.get_help().is_none());
+    let choice = if silent && !words.is_empty() {
+        let names: Vec<String> = words.drain(..).map(|word| word.get_name().to_owned()).collect();
+        format!(": {}", names.join(", "))
+    } else {
+        String::new()
+    };
     let word = |word: &clap::builder::PossibleValue| Entry {
         term: word.get_name().to_owned(),
         about: word.get_help().map(ToString::to_string).unwrap_or_default(),
@@ -50,7 +59,7 @@ fn argument(arg: &Arg) -> Entry {
         term: if flags.is_empty() { value.clone() } else { flags.join(", ") },
         value: if flags.is_empty() { String::new() } else { value },
         note: if arg.is_required_set() { "needed".to_owned() } else { String::new() },
-        about: format!("{about}{default}"),
-        inner: words.iter().filter(|word| !word.is_hide_set()).map(word).collect(),
+        about: format!("{about}{choice}{default}"),
+        inner: words.iter().map(word).collect(),
     }
 }

@@ -65,8 +65,12 @@ fn looks(args: &RenderArgs) -> Vec<LookArgs> {
     if args.views.is_empty() {
         return vec![args.look.clone()];
     }
-    let with = |&view| LookArgs { view: Some(view), ..args.look.clone() };
-    args.views.iter().map(with).collect()
+    let from = |&view| {
+        let mut look = args.look.clone();
+        look.view = Some(view);
+        look
+    };
+    args.views.iter().map(from).collect()
 }
 
 /// The output that is asked for, or the usual one.

@@ -78,14 +78,14 @@ fn starter(path: &str, output: &str, scene: &Scene) -> String {
     views(&mut text, scene);
     text.push_str("// or Orthographic(), Isometric, Cavalier(), TwoPoint() …\nprojection: Perspective(fov_y_degrees: 35),\n),\n");
     if model.lights.is_empty() {
-        text.push_str("// Lux of the sun and of the light from everywhere; a white matt surface shows lux / π.\n");
-        text.push_str("lights: [Sun(direction: (-1, -2, -1), lux: 2.6), Ambient(lux: 0.9)],\n");
+        text.push_str("// Lux of a sun, besides the light from all around; a white matt surface shows lux / π.\n");
+        text.push_str("// lights: [Sun(direction: (-1, -2, -1), lux: 2.6)],\n");
     } else {
         text.push_str("// The lights of the model; more can be added: Sun(direction: (-1, -2, -1), lux: 2.6).\n");
         text.push_str("lights: [FromModels],\n");
     }
     text.push_str(
-        "// environment: Studio(),\n\n// or Flat, Wireframe, Lines(hidden: Dashed)\nstyle: Shaded,\n\
+        "// or Sky(), Uniform(), File(path: …)\nenvironment: Studio(),\n\n// or Flat, Wireframe, Lines(hidden: Dashed)\nstyle: Shaded,\n\
          image: Image(\nsize: (960, 720),\n// or Transparent\nbackground: Color(\"#f4f1ea\"),\n),\n\
          // overlays: [Axes(), Grid()],\n)\n",
     );

@@ -45,7 +45,7 @@ fn token(rest: &str, first: char) -> (Kind, usize) {
         ')' | ']' | '}' => (Kind::Close, 1),
         ',' => (Kind::Comma, 1),
         ':' => (Kind::Colon, 1),
-        '#' => (Kind::Line, line()),
+        '#' => (Kind::Line, rest.find(']').map_or_else(line, |end| end + 1)),
         '"' => (Kind::Word, 1 + string(&rest[1..])),
         '/' if rest.starts_with("//") => (Kind::Line, line()),
         '/' => (Kind::Block, block(rest)),
