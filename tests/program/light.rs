@@ -120,6 +120,7 @@ fn settings_of_shadows_out_of_range_are_pointed_at() {
             "a shadow map cannot have 9000 texels on a side",
         ),
         ("ambient_occlusion: (radius: 0)", "2:29", "a number greater than 0"),
+        ("image: (anisotropy: 9)", "2:21", "textures cannot be read at 9 places"),
         ("ground: Shadow(height: inf)", "2:24", "a finite number"),
     ] {
         bench.write("scene.ron", format!("Scene(models: [(path: \"crate.glb\")],\n{field})"));
