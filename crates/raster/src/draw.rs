@@ -114,10 +114,10 @@ impl Frame {
 }
 
 /// The rows of tiles of a part that are left, each with its pixels.
-struct Bands<'a, P> {
-    part: Part,
-    rows: (u32, u32),
-    target: &'a mut [P],
+pub(crate) struct Bands<'a, P> {
+    pub(crate) part: Part,
+    pub(crate) rows: (u32, u32),
+    pub(crate) target: &'a mut [P],
 }
 
 impl<'a, P> Iterator for Bands<'a, P> {

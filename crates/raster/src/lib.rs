@@ -52,6 +52,7 @@ mod frame;
 mod grid;
 mod instructions;
 mod memory;
+mod nearest;
 mod pieces;
 mod plane;
 mod primitive;
