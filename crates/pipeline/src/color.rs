@@ -2,6 +2,10 @@
 //!
 //! Both directions go by tables that are computed once with `libm`, so the bits are the same everywhere.
 
+mod deep;
+
+pub(crate) use deep::DeepEncoder;
+
 use raster::{Eight, Encode, WIDE};
 use std::sync::OnceLock;
 

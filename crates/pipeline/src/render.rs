@@ -8,7 +8,10 @@
 
 mod assemble;
 mod lines;
+mod paint;
+pub mod passes;
 mod pixel;
+mod region;
 mod renderer;
 mod shot;
 mod stage;
@@ -18,13 +21,15 @@ mod textures;
 mod vertices;
 
 pub use lines::draw;
+pub use paint::{Paint, band_rows};
+pub use passes::{Pass, PassBuffer, passes};
 pub use pixel::{Owner, PixelMakeup, SeenFragment, pixel};
+pub use region::{MAX_SIDE, Region};
 pub use renderer::Renderer;
 pub use shot::Shot;
 pub use textures::Textures;
 
-use crate::drawing::overlays;
-use crate::scene::{Scene, Style};
+use crate::scene::Scene;
 use crate::{Picture, Timings};
 
 /// A scene that cannot be rendered.
@@ -59,18 +64,7 @@ pub fn render_timed(
     threads: usize,
     timings: &Timings,
 ) -> Result<Picture, RenderError> {
-    match scene.style {
-        Style::Shaded | Style::Flat => {
-            let picture = surfaces(scene, threads, timings)?;
-            Ok(picture.under(&overlays(scene)))
-        }
-        Style::Wireframe | Style::Lines(_) => lines::picture(scene, threads, timings),
-    }
-}
-
-fn surfaces(scene: &Scene, threads: usize, timings: &Timings) -> Result<Picture, RenderError> {
-    let textures = timings.measure("mip chains", || Textures::of(&scene.models));
-    let mut picture = Picture::default();
-    Renderer::default().render(scene, &textures, threads, timings, &mut picture)?;
-    Ok(picture)
+    let whole = Region::whole(scene.image);
+    whole.check(scene.image)?;
+    Paint::new(scene, threads, timings)?.region(whole)
 }

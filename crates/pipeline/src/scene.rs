@@ -102,6 +102,14 @@ pub enum Style {
     Lines(LineLook),
 }
 
+impl Style {
+    /// Whether surfaces are drawn, and not only lines.
+    #[must_use]
+    pub const fn shows_surfaces(self) -> bool {
+        !matches!(self, Self::Wireframe | Self::Lines(_))
+    }
+}
+
 /// The picture to make.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ImageSpec {

@@ -136,12 +136,13 @@ fn named_view() -> impl TypedValueParser<Value = NamedView> {
 }
 
 fn parse_size(text: &str) -> Result<(u32, u32), String> {
-    let fault =
-        || format!("expected WIDTHxHEIGHT, such as 1920x1080, each from 1 to {}", raster::MAX_SIDE);
+    let fault = || {
+        format!("expected WIDTHxHEIGHT, such as 1920x1080, each from 1 to {}", pipeline::MAX_SIDE)
+    };
     let (width, height) = text.split_once(['x', 'X']).ok_or_else(fault)?;
     let side = |digits: &str| {
         let side: u32 = digits.parse().map_err(|_| fault())?;
-        (1..=raster::MAX_SIDE).contains(&side).then_some(side).ok_or_else(fault)
+        (1..=pipeline::MAX_SIDE).contains(&side).then_some(side).ok_or_else(fault)
     };
     Ok((side(width)?, side(height)?))
 }

@@ -27,9 +27,20 @@ pub(super) fn assemble<'a>(
     threads: usize,
     memory: Memory<'a>,
 ) -> Result<Memory<'a>, RenderError> {
-    let stage = Stage::of(scene)?;
+    assemble_as(scene, textures, threads, memory, None)
+}
+
+/// The same, with all primitives covering what is behind them in this way, whatever their materials say.
+pub(super) fn assemble_as<'a>(
+    scene: &'a Scene,
+    textures: &'a Textures<'a>,
+    threads: usize,
+    memory: Memory<'a>,
+    cover: Option<Cover>,
+) -> Result<Memory<'a>, RenderError> {
+    let stage = Stage::of(scene, memory.sheet)?;
     let is_flat = scene.style == Style::Flat;
-    let mut assembler = Assembler { stage, is_flat, threads, memory, next_id: 0 };
+    let mut assembler = Assembler { stage, is_flat, cover, threads, memory, next_id: 0 };
     for (number, placed) in scene.models.iter().enumerate() {
         for (instance, primitive) in placed.model.shown_primitives() {
             let texture = |slot, used: TextureUse| textures.chain(number, slot, used.texture);
@@ -37,7 +48,7 @@ pub(super) fn assemble<'a>(
         }
     }
     if let Some(blur) = scene.image.backdrop {
-        assembler.backdrop(scene, blur)?;
+        assembler.backdrop(blur)?;
     }
     Ok(assembler.memory)
 }
@@ -97,6 +108,8 @@ impl Images {
 struct Assembler<'a> {
     stage: Stage,
     is_flat: bool,
+    /// How all primitives cover what is behind them, if not as their materials have it.
+    cover: Option<Cover>,
     threads: usize,
     memory: Memory<'a>,
     next_id: u32,
@@ -169,7 +182,7 @@ impl<'a> Assembler<'a> {
     }
 
     /// Adds the environment behind everything: two triangles at the far plane that fill the picture.
-    fn backdrop(&mut self, scene: &Scene, blur: f32) -> Result<(), RenderError> {
+    fn backdrop(&mut self, blur: f32) -> Result<(), RenderError> {
         let first_id = self.next_id;
         self.next_id = first_id.checked_add(2).ok_or(RenderError::TooManyPrimitives)?;
         let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
@@ -177,7 +190,7 @@ impl<'a> Assembler<'a> {
         let ndc_to_screen = self.stage.ndc_to_screen;
         // With one w for all of them, what they carry is linear on the screen, as places on a plane across the view are.
         let vertices = corners.map(|c| ScreenVertex::snap(ndc_to_screen.point(c), 1.0));
-        let clip_to_world = scene.shot.world_to_clip().raw().inverse();
+        let clip_to_world = self.stage.world_to_clip.raw().inverse();
         let vertex = |corner: Point<Ndc>| {
             let place = clip_to_world * corner.raw().extend(1.0);
             let [x, y, z] = (place.truncate() / place.w).as_vec3().to_array();
@@ -207,7 +220,7 @@ impl<'a> Assembler<'a> {
     /// Adds triangles none of which has to be clipped.
     fn mesh(&mut self, draw: &Draw<'_>) {
         let triangles = draw.primitive.indices.as_chunks::<3>().0;
-        let cover = cover_of(draw.material);
+        let cover = self.cover.unwrap_or_else(|| cover_of(draw.material));
         self.memory.frame.mesh(
             &self.memory.images.screen,
             triangles,
@@ -220,7 +233,7 @@ impl<'a> Assembler<'a> {
     /// Clips the primitive's points, lines or triangles and adds what is left to the frame.
     fn submit(&mut self, draw: &Draw<'_>) {
         let primitive = draw.primitive;
-        let cover = cover_of(draw.material);
+        let cover = self.cover.unwrap_or_else(|| cover_of(draw.material));
         let cull = self.cull(draw);
         let items = primitive.indices.chunks_exact(primitive.topology.corners());
         for (id, corners) in (draw.first_id..).zip(items) {

@@ -1,10 +1,10 @@
 //! Line drawings of a scene: from the models to the page that every output writes.
 
 use super::RenderError;
+use crate::Timings;
 use crate::color::SrgbEncoder;
 use crate::drawing::{self, Ink, LineLook, Page};
 use crate::scene::{Scene, Style};
-use crate::{Picture, Timings};
 
 /// The line drawing of a scene on a page of the picture's size, 96 pixels to the inch. Styles that show surfaces have their
 /// hidden lines removed.
@@ -22,18 +22,6 @@ pub fn draw(scene: &Scene, threads: usize, timings: &Timings) -> Result<Page, Re
         page
     };
     Ok(timings.measure("chains", page))
-}
-
-/// The line drawing as a picture.
-pub(super) fn picture(
-    scene: &Scene,
-    threads: usize,
-    timings: &Timings,
-) -> Result<Picture, RenderError> {
-    let page = draw(scene, threads, timings)?;
-    let (width, height) = (scene.image.width, scene.image.height);
-    let too_large = raster::RasterError::Size { x: 0, y: 0, width, height };
-    timings.measure("pixels", || page.to_picture(width, height)).ok_or(too_large.into())
 }
 
 impl Style {

@@ -4,14 +4,14 @@
 //! colour is the picture's.
 
 use super::RenderError;
-use super::assemble::{Images, assemble};
-use super::renderer::{Memory, shading};
+use super::assemble::assemble;
+use super::region::PartOfSheet;
+use super::renderer::{Renderer, shading};
 use super::textures::Textures;
 use crate::color::SrgbEncoder;
 use crate::model::Model;
-use crate::scene::{Scene, Style};
-use crate::shade::DrawList;
-use raster::{Fragment, Frame, Surface};
+use crate::scene::Scene;
+use raster::{Fragment, Surface};
 use std::sync::{Mutex, PoisonError};
 
 /// What one pixel of a picture is made of.
@@ -54,20 +54,15 @@ pub struct Owner {
 /// As [`render`](crate::render()).
 pub fn pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelMakeup>, RenderError> {
     let image = scene.image;
-    let shaded = matches!(scene.style, Style::Shaded | Style::Flat);
-    if !shaded || x >= image.width || y >= image.height {
+    if !scene.style.shows_surfaces() || x >= image.width || y >= image.height {
         return Ok(None);
     }
     let textures = Textures::of(&scene.models);
-    let memory = Memory {
-        frame: Frame::part([x, y], [1, 1], image.samples)?,
-        draws: DrawList::default(),
-        images: Images::default(),
-        spare: Vec::new(),
-    };
+    let one = PartOfSheet::of_pixel(image, [x, y]);
+    let memory = Renderer::default().lend(scene, one, 1)?;
     let memory = assemble(scene, &textures, 1, memory)?;
     let surface = shading(scene, &memory.draws, &memory.frame);
-    let witness = Witness { surface: &surface, place: [x, y], seen: Mutex::default() };
+    let witness = Witness { surface: &surface, place: one.corner(), seen: Mutex::default() };
     let mut color = [[0; 4]];
     memory.frame.draw(&witness, image.background, 1, &mut color, SrgbEncoder::shared());
     let mut seen = witness.seen.into_inner().unwrap_or_else(PoisonError::into_inner);

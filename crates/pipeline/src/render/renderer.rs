@@ -2,8 +2,9 @@
 
 use super::RenderError;
 use super::assemble::{Images, assemble};
+use super::region::{PartOfSheet, Region, Sheet, sheets};
 use super::textures::Textures;
-use crate::color::SrgbEncoder;
+use crate::picture::Channel;
 use crate::scene::Scene;
 use crate::shade::{Draw, DrawList, Shading, Vertex};
 use crate::{Picture, Timings};
@@ -40,6 +41,8 @@ pub struct Renderer {
 #[derive(Debug)]
 pub(super) struct Memory<'a> {
     pub(super) frame: Frame,
+    /// The sheet of the picture that the frame is a part of.
+    pub(super) sheet: Sheet,
     pub(super) draws: DrawList<'a>,
     pub(super) images: Images,
     /// Lists for what the vertices of draws carry.
@@ -52,50 +55,83 @@ impl Renderer {
     ///
     /// # Errors
     /// If the picture's size is out of range or the scene holds too much.
-    pub fn render(
+    pub fn render<C: Channel>(
         &mut self,
         scene: &Scene,
         textures: &Textures<'_>,
         threads: usize,
         timings: &Timings,
-        picture: &mut Picture,
+        picture: &mut Picture<C>,
     ) -> Result<(), RenderError> {
-        let image = scene.image;
-        let memory = self.lend(scene, threads)?;
-        let memory = timings.measure("vertices", || assemble(scene, textures, threads, memory))?;
-        let Memory { frame, draws, .. } = &memory;
-        let shading = shading(scene, draws, frame);
-        picture.resize(image.width, image.height);
-        let encoder = SrgbEncoder::shared();
-        timings.measure("pixels", || {
-            frame.draw(&shading, image.background, threads, &mut picture.pixels, encoder);
-        });
-        self.take_back(memory);
+        let whole = Region::whole(scene.image);
+        self.render_region(scene, textures, whole, threads, timings, picture)
+    }
+
+    /// Renders a part of the picture of a scene. Its pixels are those that the whole picture has there, bit for bit.
+    ///
+    /// # Errors
+    /// If the region is empty, too large, or not in the picture, or the scene holds too much.
+    pub fn render_region<C: Channel>(
+        &mut self,
+        scene: &Scene,
+        textures: &Textures<'_>,
+        region: Region,
+        threads: usize,
+        timings: &Timings,
+        picture: &mut Picture<C>,
+    ) -> Result<(), RenderError> {
+        region.check(scene.image)?;
+        picture.resize(region.width, region.height);
+        let parts = sheets(scene.image, region);
+        let mut patch = Vec::new();
+        for part in &parts {
+            let memory = self.lend(scene, *part, threads)?;
+            let memory =
+                timings.measure("vertices", || assemble(scene, textures, threads, memory))?;
+            let (background, whole) = (scene.image.background, parts.len() == 1);
+            let shading = shading(scene, &memory.draws, &memory.frame);
+            let target = if whole {
+                &mut picture.pixels
+            } else {
+                patch.resize(part.area(), [C::default(); 4]);
+                &mut patch
+            };
+            timings.measure("pixels", || {
+                memory.frame.draw(&shading, background, threads, target, C::encoder());
+            });
+            if !whole {
+                part.put(&patch, region, &mut picture.pixels);
+            }
+            self.take_back(memory);
+        }
         Ok(())
     }
 
-    /// The memory, with an empty frame for the scene's picture.
+    /// The memory, with an empty frame for a part of the scene's picture.
     pub(super) fn lend<'a>(
         &mut self,
         scene: &Scene,
+        part: PartOfSheet,
         threads: usize,
     ) -> Result<Memory<'a>, RenderError> {
-        let image = scene.image;
+        let samples = scene.image.samples;
+        let ([x, y], [width, height]) = (part.corner(), part.size());
         let frame = match self.frame.take() {
-            Some(mut frame) => {
-                frame.restart(image.width, image.height, image.samples)?;
+            Some(mut frame) if [x, y] == [0, 0] => {
+                frame.restart(width, height, samples)?;
                 frame
             }
-            None => Frame::new(image.width, image.height, image.samples)?,
+            _ => Frame::part([x, y], [width, height], samples)?,
         };
         let draws = DrawList { draws: emptied(std::mem::take(&mut self.draws)) };
         let images = std::mem::take(&mut self.images);
         let spare = std::mem::take(&mut self.spare);
-        Ok(Memory { frame: frame.with_threads(threads), draws, images, spare })
+        let frame = frame.with_threads(threads);
+        Ok(Memory { frame, sheet: part.sheet, draws, images, spare })
     }
 
     fn take_back(&mut self, memory: Memory<'_>) {
-        let Memory { frame, mut draws, images, mut spare } = memory;
+        let Memory { frame, mut draws, images, mut spare, .. } = memory;
         // The first list that is asked for next time is the one of the first draw.
         spare.extend(draws.draws.drain(..).rev().map(|draw| draw.vertices));
         *self = Self { frame: Some(frame), images, draws: emptied(draws.draws), spare };

@@ -1,6 +1,7 @@
 //! The way from the world to the screen.
 
 use super::RenderError;
+use super::region::Sheet;
 use crate::scene::Scene;
 use clip::{Extent, Outcode, Volume, clip_segment};
 use glam::DVec3;
@@ -11,10 +12,12 @@ use viewport::Viewport;
 /// The way from the world to the screen.
 #[derive(Debug)]
 pub(super) struct Stage {
-    world_to_clip: Projective<World, Clip>,
+    /// With the sheet of the picture in the whole of the view volume.
+    pub(super) world_to_clip: Projective<World, Clip>,
     /// What is kept: the view volume with a guard band.
     pub(super) volume: Volume,
     pub(super) ndc_to_screen: Affine<Ndc, Screen>,
+    screen_to_ndc: Affine<Screen, Ndc>,
     pub(super) mirrors: bool,
 }
 
@@ -30,20 +33,21 @@ pub(super) enum Whereabouts {
 }
 
 impl Stage {
-    pub(super) fn of(scene: &Scene) -> Result<Self, RenderError> {
-        let (width, height) = (scene.image.width, scene.image.height);
-        let viewport = Viewport::image(width, height)?;
+    pub(super) fn of(scene: &Scene, sheet: Sheet) -> Result<Self, RenderError> {
+        let viewport = Viewport::image(sheet.area.width, sheet.area.height)?;
         // Clip only what would leave the rasteriser's grid, with a pixel to spare: its tiles cut the rest (CL-4).
         let band = |side: u32| {
             let half = 0.5 * f64::from(side);
             (1.0 - (GUARD_BAND.start() + 1.0) / half).clamp(1.0, Volume::MAX_GUARD_BAND)
         };
         let volume = Volume::CHAPTER;
-        let volume = volume.with_guard_band(band(width), band(height)).unwrap_or(volume);
+        let (across, down) = (band(sheet.area.width), band(sheet.area.height));
+        let volume = volume.with_guard_band(across, down).unwrap_or(volume);
         Ok(Self {
-            world_to_clip: scene.shot.world_to_clip(),
+            world_to_clip: sheet.world_to_clip(scene)?,
             volume,
             ndc_to_screen: viewport.ndc_to_screen(),
+            screen_to_ndc: viewport.screen_to_ndc(),
             mirrors: scene.shot.mirrors(),
         })
     }
@@ -96,6 +100,11 @@ impl Stage {
     /// The visible part of a line; `None` if there is none.
     pub(super) fn visible_segment(&self, ends: [HPoint<Clip>; 2]) -> Option<clip::ClippedSegment> {
         clip_segment(ends[0], ends[1], &self.volume)
+    }
+
+    /// From pixels back to the canonical volume.
+    pub(super) fn screen_to_ndc(&self) -> Affine<Screen, Ndc> {
+        self.screen_to_ndc
     }
 
     /// The divide and the viewport.
