@@ -15,6 +15,7 @@ mod info;
 mod matrix;
 mod messages;
 mod overlays;
+mod parts;
 mod pictures;
 mod real;
 mod variants;

@@ -4,6 +4,7 @@ mod animate;
 mod args;
 mod batch;
 mod check;
+mod compare;
 mod explain;
 mod failure;
 mod format;
@@ -11,10 +12,15 @@ mod info;
 mod loading;
 mod look;
 mod matrix;
+mod paint;
+mod part;
+mod passes;
 mod pick;
 mod progress;
 mod render;
+mod report;
 mod sheet;
+mod show;
 
 pub(crate) use args::Args;
 pub(crate) use failure::Failure;
@@ -26,7 +32,7 @@ use std::process::ExitCode;
 /// Does what was asked for.
 pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
     match args.command {
-        Command::Render(args) => render::run(&args)?,
+        Command::Render(args) => return render::run(&args),
         Command::Sheet(args) => sheet::run(&args)?,
         Command::Info(args) => info::run(&args)?,
         Command::Check(args) => return check::run(&args),

@@ -214,7 +214,8 @@ impl<'a> Camera<'a> {
         let Film { scene, motion, frames, middle } = self.film;
         let part = frame as f64 / (*frames).max(1) as f64;
         motion.apply(&mut self.scene.models, &scene.models, *middle, part);
-        if !scene.style.shows_surfaces() || !scene.overlays.is_empty() {
+        if !scene.style.shows_surfaces() || scene.style.has_outlines() || !scene.overlays.is_empty()
+        {
             return render(&self.scene, 1);
         }
         let mut picture = Picture::default();

@@ -17,7 +17,8 @@ mod timings;
 pub use output::{Draft, OutputError, PngRows, encode_png, write_file};
 pub use picture::{Channel, Picture};
 pub use render::{
-    MAX_SIDE, Paint, Region, RenderError, Renderer, Textures, draw, render, render_timed,
+    MAX_SIDE, Paint, PaintError, Region, RenderError, Renderer, Textures, draw, render,
+    render_timed,
 };
 pub use scene::{Origin, ResolveError, Scene, SceneError, SceneFile};
 pub use timings::Timings;

@@ -8,6 +8,7 @@
 
 mod assemble;
 mod lines;
+mod needs;
 mod paint;
 pub mod passes;
 mod pixel;
@@ -21,7 +22,7 @@ mod textures;
 mod vertices;
 
 pub use lines::draw;
-pub use paint::{Paint, band_rows};
+pub use paint::{Paint, PaintError, band_rows};
 pub use passes::{Pass, PassBuffer, passes};
 pub use pixel::{Owner, PixelMakeup, SeenFragment, pixel};
 pub use region::{MAX_SIDE, Region};

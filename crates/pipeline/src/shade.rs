@@ -18,6 +18,7 @@ mod microfacet;
 mod normal;
 mod reflection;
 mod seen;
+mod styled;
 mod substance;
 mod surroundings;
 mod texture;
@@ -29,6 +30,7 @@ pub use draw::{Draw, DrawList, Tangents};
 pub use environment::Environment;
 pub use light::Light;
 pub use maps::{Map, Maps};
+pub use styled::{Look, Styled};
 pub use surroundings::{Sky, studio};
 pub use texture::{MipChain, Texels};
 

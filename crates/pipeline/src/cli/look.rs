@@ -86,6 +86,15 @@ impl From<StyleArg> for StyleFile {
         match style {
             StyleArg::Shaded => Self::Shaded,
             StyleArg::Flat => Self::Flat,
+            StyleArg::Gouraud => Self::Gouraud,
+            StyleArg::Clay => Self::Clay,
+            StyleArg::Matcap => Self::Matcap,
+            StyleArg::Normals => Self::Normals,
+            StyleArg::Depth => Self::Depth,
+            StyleArg::Uv => Self::UvChecker,
+            StyleArg::Ids => Self::Ids,
+            StyleArg::Toon => Self::Toon,
+            StyleArg::XRay => Self::XRay,
             StyleArg::Wireframe => Self::Wireframe,
             StyleArg::DepthCued => Self::depth_cued(),
             StyleArg::Lines => Self::removed(),
@@ -122,6 +131,7 @@ impl From<OverlayArg> for OverlayFile {
             OverlayArg::Grid => Self::Grid { step: None },
             OverlayArg::Horizon => Self::Horizon,
             OverlayArg::VanishingPoints => Self::VanishingPoints,
+            OverlayArg::Edges => Self::Edges,
         }
     }
 }

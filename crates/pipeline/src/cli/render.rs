@@ -2,52 +2,57 @@
 
 use super::args::RenderArgs;
 use super::format::Format;
+use super::paint::Painting;
 use super::progress::Progress;
-use super::{Failure, complain};
+use super::{Failure, complain, report, show};
 use pipeline::drawing::{self, Agreement, Hidden, Options};
 use pipeline::import::ImportOptions;
-use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::SceneFile;
-use pipeline::{Origin, Scene, Timings, draw, render_timed};
+use pipeline::scene::{Outputs, ResolveOptions};
+use pipeline::{Origin, Scene, Timings};
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 use std::time::Duration;
 
 /// The most warnings of one model that are told; the rest is counted.
 const MOST_WARNINGS: usize = 8;
 
-pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
+pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
     let output = output_of(args)?;
     let format = Format::of(&output)?;
     let progress = Progress::start("loading");
     let (origin, mut file) = open(&args.input)?;
     args.look.override_in(&mut file);
-    let timings = if args.timings { Timings::measuring() } else { Timings::default() };
+    args.part.override_in(&mut file);
+    args.passes.override_in(&mut file);
+    let timings = if args.timings || args.json { Timings::measuring() } else { Timings::default() };
     let import = ImportOptions { timings: timings.clone(), ..args.load.options() };
-    let options = ResolveOptions { import };
-    let scene = Scene::resolve(&origin, &file, &options)?;
+    let outputs = Outputs::of(&origin, &file)?;
+    let scene = Scene::resolve(&origin, &file, &ResolveOptions { import })?;
     progress.stage("rendering");
-    let bytes = match format {
-        Format::Png => {
-            let picture = render_timed(&scene, threads(args.threads), &timings)?;
-            timings.measure("encode", || picture.to_png())
-        }
-        Format::Svg | Format::Pdf => {
-            let page = draw(&scene, threads(args.threads), &timings)?;
-            timings.measure("encode", || format.vectors(&[page]))
-        }
-    };
-    progress.stage("writing");
-    timings.measure("write", || pipeline::write_file(&output, &bytes))?;
-    let agreement = args.verify.then(|| compared(&scene, threads(args.threads))).transpose()?;
+    let threads = threads(args.threads);
+    let painting =
+        Painting { args, scene: &scene, outputs, output, format, threads, timings: &timings };
+    let painted = painting.write(&progress)?;
+    let agreement = args.verify.then(|| compared(&scene, threads)).transpose()?;
     drop(progress);
     if let Some(agreement) = agreement {
         // Nothing else can be done where nobody listens.
         let _ = writeln!(std::io::stderr(), "{}", told(&agreement));
     }
-    tell(&timings);
-    warn(&scene);
-    Ok(())
+    if args.timings {
+        tell(&timings);
+    }
+    if args.show {
+        show::show(&painted)?;
+    }
+    if args.json {
+        report::tell(&painting, &painted)?;
+    } else {
+        warn(&scene);
+    }
+    Ok(painted.verdict(args.json))
 }
 
 /// The scene's line drawing against its z-buffer image. Lines that show hidden parts as visible are left out of it.

@@ -1,14 +1,13 @@
 //! The geometry half of the pipeline: from the meshes of a scene to the primitives of a frame.
 
 use super::RenderError;
+use super::needs::Needs;
 use super::renderer::Memory;
 use super::stage::{Stage, Whereabouts, all};
 use super::textures::Textures;
-use super::vertices::{Parts, tangents, uv_set};
-use crate::model::{
-    AlphaMode, Instance, Material, Posed, Primitive, TextureSlot, TextureUse, Topology,
-};
-use crate::scene::{Placed, Scene, Style};
+use super::vertices::{Parts, tangents};
+use crate::model::{Instance, Material, Posed, Primitive, TextureSlot, TextureUse, Topology};
+use crate::scene::{Placed, Scene};
 use crate::shade::{Draw, Maps, MipChain, PLACE, Tangents};
 use clip::{Outcode, clip_triangle};
 use glam::DVec3;
@@ -39,8 +38,8 @@ pub(super) fn assemble_as<'a>(
     cover: Option<Cover>,
 ) -> Result<Memory<'a>, RenderError> {
     let stage = Stage::of(scene, memory.sheet)?;
-    let is_flat = scene.style == Style::Flat;
-    let mut assembler = Assembler { stage, is_flat, cover, threads, memory, next_id: 0 };
+    let needs = Needs::of(scene.style, cover);
+    let mut assembler = Assembler { stage, needs, threads, memory, next_id: 0, next_part: 0 };
     for (number, placed) in scene.models.iter().enumerate() {
         for (instance, primitive) in placed.model.shown_primitives() {
             let texture = |slot, used: TextureUse| textures.chain(number, slot, used.texture);
@@ -107,12 +106,11 @@ impl Images {
 
 struct Assembler<'a> {
     stage: Stage,
-    is_flat: bool,
-    /// How all primitives cover what is behind them, if not as their materials have it.
-    cover: Option<Cover>,
+    needs: Needs,
     threads: usize,
     memory: Memory<'a>,
     next_id: u32,
+    next_part: u32,
 }
 
 /// The material of primitives that name none.
@@ -138,6 +136,8 @@ impl<'a> Assembler<'a> {
         let first_id = self.next_id;
         let count = u32::try_from(primitive.count()).map_err(|_| RenderError::TooManyPrimitives)?;
         self.next_id = first_id.checked_add(count).ok_or(RenderError::TooManyPrimitives)?;
+        let part = self.next_part;
+        self.next_part += 1;
         let posed = model.posed(instance, primitive);
         let Posed { positions, normals, to_model } = &posed;
         let model_to_world = to_model.then(placed.model_to_world);
@@ -152,13 +152,14 @@ impl<'a> Assembler<'a> {
         let material = primitive.material.map_or(&*DEFAULT_MATERIAL, |m| &model.materials[m]);
         let mut draw = Draw {
             first_id,
+            part,
             primitive,
             material,
             maps: Maps::of(material, texture),
             vertices: self.memory.spare.pop().unwrap_or_default(),
             tangents: tangents(model, instance, primitive, material, &posed, model_to_world),
-            smooth: normals.is_some() && !self.is_flat,
-            uv_set: uv_set(material, primitive),
+            smooth: normals.is_some() && !self.needs.is_flat,
+            uv_set: self.needs.uv_set(material, primitive),
             colors: model.posed_colors(instance, primitive),
             backdrop: None,
             mirrored: model_to_world.determinant() < 0.0,
@@ -171,9 +172,10 @@ impl<'a> Assembler<'a> {
             self.submit(&draw);
         }
         let uvs = draw.uv_set.and_then(|set| model.posed_uvs(instance, primitive, set));
+        let is_lit = self.needs.all || draw.is_lit();
         let parts = Parts {
-            positions: draw.is_lit().then_some(&**positions),
-            normals: normals.as_deref().filter(|_| draw.is_lit() && draw.smooth),
+            positions: is_lit.then_some(&**positions),
+            normals: normals.as_deref().filter(|_| is_lit && draw.smooth),
             uvs: uvs.as_deref(),
         };
         parts.vertices(positions.len(), model_to_world, self.threads, &mut draw.vertices);
@@ -201,6 +203,7 @@ impl<'a> Assembler<'a> {
         let primitive: &'static Primitive = &BACKDROP;
         self.memory.draws.draws.push(Draw {
             first_id,
+            part: self.next_part,
             primitive,
             material: &DEFAULT_MATERIAL,
             maps: Maps::default(),
@@ -220,7 +223,7 @@ impl<'a> Assembler<'a> {
     /// Adds triangles none of which has to be clipped.
     fn mesh(&mut self, draw: &Draw<'_>) {
         let triangles = draw.primitive.indices.as_chunks::<3>().0;
-        let cover = self.cover.unwrap_or_else(|| cover_of(draw.material));
+        let cover = self.needs.cover(draw.material);
         self.memory.frame.mesh(
             &self.memory.images.screen,
             triangles,
@@ -233,7 +236,7 @@ impl<'a> Assembler<'a> {
     /// Clips the primitive's points, lines or triangles and adds what is left to the frame.
     fn submit(&mut self, draw: &Draw<'_>) {
         let primitive = draw.primitive;
-        let cover = self.cover.unwrap_or_else(|| cover_of(draw.material));
+        let cover = self.needs.cover(draw.material);
         let cull = self.cull(draw);
         let items = primitive.indices.chunks_exact(primitive.topology.corners());
         for (id, corners) in (draw.first_id..).zip(items) {
@@ -286,7 +289,8 @@ impl<'a> Assembler<'a> {
     /// Which triangles are not to be seen: the backs of surfaces with one side. Fronts run counter-clockwise in the picture,
     /// unless either the way to the world or that to the screen mirrors.
     fn cull(&self, draw: &Draw<'_>) -> Cull {
-        match (draw.material.double_sided, draw.mirrored == self.stage.mirrors) {
+        let both = draw.material.double_sided || self.needs.backs;
+        match (both, draw.mirrored == self.stage.mirrors) {
             (true, _) => Cull::Nothing,
             (false, true) => Cull::Clockwise,
             (false, false) => Cull::CounterClockwise,
@@ -308,15 +312,6 @@ fn is_kept(cull: Cull, orientation: f64) -> bool {
 fn orientation([p, q, r]: [HPoint<Clip>; 3]) -> f64 {
     let column = |point: HPoint<Clip>| DVec3::new(point.x(), point.y(), point.w());
     column(p).dot(column(q).cross(column(r)))
-}
-
-fn cover_of(material: &Material) -> Cover {
-    match material.alpha_mode {
-        AlphaMode::Opaque if material.transmits() => Cover::Translucent,
-        AlphaMode::Opaque => Cover::Solid,
-        AlphaMode::Mask { .. } => Cover::Masked,
-        AlphaMode::Blend => Cover::Translucent,
-    }
 }
 
 #[cfg(test)]

@@ -7,9 +7,10 @@ use super::region::Region;
 use super::renderer::Renderer;
 use super::{RenderError, Textures, lines};
 use crate::drawing::{Layer, Page, overlays};
+use crate::output::encode_png;
 use crate::scene::Scene;
 use crate::{Channel, Picture, Timings};
-use std::ops::ControlFlow;
+use std::io::{self, Write};
 
 /// A scene ready to be drawn, region by region.
 #[derive(Debug)]
@@ -47,7 +48,8 @@ impl<'a> Paint<'a> {
         let page = (!surfaces).then(|| lines::draw(scene, threads, timings)).transpose()?;
         let models = if surfaces { &scene.models[..] } else { &[] };
         let textures = timings.measure("mip chains", || Textures::of(models));
-        let layers = if surfaces { overlays(scene) } else { Vec::new() };
+        let mut layers = lines::over_surfaces(scene, threads)?;
+        layers.extend(if surfaces { overlays(scene) } else { Vec::new() });
         let renderer = Renderer::default();
         Ok(Self { scene, threads, timings, textures, renderer, page, layers })
     }
@@ -69,43 +71,61 @@ impl<'a> Paint<'a> {
         Ok(picture)
     }
 
-    /// Whether all of a region is opaque. Where the background is, everything is; elsewhere bands of `rows` rows are drawn until a pixel is
-    /// not.
+    /// Writes a region as a PNG file, drawn in bands of `rows` rows; the bytes do not depend on their number. Each band is shown to `witness`
+    /// on its way.
     ///
     /// # Errors
-    /// As [`region`](Self::region).
-    pub fn is_opaque<C: Channel>(
+    /// If a band cannot be drawn (see [`region`](Self::region)), or the file cannot be written.
+    pub fn write_png<C: Channel>(
         &mut self,
+        out: impl Write,
         region: Region,
         rows: u32,
+        mut witness: impl FnMut(&Picture<C>),
+    ) -> Result<(), PaintError> {
+        let mut bands = region.bands(rows);
+        let first: Picture<C> = self.region(bands.next().unwrap_or(region))?;
+        let opaque = first.is_opaque() && self.are_opaque::<C>(region.bands(rows).skip(1))?;
+        let timings = self.timings;
+        let size = [region.width, region.height];
+        encode_png(out, size, opaque, C::BITS, |png| {
+            let mut put = |picture: &Picture<C>| {
+                witness(picture);
+                timings.measure("encode", || png.write(&picture.pixels))
+            };
+            put(&first)?;
+            drop(first);
+            for band in bands {
+                put(&self.region(band)?)?;
+            }
+            Ok(())
+        })
+    }
+
+    /// Whether all bands are opaque. Over a background that is, all are; else they are drawn until a pixel is not.
+    fn are_opaque<C: Channel>(
+        &mut self,
+        bands: impl Iterator<Item = Region>,
     ) -> Result<bool, RenderError> {
         if self.scene.image.background[3] >= 1.0 {
             return Ok(true);
         }
-        for band in region.bands(rows) {
+        for band in bands {
             if !self.region::<C>(band)?.is_opaque() {
                 return Ok(false);
             }
         }
         Ok(true)
     }
+}
 
-    /// Draws a region in bands of `rows` rows and hands them over from the top, until all are or one is not wanted any more.
-    ///
-    /// # Errors
-    /// As [`region`](Self::region).
-    pub fn bands<C: Channel, B>(
-        &mut self,
-        region: Region,
-        rows: u32,
-        mut sink: impl FnMut(&Picture<C>) -> ControlFlow<B>,
-    ) -> Result<ControlFlow<B>, RenderError> {
-        for band in region.bands(rows) {
-            let picture = self.region(band)?;
-            if let ControlFlow::Break(end) = sink(&picture) {
-                return Ok(ControlFlow::Break(end));
-            }
-        }
-        Ok(ControlFlow::Continue(()))
-    }
+/// A picture that could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum PaintError {
+    /// It cannot be drawn.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// Whoever gets its bytes does not take them.
+    #[error(transparent)]
+    Output(#[from] io::Error),
 }

@@ -23,7 +23,7 @@ use super::region::{PartOfSheet, Region, sheets};
 use super::renderer::{Renderer, shading};
 use super::textures::Textures;
 use crate::Timings;
-use crate::scene::Scene;
+use crate::scene::{Scene, Style};
 use geometry::{Geometry, Hit};
 use raster::{Cover, Fragment, Samples, Surface};
 
@@ -113,6 +113,8 @@ impl Drawing<'_> {
     ) -> Result<(), RenderError> {
         let mut scene = self.scene.clone();
         (scene.image.samples, scene.image.backdrop) = (samples, None);
+        // Styles may show backs, and what is opaque as glass.
+        scene.style = if scene.style == Style::Flat { Style::Flat } else { Style::Shaded };
         let memory = Renderer::default().lend(&scene, self.part, self.threads)?;
         let memory = assemble_as(&scene, self.textures, self.threads, memory, cover)?;
         draw(&memory.frame, &shading(&scene, &memory.draws, &memory.frame));

@@ -6,12 +6,12 @@
 use super::RenderError;
 use super::assemble::assemble;
 use super::region::PartOfSheet;
-use super::renderer::{Renderer, shading};
+use super::renderer::{Renderer, shading, styled};
 use super::textures::Textures;
 use crate::color::SrgbEncoder;
 use crate::model::Model;
 use crate::scene::Scene;
-use raster::{Fragment, Surface};
+use raster::{Fragment, Frame, Surface};
 use std::sync::{Mutex, PoisonError};
 
 /// What one pixel of a picture is made of.
@@ -62,10 +62,10 @@ pub fn pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelMakeup>, Rende
     let memory = Renderer::default().lend(scene, one, 1)?;
     let memory = assemble(scene, &textures, 1, memory)?;
     let surface = shading(scene, &memory.draws, &memory.frame);
-    let witness = Witness { surface: &surface, place: one.corner(), seen: Mutex::default() };
-    let mut color = [[0; 4]];
-    memory.frame.draw(&witness, image.background, 1, &mut color, SrgbEncoder::shared());
-    let mut seen = witness.seen.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let (color, mut seen) = match &styled(scene, &surface) {
+        Some(styled) => witnessed(&memory.frame, styled, one.corner(), image.background),
+        None => witnessed(&memory.frame, &surface, one.corner(), image.background),
+    };
     seen.sort_by_key(|(id, ..)| *id);
     seen.dedup_by_key(|(id, ..)| *id);
     let fragments = seen.into_iter().map(|(id, weights, color)| SeenFragment {
@@ -73,11 +73,24 @@ pub fn pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelMakeup>, Rende
         weights,
         color,
     });
-    Ok(Some(PixelMakeup { color: color[0], fragments: fragments.collect() }))
+    Ok(Some(PixelMakeup { color, fragments: fragments.collect() }))
 }
 
 /// The name, the weights and the colour of a fragment.
 type Noted = (u32, [f32; 3], [f32; 4]);
+
+/// Draws a frame of one pixel, and notes what was shaded for it.
+fn witnessed<S: Surface>(
+    frame: &Frame,
+    surface: &S,
+    place: [u32; 2],
+    background: [f32; 4],
+) -> ([u8; 4], Vec<Noted>) {
+    let witness = Witness { surface, place, seen: Mutex::default() };
+    let mut color = [[0; 4]];
+    frame.draw(&witness, background, 1, &mut color, SrgbEncoder::shared());
+    (color[0], witness.seen.into_inner().unwrap_or_else(PoisonError::into_inner))
+}
 
 /// A surface that notes what is asked of it.
 struct Witness<'a, S> {

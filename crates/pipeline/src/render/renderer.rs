@@ -5,8 +5,8 @@ use super::assemble::{Images, assemble};
 use super::region::{PartOfSheet, Region, Sheet, sheets};
 use super::textures::Textures;
 use crate::picture::Channel;
-use crate::scene::Scene;
-use crate::shade::{Draw, DrawList, Shading, Vertex};
+use crate::scene::{Scene, Style};
+use crate::shade::{Draw, DrawList, Look, Shading, Styled, Vertex};
 use crate::{Picture, Timings};
 use raster::Frame;
 
@@ -90,6 +90,7 @@ impl Renderer {
                 timings.measure("vertices", || assemble(scene, textures, threads, memory))?;
             let (background, whole) = (scene.image.background, parts.len() == 1);
             let shading = shading(scene, &memory.draws, &memory.frame);
+            let styled = styled(scene, &shading);
             let target = if whole {
                 &mut picture.pixels
             } else {
@@ -97,7 +98,11 @@ impl Renderer {
                 &mut patch
             };
             timings.measure("pixels", || {
-                memory.frame.draw(&shading, background, threads, target, C::encoder());
+                let (frame, encoder) = (&memory.frame, C::encoder());
+                match &styled {
+                    Some(styled) => frame.draw(styled, background, threads, target, encoder),
+                    None => frame.draw(&shading, background, threads, target, encoder),
+                }
             });
             if !whole {
                 part.put(&patch, region, &mut picture.pixels);
@@ -148,6 +153,35 @@ pub(super) fn shading<'a>(scene: &'a Scene, draws: &'a DrawList<'a>, frame: &Fra
         viewer: scene.shot.viewer(),
         instructions: frame.instructions(),
     }
+}
+
+/// The surfaces of a style that looks otherwise than materials have it.
+pub(super) fn styled<'a>(scene: &Scene, shading: &'a Shading<'a>) -> Option<Styled<'a>> {
+    let camera = scene.shot.camera;
+    let look = match scene.style {
+        Style::Gouraud => Look::Gouraud,
+        Style::Clay => Look::Clay,
+        Style::Matcap => Look::Matcap,
+        Style::Normals => Look::Normals,
+        Style::Depth => {
+            let world_to_view = camera.world_to_view();
+            let (mut near, mut far) = (f64::INFINITY, f64::NEG_INFINITY);
+            for point in scene.world_points() {
+                let depth = -world_to_view.point(point).z();
+                (near, far) = (near.min(depth), far.max(depth));
+            }
+            // What is behind the eye is not seen.
+            Look::Depth { near: near.max(0.0) as f32, far: far as f32 }
+        }
+        Style::UvChecker => Look::UvChecker,
+        Style::Ids => Look::Ids,
+        Style::Toon => Look::Toon,
+        Style::XRay => Look::XRay,
+        Style::Shaded | Style::Flat | Style::Wireframe | Style::Lines(_) => return None,
+    };
+    let view = [camera.u(), camera.v(), camera.w()].map(|axis| axis.raw().as_vec3().to_array());
+    let eye = camera.eye().raw().as_vec3().to_array();
+    Some(Styled { shading, look, view, eye })
 }
 
 /// The room of a list, for draws of other things.

@@ -9,6 +9,7 @@ mod light;
 mod lines;
 mod look;
 mod overlay;
+mod passes;
 mod projection;
 mod sheet;
 
@@ -18,6 +19,7 @@ pub use self::light::LightFile;
 pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, WidthFile};
 pub use self::look::{BackgroundFile, ImageFile, StyleFile, ToneMappingFile};
 pub use self::overlay::OverlayFile;
+pub use self::passes::{PassEncodingFile, PassFile, PassesFile};
 pub use self::projection::{PrincipalFile, ProjectionFile};
 pub use self::sheet::{
     AngleFile, AxonometricFile, OrientationFile, PaperFile, SheetFile, SideFile, UnitFile,
@@ -50,6 +52,9 @@ pub struct SceneFile {
     /// What is drawn over the picture. Default: nothing.
     #[serde(default)]
     pub overlays: Vec<OverlayFile>,
+    /// What is written of each pixel besides its colour. Default: nothing.
+    #[serde(default)]
+    pub passes: PassesFile,
     /// How `alberti sheet` puts the models on paper. Default: as its flags say.
     pub sheet: Option<SheetFile>,
 }
@@ -118,6 +123,7 @@ impl SceneFile {
             style: StyleFile::default(),
             image: ImageFile::default(),
             overlays: Vec::new(),
+            passes: PassesFile::default(),
             sheet: None,
         }
     }

@@ -278,6 +278,7 @@ pub(super) fn resolve_overlays(
             OverlayFile::Axes { length } => Overlay::Axes(length.map(Positive::value)),
             OverlayFile::Grid { step } => Overlay::Grid(step.map(Positive::value)),
             OverlayFile::Horizon => Overlay::Horizon,
+            OverlayFile::Edges => Overlay::Edges,
             OverlayFile::VanishingPoints => Overlay::VanishingPoints,
             OverlayFile::Volume(camera) => {
                 Overlay::Volume(resolve_shot(origin, camera, models, image)?.into())

@@ -2,8 +2,7 @@
 
 use super::scene;
 use pipeline::scene::file::OverlayFile;
-use pipeline::{Channel, Paint, Picture, Region, Scene, Timings, encode_png};
-use std::ops::ControlFlow;
+use pipeline::{Channel, Paint, Picture, Region, Scene, Timings};
 
 /// Scenes with thin lines, layers, an environment behind everything, overlays, letters and line drawings.
 const SCENES: [&str; 7] =
@@ -44,12 +43,11 @@ fn regions_and_bands_are_parts_of_the_whole() {
         let timings = Timings::default();
         let mut paint = Paint::new(&scene, 1, &timings).expect("a scene");
         let mut pixels: Vec<[u8; 4]> = Vec::new();
-        let done = paint.bands(all, 50, |band: &Picture| {
-            pixels.extend(&band.pixels);
-            ControlFlow::<()>::Continue(())
-        });
-        assert!(done.expect("bands").is_continue());
+        let mut file = Vec::new();
+        let witness = |band: &Picture| pixels.extend(&band.pixels);
+        paint.write_png(&mut file, all, 50, witness).expect("a file");
         assert!(pixels == whole.pixels, "{name} in bands");
+        assert!(file == whole.to_png(), "{name} as a file");
         let deep: Picture<u16> = region(&scene, all);
         assert_part(&deep, &region(&scene, crop), crop, name);
         hold_sixteen_bits(&whole, &deep, name);
@@ -86,23 +84,24 @@ fn without_drawings_sixteen_bits_round_to_eight() {
 
 #[test]
 fn files_do_not_depend_on_the_bands_they_are_written_in() {
-    let scene = scene("floor", |file| file.image.size = (333, 210));
-    let all = Region::whole(scene.image);
-    let timings = Timings::default();
-    let mut paint = Paint::new(&scene, 1, &timings).expect("a scene");
-    let whole: Picture = paint.region(all).expect("a picture");
-    assert!(paint.is_opaque::<u8>(all, 64).expect("a picture"));
-    for rows in [1, 64, 100] {
-        let mut bytes = Vec::new();
-        let written = encode_png(&mut bytes, [333, 210], true, 8, |png| {
-            for band in all.bands(rows) {
-                let picture: Picture = paint.region(band).expect("a band");
-                png.write(&picture.pixels)?;
-            }
-            Ok::<(), std::io::Error>(())
-        });
-        written.expect("a file");
-        assert!(bytes == whole.to_png(), "{rows} rows at a time");
+    // Opaque, transparent, and transparent but covered from side to side.
+    for (background, covered) in [(1.0, false), (0.0, false), (0.0, true)] {
+        let mut scene = scene("spheres", |file| file.image.size = (333, 210));
+        scene.image.background = [background; 4];
+        let all = if covered {
+            Region { x: 160, y: 90, width: 9, height: 14 }
+        } else {
+            Region::whole(scene.image)
+        };
+        let timings = Timings::default();
+        let mut paint = Paint::new(&scene, 1, &timings).expect("a scene");
+        let whole: Picture = paint.region(all).expect("a picture");
+        assert_eq!(whole.is_opaque(), covered || background == 1.0);
+        for rows in [1, 64, 100] {
+            let mut bytes = Vec::new();
+            paint.write_png(&mut bytes, all, rows, |_: &Picture| ()).expect("a file");
+            assert!(bytes == whole.to_png(), "{rows} rows at a time");
+        }
     }
 }
 
