@@ -3,6 +3,7 @@
 mod passes;
 mod plane;
 mod regions;
+mod styles;
 
 use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::SceneFile;
