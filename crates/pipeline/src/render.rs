@@ -7,6 +7,7 @@
 //! ```
 
 mod assemble;
+mod images;
 mod lines;
 mod needs;
 mod paint;

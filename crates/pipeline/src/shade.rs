@@ -41,7 +41,7 @@ use inputs::Inputs;
 use normal::{Facing, seen_from_behind, turn, views};
 use raster::{Eight, Fragment, Fragments, Instructions, Surface, WIDE, Work};
 use reflection::Reflection;
-use seen::{Seen, Wide};
+use seen::{Seen, Wide, scale};
 
 /// What the fragments of a frame are shaded with.
 #[derive(Debug)]
@@ -63,8 +63,12 @@ pub struct Shading<'a> {
 impl Surface for Shading<'_> {
     fn keeps(&self, fragment: &Fragment<'_>) -> bool {
         let (draw, _) = self.draws.of(fragment.id);
-        let AlphaMode::Mask { cutoff } = draw.material.alpha_mode else { return true };
-        draw.alpha(fragment) >= cutoff
+        let [keeps] = draw.keeps(&draw.items(&[fragment.id], true), fragment);
+        keeps
+    }
+
+    fn keeps_eight(&self, fragments: &Fragments<'_>) -> [bool; WIDE] {
+        self.instructions.run(KeepEight { shading: self, fragments })
     }
 
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
@@ -75,6 +79,23 @@ impl Surface for Shading<'_> {
 
     fn shade_eight(&self, fragments: &Fragments<'_>) -> [Eight; 4] {
         self.instructions.run(ShadeEight { shading: self, fragments })
+    }
+}
+
+/// The question whether eight fragments of one masked primitive are there.
+struct KeepEight<'a> {
+    shading: &'a Shading<'a>,
+    fragments: &'a Fragments<'a>,
+}
+
+impl Work for KeepEight<'_> {
+    type Output = [bool; WIDE];
+
+    #[inline(always)]
+    fn run(self) -> [bool; WIDE] {
+        let id = self.fragments.id(0);
+        let (draw, _) = self.shading.draws.of(id);
+        draw.keeps(&draw.items(&[id; WIDE], true), &Wide::new(self.fragments))
     }
 }
 
@@ -249,20 +270,32 @@ impl Draw<'_> {
         !self.material.unlit && self.primitive.topology == Topology::Triangles
     }
 
-    /// The alpha of a fragment: factor × texture × vertex colour (glTF 2.0 §3.9.4).
-    fn alpha(&self, fragment: &Fragment<'_>) -> f32 {
-        let corners = self.corners(&self.items(&[fragment.id], true));
-        let mut alpha = self.material.base_color[3];
+    /// Whether fragments of a masked primitive are there.
+    #[inline(always)]
+    fn keeps<const N: usize>(&self, items: &Items<N>, seen: &impl Seen<N>) -> [bool; N] {
+        let mut keeps = [true; N];
+        if let AlphaMode::Mask { cutoff } = self.material.alpha_mode {
+            let alpha = self.alpha(items, seen);
+            for lane in 0..N {
+                keeps[lane] = alpha[lane] >= cutoff;
+            }
+        }
+        keeps
+    }
+
+    /// The alpha of fragments: factor × texture × vertex colour (glTF 2.0 §3.9.4).
+    #[inline(always)]
+    fn alpha<const N: usize>(&self, items: &Items<N>, seen: &impl Seen<N>) -> [f32; N] {
+        let corners = self.corners(items);
+        let mut alpha = [[self.material.base_color[3]; N]];
         if let Some(colors) = &self.colors {
-            let [[carried]] =
-                blend::<1, 1>(&corners.carried(colors, 3), &fragment.weights.map(|w| [w]));
-            alpha *= carried;
+            scale(&mut alpha, &blend::<N, 1>(&corners.carried(colors, 3), &seen.weights()));
         }
         if let Some(map) = self.maps.of_base_color() {
-            let [_, _, _, [texel]] =
-                map.chain.sample(&self.uvs(&corners, fragment, &map.used), true);
-            alpha *= texel;
+            let [_, _, _, texel] = map.chain.sample(&self.uvs(&corners, seen, &map.used), true);
+            scale(&mut alpha, &[texel]);
         }
+        let [alpha] = alpha;
         alpha
     }
 }

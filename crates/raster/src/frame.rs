@@ -8,6 +8,7 @@ use crate::primitive::{Piece, Source, line_pieces, point_pieces, with_usual_w};
 use crate::threads::share;
 use crate::vertex::SUBPIXEL_BITS;
 use crate::{Cover, Cull, Instructions, RasterError, Samples, ScreenVertex, SourceWeights};
+use core::ops::Range;
 
 /// The longest side of a picture in pixels.
 pub const MAX_SIDE: u32 = 16384;
@@ -130,24 +131,45 @@ impl Frame {
         cover: Cover,
         cull: Cull,
     ) {
-        let mesh = Mesh { vertices, reach: self.samples.reach(), cover, cull };
-        if self.threads > 1 && triangles.len() >= MANY {
+        let all = 0..triangles.len();
+        self.mesh_part(vertices, triangles, std::slice::from_ref(&all), first_id, cover, cull);
+    }
+
+    /// As [`mesh`](Self::mesh), with some of the triangles only: `runs` of them, in their order. They keep their names.
+    ///
+    /// Runs must not overlap; what of them is not in the mesh is left out.
+    pub fn mesh_part(
+        &mut self,
+        vertices: &[Option<ScreenVertex>],
+        triangles: &[[u32; 3]],
+        runs: &[Range<usize>],
+        first_id: u32,
+        cover: Cover,
+        cull: Cull,
+    ) {
+        let mesh = Mesh { vertices, triangles, first_id, reach: self.samples.reach(), cover, cull };
+        let count: usize = runs.iter().map(ExactSizeIterator::len).sum();
+        if self.threads > 1 && count >= MANY {
             let first = self.pieces.used();
             let chunks = self.pieces.fresh(triangles.len().div_ceil(CHUNK)).iter_mut();
-            let shares = chunks.zip(triangles.chunks(CHUNK)).enumerate();
-            share(self.threads, shares, |(number, (chunk, triangles))| {
-                mesh.pieces(triangles, first_id.wrapping_add((number * CHUNK) as u32), chunk);
+            share(self.threads, chunks.enumerate(), |(number, chunk)| {
+                let whole = number * CHUNK..(number + 1) * CHUNK;
+                let before = runs.partition_point(|run| run.end <= whole.start);
+                for run in runs[before..].iter().take_while(|run| run.start < whole.end) {
+                    mesh.pieces(run.start.max(whole.start)..run.end.min(whole.end), chunk);
+                }
             });
             self.pieces.close_up(first);
             return;
         }
-        let (mut id, mut rest) = (first_id, triangles);
-        while !rest.is_empty() {
-            let (chunk, room) = self.pieces.room();
-            let now;
-            (now, rest) = rest.split_at(room.min(rest.len()));
-            mesh.pieces(now, id, chunk);
-            id = id.wrapping_add(now.len() as u32);
+        for run in runs {
+            let mut rest = run.clone();
+            while !rest.is_empty() {
+                let (chunk, room) = self.pieces.room();
+                let end = rest.end.min(rest.start + room);
+                mesh.pieces(rest.start..end, chunk);
+                rest.start = end;
+            }
         }
     }
 
@@ -235,6 +257,8 @@ fn checked(corner: [u32; 2], size: [u32; 2]) -> Result<Part, RasterError> {
 /// A mesh on its way into a frame.
 struct Mesh<'a> {
     vertices: &'a [Option<ScreenVertex>],
+    triangles: &'a [[u32; 3]],
+    first_id: u32,
     reach: (i32, i32),
     cover: Cover,
     cull: Cull,
@@ -242,8 +266,11 @@ struct Mesh<'a> {
 
 impl Mesh<'_> {
     /// Appends the pieces of some of its triangles.
-    fn pieces(&self, triangles: &[[u32; 3]], first_id: u32, pieces: &mut Vec<Piece>) {
+    fn pieces(&self, run: Range<usize>, pieces: &mut Vec<Piece>) {
         let vertex = |n: u32| self.vertices.get(n as usize).copied().flatten();
+        let first_id = self.first_id.wrapping_add(run.start as u32);
+        let end = run.end.min(self.triangles.len());
+        let triangles = self.triangles.get(run.start..end).unwrap_or_default();
         pieces.reserve(triangles.len());
         for (id, &[p, q, r]) in (first_id..).zip(triangles) {
             let (Some(p), Some(q), Some(r)) = (vertex(p), vertex(q), vertex(r)) else { continue };

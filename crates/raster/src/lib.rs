@@ -42,6 +42,7 @@
 
 mod batch;
 mod bins;
+mod clusters;
 mod draw;
 mod edge;
 mod error;
@@ -65,6 +66,7 @@ mod tile;
 mod vertex;
 mod visibility;
 
+pub use clusters::{Cluster, Clusters, Selection};
 pub use draw::{Encode, Surface};
 pub use edge::signed_area;
 pub use error::RasterError;

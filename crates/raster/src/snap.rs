@@ -6,7 +6,7 @@
 
 use crate::threads::share;
 use crate::vertex::{GUARD_BAND, SUBPIXELS};
-use crate::{Instructions, ScreenVertex};
+use crate::{Instructions, ScreenVertex, Selection};
 use fearless_simd::dispatch;
 use glam::{DMat4, DVec4};
 use homog::{Affine, Clip, HPoint, Ndc, Projective, Screen, Space};
@@ -37,26 +37,51 @@ impl ScreenVertex {
         });
     }
 
+    /// As [`project_all`](Self::project_all), but only those positions that a selection needs. What `vertices` holds for the others
+    /// is not to be looked at.
+    pub fn project_selected<A: Space>(
+        positions: &[[f32; 3]],
+        selection: &Selection,
+        to_clip: Projective<A, Clip>,
+        ndc_to_screen: Affine<Ndc, Screen>,
+        instructions: Instructions,
+        threads: usize,
+        vertices: &mut Vec<Option<Self>>,
+    ) {
+        vertices.resize(positions.len(), None);
+        let (to_clip, rows) = (to_clip.raw().transpose(), ndc_to_screen.raw().transpose());
+        let shares = positions.chunks(SHARE).zip(vertices.chunks_mut(SHARE)).enumerate();
+        share(threads, shares, |(number, (positions, vertices))| {
+            let count = positions.len();
+            for run in selection.vertices_within(number * SHARE..number * SHARE + count) {
+                let (positions, vertices) = (&positions[run.clone()], &mut vertices[run]);
+                dispatch!(instructions.level(), _simd => project(positions, to_clip, rows, vertices));
+            }
+        });
+    }
+
     /// Divides points by their w, takes them to the screen and snaps them: `vertices` gets what [`snap`](Self::snap) gives for
-    /// each, bit for bit. Where it had been long enough before, it is not allocated anew.
+    /// each, bit for bit.
     pub fn snap_all(
         points: &[HPoint<Clip>],
         ndc_to_screen: Affine<Ndc, Screen>,
         instructions: Instructions,
-        vertices: &mut Vec<Option<Self>>,
+        vertices: &mut [Option<Self>],
     ) {
-        vertices.clear();
-        vertices.reserve(points.len());
-        let (eights, rest) = points.as_chunks::<COUNT>();
         let rows = ndc_to_screen.raw().transpose();
+        let eights = points.chunks_exact(COUNT).zip(vertices.chunks_exact_mut(COUNT));
         dispatch!(instructions.level(), _simd => {
-            for eight in eights {
-                vertices.extend_from_slice(&snap_eight(coordinates(eight), rows));
+            for (points, vertices) in eights {
+                if let (Ok(points), Ok(vertices)) = (points.try_into(), <&mut [_; COUNT]>::try_from(vertices)) {
+                    *vertices = snap_eight(coordinates(points), rows);
+                }
             }
         });
-        vertices.extend(
-            rest.iter().map(|&point| Self::snap(ndc_to_screen.point(point.divide()?), point.w())),
-        );
+        let done = points.len().min(vertices.len()) / COUNT * COUNT;
+        for (&point, vertex) in points[done..].iter().zip(&mut vertices[done..]) {
+            let place = point.divide().map(|point| ndc_to_screen.point(point));
+            *vertex = place.and_then(|place| Self::snap(place, point.w()));
+        }
     }
 }
 
@@ -209,7 +234,7 @@ mod tests {
                 ScreenVertex::snap(ndc_to_screen.point(point.divide()?), point.w())
             });
             for instructions in Instructions::available() {
-                let mut all = Vec::new();
+                let mut all = vec![None; points.len()];
                 ScreenVertex::snap_all(&points, ndc_to_screen, instructions, &mut all);
                 prop_assert_eq!(&all, &each.clone().collect::<Vec<_>>());
             }

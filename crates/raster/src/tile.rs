@@ -2,10 +2,11 @@
 
 use crate::batch::{self, Batch, Starts};
 use crate::fill::Lanes;
+use crate::fragments::WIDE;
 use crate::grid::{TILE, TileRect};
 use crate::plane::{LANES, NOTHING, Plane};
 use crate::setup::Setup;
-use crate::{Cover, Fragment, Frame, Surface};
+use crate::{Cover, Fragments, Frame, Surface};
 use fearless_simd::{Simd, dispatch};
 
 /// One pixel's share of a translucent piece.
@@ -171,17 +172,19 @@ impl Tile {
         let piece = frame.pieces.at(index);
         let Some(setup) = Setup::new(piece, rect, frame.samples.reach()) else { return };
         let lanes = Lanes::new(simd, &setup.functions);
-        // Whether the piece is there is a matter of the pixel: it is asked once, not for each of its samples.
+        // Whether the piece is there is a matter of the pixel, not of its samples: it is asked once, for eight pixels of a block's
+        // row together.
         let (mut asked, mut kept) = ([0_u64; TILE as usize], [0_u64; TILE as usize]);
         for (plane, offset) in self.planes.iter_mut().zip(frame.samples.offsets()) {
             plane.visit(simd, &lanes, &setup.start(offset), false, |plane, at, x, y, depth| {
                 let pixel = 1 << x;
                 if asked[y] & pixel == 0 {
-                    asked[y] |= pixel;
-                    let (px, py) = (rect.x + x as u32, rect.y + y as u32);
-                    let fragment = Fragment::new(piece, &frame.source_weights, px, py);
-                    if rect.shows(x, y) && surface.keeps(&fragment) {
-                        kept[y] |= pixel;
+                    let first = x / WIDE * WIDE;
+                    asked[y] |= 0xff << first;
+                    let (px, py) = (rect.x + first as u32, rect.y + y as u32);
+                    let eight = Fragments::of_one(piece, &frame.source_weights, px, py);
+                    for (lane, keeps) in surface.keeps_eight(&eight).into_iter().enumerate() {
+                        kept[y] |= u64::from(keeps) << (first + lane);
                     }
                 }
                 if kept[y] & pixel != 0 {

@@ -1,6 +1,8 @@
 //! Meshes: arrays of vertices, and lists of points, lines or triangles over them.
 
 use super::Edges;
+use raster::Clusters;
+use std::sync::OnceLock;
 
 /// A named group of primitives.
 #[derive(Clone, Debug, Default)]
@@ -46,6 +48,15 @@ pub struct Primitive {
     pub variants: Vec<VariantMaterial>,
     /// The edges its maker wants to see, if the file says so.
     pub edges: Option<Box<Edges>>,
+    /// What is worked out of positions and indices when it is first asked for: nothing in a new primitive.
+    pub derived: Derived,
+}
+
+/// What a primitive keeps that follows from its other fields. Who changes these must begin again with [`Derived::default`].
+#[derive(Clone, Debug, Default)]
+pub struct Derived {
+    /// The clusters of its triangles, without and with cones around their normals.
+    clusters: [OnceLock<Clusters>; 2],
 }
 
 /// The material of a primitive in a variant of the model.
@@ -78,6 +89,13 @@ impl Primitive {
     #[must_use]
     pub fn count(&self) -> usize {
         self.indices.len() / self.topology.corners()
+    }
+
+    /// The clusters of its triangles, with cones where it matters which side they show.
+    pub(crate) fn clusters(&self, cones: bool) -> &Clusters {
+        let triangles = self.indices.as_chunks::<3>().0;
+        self.derived.clusters[usize::from(cones)]
+            .get_or_init(|| Clusters::of(&self.positions, triangles, cones))
     }
 }
 

@@ -1,9 +1,10 @@
 //! The geometry half of the pipeline: from the meshes of a scene to the primitives of a frame.
 
 use super::RenderError;
+use super::images::Images;
 use super::needs::Needs;
 use super::renderer::Memory;
-use super::stage::{Stage, Whereabouts, all};
+use super::stage::{Stage, all};
 use super::textures::Textures;
 use super::vertices::{Parts, tangents};
 use crate::model::{Instance, Material, Posed, Primitive, TextureSlot, TextureUse, Topology};
@@ -11,8 +12,9 @@ use crate::scene::{Placed, Scene};
 use crate::shade::{Draw, Maps, MipChain, PLACE, Tangents};
 use clip::{Outcode, clip_triangle};
 use glam::DVec3;
-use homog::{Clip, HPoint, Model, Ndc, Point, Projective};
+use homog::{Affine, Clip, HPoint, Model, Ndc, Point, World};
 use raster::{Cover, Cull, ScreenVertex, signed_area};
+use std::ops::Range;
 
 /// The width of lines that a file draws, in pixels: glTF gives none.
 const LINE_WIDTH: f64 = 1.5;
@@ -39,7 +41,9 @@ pub(super) fn assemble_as<'a>(
 ) -> Result<Memory<'a>, RenderError> {
     let stage = Stage::of(scene, memory.sheet)?;
     let needs = Needs::of(scene.style, cover);
-    let mut assembler = Assembler { stage, needs, threads, memory, next_id: 0, next_part: 0 };
+    let viewer = scene.shot.viewer();
+    let mut assembler =
+        Assembler { stage, viewer, needs, threads, memory, next_id: 0, next_part: 0 };
     for (number, placed) in scene.models.iter().enumerate() {
         for (instance, primitive) in placed.model.shown_primitives() {
             let texture = |slot, used: TextureUse| textures.chain(number, slot, used.texture);
@@ -52,60 +56,9 @@ pub(super) fn assemble_as<'a>(
     Ok(assembler.memory)
 }
 
-/// The images of one primitive's vertices; the memory is used again for the next.
-#[derive(Debug, Default)]
-pub(super) struct Images {
-    /// In clip space, if some may have to be clipped.
-    clip: Vec<HPoint<Clip>>,
-    outcodes: Vec<Outcode>,
-    /// On the screen; `None` for those outside of the view volume and its guard band.
-    screen: Vec<Option<ScreenVertex>>,
-}
-
-impl Images {
-    /// All vertices on the screen, when none has to be clipped.
-    fn inside(
-        &mut self,
-        stage: &Stage,
-        model_to_clip: Projective<Model, Clip>,
-        positions: &[[f32; 3]],
-        threads: usize,
-    ) {
-        let instructions = raster::Instructions::best();
-        ScreenVertex::project_all(
-            positions,
-            model_to_clip,
-            stage.ndc_to_screen,
-            instructions,
-            threads,
-            &mut self.screen,
-        );
-    }
-
-    /// Vertices in clip space with their outcodes, and those that are inside on the screen.
-    fn anywhere(
-        &mut self,
-        stage: &Stage,
-        model_to_clip: Projective<Model, Clip>,
-        positions: &[[f32; 3]],
-    ) {
-        self.clip.resize(positions.len(), HPoint::new(0.0, 0.0, 0.0, 1.0));
-        self.outcodes.resize(positions.len(), Outcode::INSIDE);
-        stage.volume.project(model_to_clip, positions, &mut self.clip, &mut self.outcodes);
-        self.snap_all(stage);
-        for (vertex, code) in self.screen.iter_mut().zip(&self.outcodes) {
-            *vertex = vertex.filter(|_| code.is_inside());
-        }
-    }
-
-    fn snap_all(&mut self, stage: &Stage) {
-        let instructions = raster::Instructions::best();
-        ScreenVertex::snap_all(&self.clip, stage.ndc_to_screen, instructions, &mut self.screen);
-    }
-}
-
 struct Assembler<'a> {
     stage: Stage,
+    viewer: HPoint<World>,
     needs: Needs,
     threads: usize,
     memory: Memory<'a>,
@@ -142,14 +95,16 @@ impl<'a> Assembler<'a> {
         let Posed { positions, normals, to_model } = &posed;
         let model_to_world = to_model.then(placed.model_to_world);
         let model_to_clip = self.stage.model_to_clip(model_to_world);
-        let is_mesh = primitive.topology == Topology::Triangles;
-        let whereabouts = match self.stage.whereabouts(model_to_clip, positions) {
-            // Points and lines are wider than their vertices tell.
-            Whereabouts::Outside if is_mesh => return Ok(()),
-            Whereabouts::Inside if is_mesh => Whereabouts::Inside,
-            _ => Whereabouts::Unknown,
-        };
         let material = primitive.material.map_or(&*DEFAULT_MATERIAL, |m| &model.materials[m]);
+        let one_sided = !material.double_sided && !self.needs.backs;
+        let viewer = one_sided.then_some(self.viewer);
+        let viewer = viewer.and_then(|viewer| seen_from(model_to_world, viewer));
+        let images = &mut self.memory.images;
+        images.select(&self.stage, model_to_clip, primitive, &posed, viewer);
+        if images.whole.is_empty() && images.cut.is_empty() {
+            return Ok(());
+        }
+        images.project(&self.stage, model_to_clip, positions, self.threads);
         let mut draw = Draw {
             first_id,
             part,
@@ -164,13 +119,7 @@ impl<'a> Assembler<'a> {
             backdrop: None,
             mirrored: model_to_world.determinant() < 0.0,
         };
-        if whereabouts == Whereabouts::Inside {
-            self.memory.images.inside(&self.stage, model_to_clip, positions, self.threads);
-            self.mesh(&draw);
-        } else {
-            self.memory.images.anywhere(&self.stage, model_to_clip, positions);
-            self.submit(&draw);
-        }
+        self.submit(&draw);
         let uvs = draw.uv_set.and_then(|set| model.posed_uvs(instance, primitive, set));
         let is_lit = self.needs.all || draw.is_lit();
         let parts = Parts {
@@ -178,7 +127,15 @@ impl<'a> Assembler<'a> {
             normals: normals.as_deref().filter(|_| is_lit && draw.smooth),
             uvs: uvs.as_deref(),
         };
-        parts.vertices(positions.len(), model_to_world, self.threads, &mut draw.vertices);
+        let Images { whole, cut, .. } = &self.memory.images;
+        let selections = [whole, cut];
+        parts.vertices(
+            positions.len(),
+            selections,
+            model_to_world,
+            self.threads,
+            &mut draw.vertices,
+        );
         self.memory.draws.draws.push(draw);
         Ok(())
     }
@@ -220,43 +177,56 @@ impl<'a> Assembler<'a> {
         Ok(())
     }
 
-    /// Adds triangles none of which has to be clipped.
-    fn mesh(&mut self, draw: &Draw<'_>) {
+    /// Adds what is selected of the primitive to the frame, in its order: runs of triangles as they are, and in between the points,
+    /// lines and triangles that may have to be clipped.
+    fn submit(&mut self, draw: &Draw<'_>) {
+        let images = std::mem::take(&mut self.memory.images);
+        let (cover, cull) = (self.needs.cover(draw.material), self.cull(draw));
         let triangles = draw.primitive.indices.as_chunks::<3>().0;
-        let cover = self.needs.cover(draw.material);
-        self.memory.frame.mesh(
-            &self.memory.images.screen,
-            triangles,
-            draw.first_id,
-            cover,
-            self.cull(draw),
-        );
+        for (whole, cut) in images.runs() {
+            let (screen, first_id) = (&images.screen, draw.first_id);
+            self.memory.frame.mesh_part(screen, triangles, whole, first_id, cover, cull);
+            self.clipped(draw, &images, cut, cover, cull);
+        }
+        self.memory.images = images;
     }
 
-    /// Clips the primitive's points, lines or triangles and adds what is left to the frame.
-    fn submit(&mut self, draw: &Draw<'_>) {
-        let primitive = draw.primitive;
-        let cover = self.needs.cover(draw.material);
-        let cull = self.cull(draw);
-        let items = primitive.indices.chunks_exact(primitive.topology.corners());
-        for (id, corners) in (draw.first_id..).zip(items) {
-            match (primitive.topology, corners) {
-                (Topology::Points, &[p]) => self.point(p, id, cover),
-                (Topology::Lines, &[p, q]) => self.line([p, q], id, cover),
-                (Topology::Triangles, &[p, q, r]) => self.triangle([p, q, r], id, cover, cull),
+    /// Clips a run of points, lines or triangles and adds what is left to the frame.
+    fn clipped(
+        &mut self,
+        draw: &Draw<'_>,
+        images: &Images,
+        run: Range<usize>,
+        cover: Cover,
+        cull: Cull,
+    ) {
+        if run.is_empty() {
+            return;
+        }
+        let topology = draw.primitive.topology;
+        let corners = topology.corners();
+        let indices = draw.primitive.indices.get(run.start * corners..run.end * corners);
+        let items = indices.unwrap_or_default().chunks_exact(corners);
+        for (id, corners) in (draw.first_id + run.start as u32..).zip(items) {
+            match (topology, corners) {
+                (Topology::Points, &[p]) => self.point(images, p, id, cover),
+                (Topology::Lines, &[p, q]) => self.line(images, [p, q], id, cover),
+                (Topology::Triangles, &[p, q, r]) => {
+                    self.triangle(images, [p, q, r], id, cover, cull);
+                }
                 _ => {}
             }
         }
     }
 
-    fn point(&mut self, vertex: u32, id: u32, cover: Cover) {
-        if let Some(center) = self.memory.images.screen[vertex as usize] {
+    fn point(&mut self, images: &Images, vertex: u32, id: u32, cover: Cover) {
+        if let Some(center) = images.screen[vertex as usize] {
             self.memory.frame.point(center, POINT_SIZE, id, cover);
         }
     }
 
-    fn line(&mut self, ends: [u32; 2], id: u32, cover: Cover) {
-        let ends = ends.map(|vertex| self.memory.images.clip[vertex as usize]);
+    fn line(&mut self, images: &Images, ends: [u32; 2], id: u32, cover: Cover) {
+        let ends = ends.map(|vertex| images.clip[vertex as usize]);
         let Some(seen) = self.stage.visible_segment(ends) else { return };
         if let Some(ends) = self.stage.snap_all([seen.start, seen.end]) {
             let places = [seen.t0 as f32, seen.t1 as f32];
@@ -264,8 +234,8 @@ impl<'a> Assembler<'a> {
         }
     }
 
-    fn triangle(&mut self, vertices: [u32; 3], id: u32, cover: Cover, cull: Cull) {
-        let Images { clip, outcodes, screen } = &self.memory.images;
+    fn triangle(&mut self, images: &Images, vertices: [u32; 3], id: u32, cover: Cover, cull: Cull) {
+        let Images { clip, outcodes, screen, .. } = images;
         let vertices = vertices.map(|vertex| vertex as usize);
         if let Some(corners) = all(vertices.map(|vertex| screen[vertex])) {
             if is_kept(cull, -signed_area(corners).signum() as f64) {
@@ -296,6 +266,11 @@ impl<'a> Assembler<'a> {
             (false, false) => Cull::CounterClockwise,
         }
     }
+}
+
+/// A place of the world as it is in a model; `None` if the model is flat there.
+fn seen_from(model_to_world: Affine<Model, World>, place: HPoint<World>) -> Option<HPoint<Model>> {
+    Some(HPoint::from_raw(model_to_world.inverse()?.raw() * place.raw()))
 }
 
 /// Whether a triangle is kept whose [`orientation`] has this sign.

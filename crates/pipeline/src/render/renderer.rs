@@ -1,7 +1,8 @@
 //! One picture after the other, in the memory of the first.
 
 use super::RenderError;
-use super::assemble::{Images, assemble};
+use super::assemble::assemble;
+use super::images::Images;
 use super::region::{PartOfSheet, Region, Sheet, sheets};
 use super::textures::Textures;
 use crate::picture::Channel;

@@ -21,7 +21,7 @@ pub(super) struct Stage {
     pub(super) mirrors: bool,
 }
 
-/// Where a mesh is, as far as the box around its vertices tells.
+/// Where a mesh or a part of it is, as far as the box around its vertices tells.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Whereabouts {
     /// All of it is inside of the view volume and its guard band.
@@ -60,31 +60,24 @@ impl Stage {
         model_to_world.then_project(self.world_to_clip)
     }
 
-    /// Where a mesh with vertices at these positions is. Boxes are convex, and stay so on the way to clip space.
+    /// Where what is in a box is, by the box's least and greatest coordinates. Boxes are convex, and stay so on the way to clip
+    /// space.
     pub(super) fn whereabouts(
         &self,
         model_to_clip: Projective<Model, Clip>,
-        positions: &[[f32; 3]],
+        bounds: [[f32; 3]; 2],
     ) -> Whereabouts {
-        let (mut least, mut greatest) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-        for position in positions {
-            for axis in 0..3 {
-                least[axis] = least[axis].min(position[axis]);
-                greatest[axis] = greatest[axis].max(position[axis]);
-            }
-        }
-        let corner = |number: usize, axis: usize| {
-            if number >> axis & 1 == 0 { least[axis] } else { greatest[axis] }
-        };
+        let corner = |number: usize, axis: usize| bounds[number >> axis & 1][axis];
         let corners: [[f32; 3]; 8] = std::array::from_fn(|n| [0, 1, 2].map(|axis| corner(n, axis)));
-        let in_band = self.extent(&self.volume, model_to_clip, &corners);
-        if in_band.is_inside() && !positions.is_empty() {
+        // Corners that are not finite are outside of all planes, which says nothing of what is between them.
+        if !corners.iter().flatten().all(|c| c.abs() < 1e30) {
+            return Whereabouts::Unknown;
+        }
+        if self.extent(&self.volume, model_to_clip, &corners).is_inside() {
             return Whereabouts::Inside;
         }
         let is_outside = self.extent(&Volume::CHAPTER, model_to_clip, &corners).is_outside();
-        // Corners that are not finite are outside of all planes, which says nothing of what is between them.
-        let is_certain = corners.iter().flatten().all(|c| c.abs() < 1e30);
-        if is_outside && is_certain { Whereabouts::Outside } else { Whereabouts::Unknown }
+        if is_outside { Whereabouts::Outside } else { Whereabouts::Unknown }
     }
 
     fn extent(

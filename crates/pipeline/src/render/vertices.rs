@@ -5,6 +5,7 @@ use crate::model::{self, Instance, Material, Posed, Primitive, Topology};
 use crate::shade::{NORMAL, PLACE, Tangents, UV, Vertex};
 use glam::{DMat3, DVec3};
 use homog::{Affine, Model, World};
+use raster::Selection;
 use std::borrow::Cow;
 
 /// The arrays that vertices are made of. What does not count is left out.
@@ -19,22 +20,27 @@ pub(super) struct Parts<'a> {
 const SHARE: usize = 8192;
 
 impl Parts<'_> {
-    /// Writes the vertices, by up to so many threads; none if nothing counts.
+    /// Writes those of so many vertices that are selected, by up to so many threads; none if nothing counts.
     pub(super) fn vertices(
         &self,
         count: usize,
+        selections: [&Selection; 2],
         model_to_world: Affine<Model, World>,
         threads: usize,
         vertices: &mut Vec<Vertex>,
     ) {
         let Self { positions, normals, uvs } = *self;
-        vertices.clear();
         if positions.is_none() && normals.is_none() && uvs.is_none() {
-            return;
+            return vertices.clear();
         }
         vertices.resize(count, [0.0; 8]);
         raster::share(threads, vertices.chunks_mut(SHARE).enumerate(), |(number, vertices)| {
-            self.from(number * SHARE).write(model_to_world, vertices);
+            let start = number * SHARE;
+            for selection in selections {
+                for run in selection.vertices_within(start..start + vertices.len()) {
+                    self.from(start + run.start).write(model_to_world, &mut vertices[run]);
+                }
+            }
         });
     }
 

@@ -6,7 +6,10 @@ use crate::scene::{Part, SIZE, Scene};
 use clip::{Outcode, Volume, clip_triangle};
 use homog::{Affine, Clip, HPoint, Ndc, Projective, Screen, World};
 use projection::Convention;
-use raster::{Cover, Cull, Frame, GUARD_BAND, Instructions, Samples, ScreenVertex, signed_area};
+use raster::{
+    Clusters, Cover, Cull, Frame, GUARD_BAND, Instructions, Samples, ScreenVertex, Selection,
+    signed_area,
+};
 use viewport::Viewport;
 
 /// Our rasteriser with a scene.
@@ -22,6 +25,10 @@ pub struct Raster<'a> {
     positions: Vec<[f32; 3]>,
     /// Of the box around them.
     corners: [[f32; 3]; 8],
+    /// Of each part, made once as vertex buffers are.
+    clusters: Vec<Clusters>,
+    /// What of each part is drawn now.
+    selections: Vec<Selection>,
     clip: Vec<HPoint<Clip>>,
     codes: Vec<Outcode>,
     screen: Vec<Option<ScreenVertex>>,
@@ -49,6 +56,8 @@ impl<'a> Raster<'a> {
                 .map_err(|error| error.to_string())?
                 .with_threads(threads),
             corners: corners(&positions),
+            clusters: scene.parts.iter().map(|part| clusters(scene, part, &positions)).collect(),
+            selections: vec![Selection::default(); scene.parts.len()],
             positions,
             clip: Vec::new(),
             codes: Vec::new(),
@@ -72,20 +81,34 @@ impl<'a> Raster<'a> {
         let extent =
             self.volume.project(self.world_to_clip, &self.corners, &mut corners, &mut codes);
         self.whole = extent.is_inside();
+        let viewer = HPoint::from(self.look.scene.camera.eye());
+        let parts = self.look.scene.parts.iter().zip(&self.clusters).zip(&mut self.selections);
+        for ((part, clusters), selection) in parts {
+            selection.clear(self.positions.len());
+            for cluster in clusters.list() {
+                if part.two_sided || !cluster.is_turned_away(viewer) {
+                    selection.add(cluster);
+                }
+            }
+        }
         if self.whole {
-            ScreenVertex::project_all(
-                &self.positions,
-                self.world_to_clip,
-                self.ndc_to_screen,
-                instructions,
-                self.threads,
-                &mut self.screen,
-            );
+            for selection in &self.selections {
+                ScreenVertex::project_selected(
+                    &self.positions,
+                    selection,
+                    self.world_to_clip,
+                    self.ndc_to_screen,
+                    instructions,
+                    self.threads,
+                    &mut self.screen,
+                );
+            }
             return;
         }
         self.clip.resize(self.positions.len(), corners[0]);
         self.codes.resize(self.positions.len(), Outcode::INSIDE);
         self.volume.project(self.world_to_clip, &self.positions, &mut self.clip, &mut self.codes);
+        self.screen.resize(self.positions.len(), None);
         ScreenVertex::snap_all(&self.clip, self.ndc_to_screen, instructions, &mut self.screen);
         for (vertex, code) in self.screen.iter_mut().zip(&self.codes) {
             *vertex = vertex.filter(|_| code.is_inside());
@@ -95,21 +118,27 @@ impl<'a> Raster<'a> {
     fn submit(&mut self) {
         self.frame.clear();
         let scene = self.look.scene;
-        for part in &scene.parts {
+        let selections = std::mem::take(&mut self.selections);
+        for (part, selection) in scene.parts.iter().zip(&selections) {
             let first = (part.indices.start / 3) as u32;
             let triangles = scene.indices[part.indices.clone()].as_chunks::<3>().0;
             // Counter-clockwise in the world is negative on a screen whose y runs down.
             let cull = if part.two_sided { Cull::Nothing } else { Cull::Clockwise };
-            self.frame.mesh(&self.screen, triangles, first, Cover::Solid, cull);
+            let runs = selection.triangles();
+            self.frame.mesh_part(&self.screen, triangles, runs, first, Cover::Solid, cull);
             if self.whole {
                 continue;
             }
-            for (id, &corners) in (first..).zip(triangles) {
+            for (id, &corners) in runs
+                .iter()
+                .flat_map(|run| (first + run.start as u32..).zip(&triangles[run.clone()]))
+            {
                 if corners.iter().any(|&at| self.screen[at as usize].is_none()) {
                     self.cut(corners, id, part);
                 }
             }
         }
+        self.selections = selections;
     }
 
     /// A triangle that reaches beyond the near or far plane or the guard band.
@@ -127,6 +156,12 @@ impl<'a> Raster<'a> {
             }
         }
     }
+}
+
+/// The clusters of a part's triangles.
+fn clusters(scene: &Scene, part: &Part, positions: &[[f32; 3]]) -> Clusters {
+    let triangles = scene.indices[part.indices.clone()].as_chunks::<3>().0;
+    Clusters::of(positions, triangles, !part.two_sided)
 }
 
 /// The corners of the box around positions.

@@ -1,0 +1,55 @@
+//! Triangles straight into a `tiny_skia::Pixmap`, and tiny-skia's strokes over them: `pixmap.png`.
+//!
+//! `Frame::draw` takes any slice of pixels, and what becomes of a colour is a closure: here one of the pixels that tiny-skia works
+//! with, whose codes are multiplied by alpha. Where nothing is drawn the pixmap stays transparent.
+
+use homog::Point;
+use raster::{Cover, Cull, Fragment, Frame, Samples, ScreenVertex, Surface};
+use tiny_skia::{Paint, PathBuilder, Pixmap, PremultipliedColorU8, Stroke, Transform};
+
+/// The facets of a star, each lighter than the one before.
+struct Facets;
+
+impl Surface for Facets {
+    fn keeps(&self, _: &Fragment<'_>) -> bool {
+        true
+    }
+    fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
+        let light = 0.2 + 0.07 * fragment.id as f32;
+        [light, 0.8 * light, 0.3 * light, 1.0]
+    }
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut pixmap = Pixmap::new(256, 256).ok_or("no room")?;
+    let corner = |n: u32| {
+        let (sin, cos) = libm::sincos(f64::from(n) * std::f64::consts::PI / 5.0);
+        let reach = if n.is_multiple_of(2) { 110.0 } else { 50.0 };
+        (128.0 + reach * cos, 128.0 + reach * sin)
+    };
+    let corners: Vec<_> = [(128.0, 128.0)].into_iter().chain((0..10).map(corner)).collect();
+    let snap = |&(x, y): &(f64, f64)| ScreenVertex::snap(Point::new(x, y, 0.5), 1.0);
+    let vertices: Vec<_> = corners.iter().map(snap).collect();
+    let triangles: [[u32; 3]; 10] =
+        std::array::from_fn(|n| [0, n as u32 + 1, (n as u32 + 1) % 10 + 1]);
+
+    let mut frame = Frame::new(256, 256, Samples::Sixteen)?;
+    frame.mesh(&vertices, &triangles, 0, Cover::Solid, Cull::Nothing);
+    frame.draw(&Facets, [0.0; 4], 2, pixmap.pixels_mut(), |[r, g, b, alpha]: [f32; 4]| {
+        // Light becomes codes by a square root, near enough to sRGB; then codes are multiplied by alpha.
+        let code = |light: f32| ((light * alpha).sqrt() * 255.0 + 0.5) as u8;
+        let alpha = (alpha * 255.0 + 0.5) as u8;
+        let [r, g, b] = [r, g, b].map(|light| code(light).min(alpha));
+        PremultipliedColorU8::from_rgba(r, g, b, alpha).unwrap_or(PremultipliedColorU8::TRANSPARENT)
+    });
+
+    let mut path = PathBuilder::new();
+    for &(x, y) in &corners[1..] {
+        path.move_to(128.0, 128.0);
+        path.line_to(x as f32, y as f32);
+    }
+    let path = path.finish().ok_or("no path")?;
+    pixmap.stroke_path(&path, &Paint::default(), &Stroke::default(), Transform::identity(), None);
+    pixmap.save_png("pixmap.png")?;
+    Ok(())
+}

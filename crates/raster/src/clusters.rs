@@ -1,0 +1,379 @@
+//! Clusters: runs of a mesh's triangles that are drawn or left out together.
+//!
+//! Of a large mesh much is out of the picture or shows its back. A cluster is a run of triangles that follow one another; it
+//! knows the box around them and a cone around their normals, so that one look tells for all of them.
+//! Triangles keep their order and their names.
+
+use core::ops::Range;
+use glam::DVec3;
+use homog::{HPoint, Space};
+
+/// The most triangles of a cluster.
+const TRIANGLES: usize = 64;
+/// Normals count as one thinner cone than this part of their length: what single precision and the grid of the screen leave open.
+const DOUBT: f64 = 1e-3;
+
+/// The clusters of a mesh, in the order of its triangles, in the space of its positions.
+///
+/// Made once for positions that stay as they are.
+#[derive(Clone, Debug, Default)]
+pub struct Clusters {
+    list: Vec<Cluster>,
+}
+
+/// Some triangles that follow one another.
+#[derive(Clone, Copy, Debug)]
+pub struct Cluster {
+    triangles: [u32; 2],
+    vertices: [u32; 2],
+    bounds: [[f32; 3]; 2],
+    /// The axis of the cone around their normals, times the cosine of its half angle; zero if they are in no half-space.
+    axis: [f32; 3],
+}
+
+impl Clusters {
+    /// The clusters of a mesh. Triangles with a corner that the mesh has no position for are as if they were not there.
+    ///
+    /// Without `cones` none is ever [turned away](Cluster::is_turned_away), and they are made in half the time.
+    #[must_use]
+    pub fn of(positions: &[[f32; 3]], triangles: &[[u32; 3]], cones: bool) -> Self {
+        let starts = (0..triangles.len()).step_by(TRIANGLES);
+        let cluster = |start: usize| {
+            let end = (start + TRIANGLES).min(triangles.len());
+            Cluster::of(positions, &triangles[start..end], start, cones)
+        };
+        Self { list: starts.map(cluster).collect() }
+    }
+
+    /// One after the other.
+    #[must_use]
+    pub fn list(&self) -> &[Cluster] {
+        &self.list
+    }
+
+    /// The least and the greatest coordinates of all: infinite, and the wrong way round, if there are none.
+    #[must_use]
+    pub fn bounds(&self) -> [[f32; 3]; 2] {
+        self.list.iter().fold(NOTHING, |bounds, cluster| around(bounds, &cluster.bounds))
+    }
+}
+
+/// The bounds of no points.
+const NOTHING: [[f32; 3]; 2] = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
+
+impl Cluster {
+    fn of(positions: &[[f32; 3]], triangles: &[[u32; 3]], start: usize, cone: bool) -> Self {
+        let mut bounds = NOTHING;
+        let (mut first, mut last) = (u32::MAX, 0);
+        let mut normals = Normals::default();
+        for &[a, b, c] in triangles {
+            let corner = |vertex: u32| positions.get(vertex as usize).copied();
+            let corners = [corner(a), corner(b), corner(c)];
+            if let [Some(p), Some(q), Some(r)] = corners {
+                (first, last) = (first.min(a.min(b).min(c)), last.max(a.max(b).max(c) + 1));
+                bounds = around(bounds, &[least(p, least(q, r)), greatest(p, greatest(q, r))]);
+            }
+            if cone {
+                normals.add(corners);
+            }
+        }
+        let end = start + triangles.len();
+        Self {
+            triangles: [start as u32, end as u32],
+            vertices: [first.min(last), last],
+            bounds,
+            axis: normals.cone(),
+        }
+    }
+
+    /// Its triangles, by their places in the mesh.
+    #[must_use]
+    pub fn triangles(&self) -> Range<usize> {
+        self.triangles[0] as usize..self.triangles[1] as usize
+    }
+
+    /// All vertices that they use, and those between, by their places in the mesh.
+    #[must_use]
+    pub fn vertices(&self) -> Range<usize> {
+        self.vertices[0] as usize..self.vertices[1] as usize
+    }
+
+    /// The least and the greatest coordinates of their corners.
+    #[must_use]
+    pub const fn bounds(&self) -> [[f32; 3]; 2] {
+        self.bounds
+    }
+
+    /// Whether all triangles turn their backs to the viewer: an eye, or a direction towards it as a point at infinity. Corners run
+    /// counter-clockwise around the front. `false` if it is not certain.
+    ///
+    /// With the viewer `e` and a corner `p`, a triangle of the normal `n` shows its back if n · (e − e_w p) < 0. The box bounds all
+    /// `p`, the cone all `n`: the greatest product is that of the way from the box's centre with the nearest normal of the
+    /// cone, and at most the box's radius more.
+    #[must_use]
+    pub fn is_turned_away<S: Space>(&self, viewer: HPoint<S>) -> bool {
+        let axis = DVec3::from_array(self.axis.map(f64::from));
+        let cosine = axis.length();
+        if cosine == 0.0 {
+            return false;
+        }
+        let axis = axis / cosine;
+        let [least, greatest] = self.bounds.map(|corner| DVec3::from_array(corner.map(f64::from)));
+        let (eye, w) = (viewer.raw().truncate(), viewer.w());
+        let way = eye - (least + greatest) * (0.5 * w);
+        let radius = (greatest - least).length() * (0.5 * w.abs());
+        let along = way.dot(axis);
+        let across = (way.length_squared() - along * along).max(0.0).sqrt();
+        let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+        // Angles from the axis to the way are above a right angle and the cone's below: their difference is what counts.
+        along < 0.0 && along * cosine + across * sine + radius < -DOUBT * way.length()
+    }
+}
+
+/// A box with another one.
+#[inline(always)]
+fn around([low, high]: [[f32; 3]; 2], other: &[[f32; 3]; 2]) -> [[f32; 3]; 2] {
+    [least(low, other[0]), greatest(high, other[1])]
+}
+
+#[inline(always)]
+fn least(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    // Written out, these are single instructions; `min` minds what is no number.
+    [0, 1, 2].map(|k| if a[k] < b[k] { a[k] } else { b[k] })
+}
+
+#[inline(always)]
+fn greatest(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [0, 1, 2].map(|k| if a[k] > b[k] { a[k] } else { b[k] })
+}
+
+/// The unit normals of a cluster's triangles.
+struct Normals {
+    list: [[f32; 3]; TRIANGLES],
+    count: usize,
+    /// Whether each triangle has one that single precision can tell.
+    are_known: bool,
+}
+
+impl Default for Normals {
+    fn default() -> Self {
+        Self { list: [[0.0; 3]; TRIANGLES], count: 0, are_known: true }
+    }
+}
+
+impl Normals {
+    #[inline(always)]
+    fn add(&mut self, corners: [Option<[f32; 3]>; 3]) {
+        let ([Some(p), Some(q), Some(r)], true) = (corners, self.are_known) else {
+            self.are_known = false;
+            return;
+        };
+        let (a, b) = (difference(q, p), difference(r, p));
+        let normal =
+            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+        let squared = dot(normal, normal);
+        // Of thinner triangles the product's rounding would turn the normal.
+        self.are_known &= squared > dot(a, a) * dot(b, b) * 1e-6 && squared.is_normal();
+        let per = 1.0 / squared.sqrt();
+        self.list[self.count] = normal.map(|coordinate| coordinate * per);
+        self.count += 1;
+    }
+
+    /// The axis of the cone around them, times the cosine of its half angle; zero if the cone is no narrower than a
+    /// half-space, or not all normals are known.
+    fn cone(&self) -> [f32; 3] {
+        let list = if self.are_known { &self.list[..self.count] } else { &[] };
+        let sum = list.iter().fold([0.0; 3], |sum, normal| [0, 1, 2].map(|k| sum[k] + normal[k]));
+        let length = dot(sum, sum).sqrt();
+        if length < 0.5 {
+            return [0.0; 3];
+        }
+        let axis = sum.map(|coordinate| coordinate / length);
+        let cosine = list.iter().fold(1.0_f32, |least, &normal| least.min(dot(normal, axis)));
+        let cosine = (cosine - DOUBT as f32).max(0.0);
+        axis.map(|coordinate| coordinate * cosine)
+    }
+}
+
+#[inline(always)]
+fn difference(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+#[inline(always)]
+fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// The part of a mesh that is to be drawn: some of its triangles, and the vertices that they need.
+#[derive(Clone, Debug, Default)]
+pub struct Selection {
+    /// Runs of triangles, in their order, none touching the next.
+    runs: Vec<Range<usize>>,
+    /// Whether vertices are needed, by blocks of [`BLOCK`].
+    blocks: Vec<bool>,
+}
+
+/// So many vertices that follow one another are needed together.
+const BLOCK: usize = 64;
+
+impl Selection {
+    /// Nothing of a mesh with so many vertices.
+    pub fn clear(&mut self, vertices: usize) {
+        self.runs.clear();
+        self.blocks.clear();
+        self.blocks.resize(vertices.div_ceil(BLOCK), false);
+    }
+
+    /// Adds a cluster behind those that were added before.
+    pub fn add(&mut self, cluster: &Cluster) {
+        let triangles = cluster.triangles();
+        match self.runs.last_mut() {
+            Some(last) if last.end == triangles.start => last.end = triangles.end,
+            _ => self.runs.push(triangles),
+        }
+        let Range { start, end } = cluster.vertices();
+        if let Some(blocks) = self.blocks.get_mut(start / BLOCK..end.div_ceil(BLOCK)) {
+            blocks.fill(true);
+        }
+    }
+
+    /// Adds all triangles, which are so many, and all vertices.
+    pub fn add_all(&mut self, triangles: usize) {
+        self.runs.clear();
+        self.runs.extend((triangles > 0).then_some(0..triangles));
+        self.blocks.fill(true);
+    }
+
+    /// Whether there are no triangles.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.runs.is_empty()
+    }
+
+    /// The triangles, by their places in the mesh: runs in their order.
+    #[must_use]
+    pub fn triangles(&self) -> &[Range<usize>] {
+        &self.runs
+    }
+
+    /// The needed vertices among some, by their places among these: runs in their order. `among` begins with a block.
+    pub fn vertices_within(&self, among: Range<usize>) -> impl Iterator<Item = Range<usize>> {
+        let first = among.start / BLOCK;
+        let blocks = self.blocks.get(first..among.end.div_ceil(BLOCK)).unwrap_or_default();
+        let runs = blocks.chunk_by(|one, next| one == next);
+        let placed = runs.scan(0, move |start, run| {
+            let place = *start;
+            *start += run.len();
+            Some((run[0], place * BLOCK..(*start * BLOCK).min(among.len())))
+        });
+        placed.filter_map(|(is_needed, run)| is_needed.then_some(run))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use homog::Model;
+    use proptest::prelude::*;
+
+    /// A ball of rings and spokes, its fronts outside; at the poles triangles are degenerate.
+    fn ball(rings: u32, spokes: u32) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
+        let place = |ring: u32, spoke: u32| {
+            let angle =
+                |part: u32, of: u32| f64::from(part) / f64::from(of) * core::f64::consts::PI;
+            let (down, round) = (angle(ring, rings), 2.0 * angle(spoke, spokes));
+            let (radius, height) = (libm::sin(down), libm::cos(down));
+            [radius * libm::sin(round), height, radius * libm::cos(round)].map(|c| c as f32)
+        };
+        let positions =
+            (0..=rings).flat_map(|ring| (0..=spokes).map(move |spoke| place(ring, spoke)));
+        let at = |ring: u32, spoke: u32| ring * (spokes + 1) + spoke;
+        let quads = (0..rings).flat_map(|ring| (0..spokes).map(move |spoke| (ring, spoke)));
+        let triangles = quads.flat_map(|(ring, spoke)| {
+            let [a, b] = [at(ring, spoke), at(ring + 1, spoke)];
+            [[a, b, b + 1], [a, b + 1, a + 1]]
+        });
+        (positions.collect(), triangles.collect())
+    }
+
+    fn faces(positions: &[[f32; 3]], corners: [u32; 3], viewer: HPoint<Model>) -> f64 {
+        let [p, q, r] = corners.map(|k| DVec3::from_array(positions[k as usize].map(f64::from)));
+        (q - p).cross(r - p).dot(viewer.raw().truncate() - p * viewer.w())
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_turned_away_shows_only_backs(
+            direction in prop::array::uniform3(-1.0..1.0_f64), w in 0.0..1.0_f64,
+        ) {
+            let (positions, triangles) = ball(60, 400);
+            let clusters = Clusters::of(&positions, &triangles, true);
+            let [x, y, z] = direction;
+            let viewer = HPoint::<Model>::new(x, y, z, if w < 0.3 { 0.0 } else { w - 0.3 });
+            let mut away = 0;
+            for cluster in clusters.list().iter().filter(|c| c.is_turned_away(viewer)) {
+                away += cluster.triangles().len();
+                for &corners in &triangles[cluster.triangles()] {
+                    prop_assert!(faces(&positions, corners, viewer) < 0.0);
+                }
+            }
+            let backs = triangles.iter().filter(|&&t| faces(&positions, t, viewer) < 0.0).count();
+            // From infinity half of the ball is turned away, and most of it in whole clusters.
+            prop_assert!(viewer.w() > 0.0 || 10 * away >= 6 * backs, "{away} of {backs}");
+        }
+    }
+
+    #[test]
+    fn clusters_hold_all_triangles_and_their_vertices() {
+        let (positions, triangles) = ball(9, 31);
+        let clusters = Clusters::of(&positions, &triangles, true);
+        let mut next = 0;
+        for cluster in clusters.list() {
+            assert_eq!(cluster.triangles().start, next);
+            next = cluster.triangles().end;
+            let [least, greatest] = cluster.bounds();
+            for &vertex in triangles[cluster.triangles()].as_flattened() {
+                assert!(cluster.vertices().contains(&(vertex as usize)));
+                let position = positions[vertex as usize];
+                assert!((0..3).all(|k| (least[k]..=greatest[k]).contains(&position[k])));
+            }
+        }
+        assert_eq!(next, triangles.len());
+    }
+
+    #[test]
+    fn corners_that_a_mesh_does_not_have_are_not_there() {
+        let clusters = Clusters::of(&[[1.0; 3]], &[[0, 7, 9], [0, 0, 0]], true);
+        let [cluster] = clusters.list() else { panic!("one cluster") };
+        assert_eq!((cluster.vertices(), cluster.bounds()), (0..1, [[1.0; 3]; 2]));
+        assert!(!cluster.is_turned_away(HPoint::<Model>::new(0.0, 0.0, 1.0, 0.0)));
+        assert!(Clusters::of(&[], &[], true).list().is_empty());
+        assert_eq!(Clusters::of(&[], &[[0; 3]], true).list()[0].vertices(), 0..0);
+    }
+
+    #[test]
+    fn a_selection_gives_runs_of_triangles_and_of_blocks() {
+        let (positions, triangles) = ball(20, 50);
+        let clusters = Clusters::of(&positions, &triangles, true);
+        let mut selection = Selection::default();
+        selection.clear(positions.len());
+        assert!(selection.is_empty());
+        for at in [3, 4, 9] {
+            selection.add(&clusters.list()[at]);
+        }
+        assert_eq!(selection.triangles(), [192..320, 576..640]);
+        let all: Vec<_> = selection.vertices_within(0..positions.len()).collect();
+        for at in [3, 4, 9] {
+            let needed = clusters.list()[at].vertices();
+            assert!(all.iter().any(|run| run.start <= needed.start && needed.end <= run.end));
+        }
+        // In two parts they are the same.
+        let parts = [0..512, 512..positions.len()].map(|part| {
+            let runs: Vec<_> = selection.vertices_within(part.clone()).collect();
+            runs.iter().flat_map(|run| run.start + part.start..run.end + part.start).collect()
+        });
+        let [first, second]: [Vec<usize>; 2] = parts;
+        assert_eq!([first, second].concat(), all.into_iter().flatten().collect::<Vec<_>>());
+    }
+}
