@@ -39,7 +39,8 @@ Examples:
   alberti batch models --out thumbs --size 256x256
 
 Exit codes: 0 done, 1 the input or the work failed (no output file is touched), 2 wrong usage.
-`check` ends with 1 if there are errors, and with 0 if there are only warnings and notes.";
+`check` ends with 1 if there are errors, and with 0 if there are only warnings and notes; `render --compare` ends with 1 if the
+pictures differ, and all files are written.";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {

@@ -91,14 +91,14 @@ impl CompareArgs {
     /// Compares, and writes expected, difference and actual side by side.
     pub(super) fn compared(
         &self,
-        expected: Picture,
+        expected: &Picture,
         actual: &Picture,
         output: &Path,
     ) -> Result<(Comparison, (PathBuf, Draft)), Failure> {
-        let comparison = Comparison::of(&expected, actual, self.tolerance);
+        let comparison = Comparison::of(expected, actual, self.tolerance);
         let path = beside(output, "compare", "png");
         let mut draft = Draft::of(&path)?;
-        let bytes = side_by_side(&expected, actual).to_png();
+        let bytes = side_by_side(expected, actual).to_png();
         draft.write_all(&bytes).map_err(|cause| OutputError { path: path.clone(), cause })?;
         Ok((comparison, (path, draft)))
     }

@@ -64,7 +64,7 @@ impl Painting<'_> {
         };
         let mut drafts = self.passes(region)?;
         drafts.insert(0, (self.output.clone(), draft));
-        let comparison = reference.zip(picture.as_ref()).map(|(reference, picture)| {
+        let comparison = reference.as_ref().zip(picture.as_ref()).map(|(reference, picture)| {
             self.args.compare.compared(reference, picture, &self.output)
         });
         let comparison = match comparison.transpose()? {

@@ -86,11 +86,7 @@ impl<'a> Assembler<'a> {
         texture: impl Fn(TextureSlot, TextureUse) -> Option<&'a MipChain<'a>>,
     ) -> Result<(), RenderError> {
         let model = &placed.model;
-        let first_id = self.next_id;
-        let count = u32::try_from(primitive.count()).map_err(|_| RenderError::TooManyPrimitives)?;
-        self.next_id = first_id.checked_add(count).ok_or(RenderError::TooManyPrimitives)?;
-        let part = self.next_part;
-        self.next_part += 1;
+        let (first_id, part) = self.numbers(primitive)?;
         let posed = model.posed(instance, primitive);
         let Posed { positions, normals, to_model } = &posed;
         let model_to_world = to_model.then(placed.model_to_world);
@@ -138,6 +134,15 @@ impl<'a> Assembler<'a> {
         );
         self.memory.draws.draws.push(draw);
         Ok(())
+    }
+
+    /// The name of the first point, line or triangle of the next primitive, and the number of the primitive itself.
+    fn numbers(&mut self, primitive: &Primitive) -> Result<(u32, u32), RenderError> {
+        let numbers = (self.next_id, self.next_part);
+        let count = u32::try_from(primitive.count()).map_err(|_| RenderError::TooManyPrimitives)?;
+        self.next_id = numbers.0.checked_add(count).ok_or(RenderError::TooManyPrimitives)?;
+        self.next_part += 1;
+        Ok(numbers)
     }
 
     /// Adds the environment behind everything: two triangles at the far plane that fill the picture.

@@ -61,15 +61,19 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 fn normals_are_the_codes_of_the_pass() {
     let scene = styled("teapot", Style::Normals);
     let (picture, told) = (draw(&scene), told(&scene, &[Pass::Id, Pass::Normal]));
+    let mut far = 0;
     let seen = for_each_seen(&told[0], |x, y| {
         let normal: [f64; 3] = floats(&told[1], x, y);
         let pixel = picture.pixel(x, y).expect("a pixel");
         for k in 0..3 {
             let due = 255.0 * (0.5 * normal[k] + 0.5);
-            assert!((f64::from(pixel[k]) - due).abs() < 1.6, "({x}, {y}) {pixel:?} {normal:?}");
+            // Shading weighs the corners as they were snapped to 1/256 pixel, which tells on small triangles.
+            let off = (f64::from(pixel[k]) - due).abs();
+            assert!(off < 6.0, "({x}, {y}) {pixel:?} {normal:?}");
+            far += usize::from(off > 1.0);
         }
     });
-    assert!(seen > 3000, "{seen}");
+    assert!(seen > 3000 && far * 50 < seen, "{far} of {seen}");
 }
 
 #[test]

@@ -226,8 +226,8 @@ mod tests {
         let corners = [[-3.0, -1.0, 0.0, 2.0], [4.0, -2.0, 0.0, 5.0], [0.5, 6.0, 0.0, 9.0]];
         let corners = corners.map(|[x, y, z, w]| HPoint::new(x, y, z, w));
         for due in [[0.2, 0.3, 0.5], [1.0, 0.0, 0.0], [0.05, 0.9, 0.05]] {
-            let at = |k: fn(&HPoint<Clip>) -> f64| -> f64 {
-                corners.iter().zip(due).map(|(corner, share)| k(corner) * share).sum()
+            let at = |k: fn(HPoint<Clip>) -> f64| -> f64 {
+                corners.iter().zip(due).map(|(corner, share)| k(*corner) * share).sum()
             };
             let w = at(HPoint::w);
             let place = DVec3::new(at(HPoint::x) / w, at(HPoint::y) / w, 1.0);
