@@ -115,7 +115,7 @@ impl Surface for Styled<'_> {
             Look::UvChecker => checker(draw, fragment, facing.cosines[0]),
             Look::Ids => codes(part_color(draw.part)),
             Look::Toon => self.toon(draw, fragment, &facing),
-            Look::XRay => self.glass(fragment, facing.cosines[0]),
+            Look::XRay => self.glass(fragment, &facing),
         }
     }
 }
@@ -181,11 +181,13 @@ impl Styled<'_> {
         -dot(self.view[2], [0, 1, 2].map(|k: usize| place[k] - self.eye[k]))
     }
 
-    fn glass(&self, fragment: &Fragment<'_>, cosine: f32) -> [f32; 4] {
+    fn glass(&self, fragment: &Fragment<'_>, facing: &Facing<1>) -> [f32; 4] {
         if !self.keeps(fragment) {
             return [0.0; 4];
         }
-        let along = 1.0 - cosine;
+        // Backs of surfaces with one side are seen here too, and their normals point away.
+        let cosine = dot(lane_of(&facing.normals, 0), lane_of(&facing.views, 0)).abs();
+        let along = 1.0 - cosine.min(1.0);
         let alpha = 0.07 + 0.73 * along * along * along;
         let [r, g, b] = GLASS.map(|channel| channel * alpha);
         [r, g, b, alpha]
