@@ -77,11 +77,21 @@ pub fn scene(model: &Arc<Model>, kind: Kind, side: usize) -> Result<Scene, Strin
         models: vec![Placed { model: Arc::clone(model), model_to_world }],
         shot: shot?,
         lights: Vec::new(),
+        ground: None,
+        occlusion_radius: None,
         environment: None,
         develop: pipeline::shade::Develop::default(),
         style: Style::Flat,
-        image: ImageSpec { width, height, background: [0.0; 4], backdrop: None, samples },
+        image: ImageSpec {
+            width,
+            height,
+            background: [0.0; 4],
+            backdrop: None,
+            samples,
+            anisotropy: 1,
+        },
         overlays: Vec::new(),
+        sections: Vec::new(),
     })
 }
 

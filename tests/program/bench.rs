@@ -1,7 +1,8 @@
 //! A place to run the program in: an empty folder of its own for each test.
 
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output, Stdio};
 use std::sync::OnceLock;
 
 /// An empty folder, and the program to run in it.
@@ -16,6 +17,11 @@ pub(crate) struct Run {
     pub(crate) stderr: String,
 }
 
+fn program() -> &'static Path {
+    static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
+    PROGRAM.get_or_init(|| alberti_tests::program().expect("the program"))
+}
+
 impl Bench {
     /// A folder with the name of the test.
     pub(crate) fn new(name: &str) -> Self {
@@ -27,9 +33,7 @@ impl Bench {
 
     /// Runs the program here.
     pub(crate) fn run(&self, arguments: &[&str]) -> Run {
-        static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
-        let program = PROGRAM.get_or_init(|| alberti_tests::program().expect("the program"));
-        let mut command = Command::new(program);
+        let mut command = Command::new(program());
         let output = command.args(arguments).current_dir(&self.folder).output();
         let output = output.expect("the program starts");
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes UTF-8");
@@ -38,6 +42,27 @@ impl Bench {
             stdout: text(output.stdout),
             stderr: text(output.stderr),
         }
+    }
+
+    /// Runs the program here with bytes on its standard input; gives its code and what it wrote to its standard output.
+    pub(crate) fn pipe(&self, arguments: &[&str], input: &[u8]) -> (i32, Vec<u8>) {
+        let output = self.piped(arguments, input);
+        (output.status.code().expect("no signal ends the program"), output.stdout)
+    }
+
+    /// Runs the program here with bytes on its standard input; gives what it told.
+    pub(crate) fn pipe_told(&self, arguments: &[&str], input: &[u8]) -> String {
+        String::from_utf8(self.piped(arguments, input).stderr).expect("the program writes UTF-8")
+    }
+
+    fn piped(&self, arguments: &[&str], input: &[u8]) -> Output {
+        let mut command = Command::new(program());
+        let pipes = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child =
+            pipes.args(arguments).current_dir(&self.folder).spawn().expect("the program starts");
+        // One that has read enough may close it.
+        let _ = child.stdin.take().expect("a pipe").write_all(input);
+        child.wait_with_output().expect("the program ends")
     }
 
     pub(crate) fn path(&self, name: &str) -> PathBuf {

@@ -5,7 +5,7 @@ use crate::document::Document;
 use crate::vectors::{Layers, Place, bounds, pdf, svg};
 
 /// A solid box of these sides in metres, one corner at the origin, with a groove so that front and back differ.
-fn write_box(bench: &Bench, name: &str, [w, h, d]: [f32; 3]) {
+pub(crate) fn write_box(bench: &Bench, name: &str, [w, h, d]: [f32; 3]) {
     let mut document = Document::square();
     let corner = |n: usize| {
         [(n & 1, w), (n >> 1 & 1, h), (n >> 2 & 1, d)]
@@ -26,11 +26,11 @@ fn write_box(bench: &Bench, name: &str, [w, h, d]: [f32; 3]) {
     document.write(bench, name);
 }
 
-fn read_svg(bench: &Bench, name: &str) -> (Place, Layers) {
+pub(crate) fn read_svg(bench: &Bench, name: &str) -> (Place, Layers) {
     svg(&std::fs::read_to_string(bench.path(name)).expect("an SVG"))
 }
 
-fn succeed(bench: &Bench, arguments: &[&str]) {
+pub(crate) fn succeed(bench: &Bench, arguments: &[&str]) {
     let run = bench.run(arguments);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{arguments:?}");
 }
@@ -42,7 +42,7 @@ fn size(layers: &Layers, view: &str) -> Place {
 }
 
 #[track_caller]
-fn assert_near(found: f64, due: f64) {
+pub(crate) fn assert_near(found: f64, due: f64) {
     assert!((found - due).abs() < 0.0005, "{found} mm instead of {due} mm");
 }
 

@@ -150,3 +150,49 @@ fn a_pixel_is_traced_to_its_triangle() {
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("200 x 100"), "{}", run.stderr);
 }
+
+#[test]
+fn a_page_has_the_same_numbers_as_the_text_and_asks_for_nothing_else() {
+    let bench = bench("explain_page", |_| {});
+    let run = bench.run(&[
+        "explain",
+        "scene.ron",
+        "--segment",
+        "0,0,0,0,2.5,8",
+        "--html",
+        "-o",
+        "page.html",
+    ]);
+    assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (0, "", ""));
+    let page = std::fs::read_to_string(bench.path("page.html")).expect("a page");
+    assert!(page.starts_with("<!doctype html>") && page.ends_with("</html>\n"));
+    // Two views of the view volume, two of the canonical volume, and the picture.
+    assert_eq!(page.matches("<figure>").count(), 5);
+    assert_eq!(page.matches("<svg").count(), page.matches("</svg>").count());
+    assert_eq!(page.matches("data:image/png;base64,").count(), 1);
+    for other in ["http:", "https:", "<script", "<link", "src="] {
+        assert!(!page.contains(other), "{other}");
+    }
+    let text = bench.run(&["explain", "scene.ron", "--segment", "0,0,0,0,2.5,8"]).stdout;
+    let verdict = text.lines().last().expect("a verdict");
+    assert!(page.contains(verdict), "{verdict}");
+    assert!(page.contains("<td>") && page.contains("<code>CL-2</code>"));
+}
+
+#[test]
+fn a_page_marks_the_pixel_also_where_rows_run_up() {
+    let bench = bench("explain_page_rows", |_| {});
+    for conventions in ["alberti", "chapter", "opengl", "vulkan", "direct3d", "webgpu"] {
+        let run = bench.run(&[
+            "explain",
+            "scene.ron",
+            "--point",
+            "0,2.5,0",
+            "--html",
+            "--conventions",
+            conventions,
+        ]);
+        // 25 rows from the top, whatever the rows are counted from.
+        assert!(run.stdout.contains("cx=\"100.0\" cy=\"25.0\""), "{conventions}");
+    }
+}

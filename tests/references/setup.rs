@@ -50,7 +50,7 @@ impl Setup {
     camera: Camera(view: LookAt(eye: ({}), target: ({}), up: ({})),
         projection: Perspective(fov_y_degrees: {}, near: {}, far: {})),
     lights: [Sun(direction: ({}), lux: {}), Ambient(lux: {})],
-    image: Image(size: ({}), background: Color(\"#{}\"), samples: 1))",
+    image: Image(size: ({}), background: Color(\"#{}\"), samples: 1, anisotropy: 1))",
             list(&camera["eye"])?,
             list(&camera["target"])?,
             list(&camera["up"])?,

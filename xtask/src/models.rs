@@ -4,6 +4,7 @@
 //! whether they are still what the code makes. The same code gives the same bytes on every machine:
 //! `+ − × ÷ √` and `libm` only.
 
+mod bearing;
 mod bezier;
 mod boxes;
 mod document;
@@ -34,6 +35,7 @@ const MOST_BYTES: usize = 300_000;
 /// Every model's file name and its bytes.
 fn all() -> Result<Vec<(&'static str, Vec<u8>)>, String> {
     let documents = [
+        ("bearing.glb", bearing::bearing()),
         ("crate.glb", boxes::wooden_crate()?),
         ("floor.glb", floor::floor()),
         ("house.glb", house::solid()),

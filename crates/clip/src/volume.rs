@@ -83,6 +83,14 @@ impl Volume {
         Self { planes, present: Outcode::from_bits(BOX) }
     }
 
+    /// The same volume without its near plane: for what may begin anywhere before the eye. The planes of the sides keep w from going
+    /// below 0; what is cut off by them has w > 0 but where it passes through the eye itself.
+    #[must_use]
+    pub fn without_near(mut self) -> Self {
+        self.present = self.present.without(PlaneIndex::NEAR);
+        self
+    }
+
     /// The volume without its far plane, for projections that see to infinity (IF-1 to IF-3).
     #[must_use]
     pub fn without_far(mut self) -> Self {

@@ -4,7 +4,7 @@
 //! through their seams, and tiny-skia breaks ties the other way round (RA-3).
 
 use crate::drawing::{
-    Cap, Ink, Join, Layer, MILLIMETRES_PER_PIXEL, Page, Pen, Polyline, millimetres,
+    Cap, Ink, Join, Layer, MILLIMETRES_PER_PIXEL, Page, Pasted, Pen, Polyline, millimetres,
 };
 use crate::render::Region;
 use crate::{Channel, Picture};
@@ -40,7 +40,8 @@ impl Page {
         let [r, g, b] = self.paper.unwrap_or_default();
         let alpha = if self.paper.is_some() { 255 } else { 0 };
         picture.pixels.fill([r, g, b, alpha].map(C::of_byte));
-        picture.draw(size, region, &self.layers, [width / self.size.x, height / self.size.y]);
+        let scale = [width / self.size.x, height / self.size.y];
+        picture.draw(size, region, &self.pictures, &self.layers, scale);
         picture
     }
 }
@@ -48,12 +49,19 @@ impl Page {
 impl<C: Channel> Picture<C> {
     /// Draws layers of a page of 96 pixels to the inch over what is a region of a picture of this size.
     pub(crate) fn draw_over(&mut self, size: [u32; 2], region: Region, layers: &[Layer]) {
-        self.draw(size, region, layers, [1.0 / MILLIMETRES_PER_PIXEL; 2]);
+        self.draw(size, region, &[], layers, [1.0 / MILLIMETRES_PER_PIXEL; 2]);
     }
 
     /// Draws layers over a region, with this many pixels for a millimetre.
-    fn draw(&mut self, size: [u32; 2], region: Region, layers: &[Layer], scale: [f64; 2]) {
-        if layers.is_empty() {
+    fn draw(
+        &mut self,
+        size: [u32; 2],
+        region: Region,
+        pictures: &[Pasted],
+        layers: &[Layer],
+        scale: [f64; 2],
+    ) {
+        if layers.is_empty() && pictures.is_empty() {
             return;
         }
         let first = [region.x / PIECE[0], region.y / PIECE[1]];
@@ -64,19 +72,23 @@ impl<C: Channel> Picture<C> {
                 let (x, y) = (column * PIECE[0], row * PIECE[1]);
                 let width = PIECE[0].min(size[0] - x);
                 let height = PIECE[1].min(size[1] - y);
-                self.draw_piece(region, Region { x, y, width, height }, layers, scale);
+                let piece = Region { x, y, width, height };
+                self.draw_piece(region, piece, |canvas| {
+                    pictures.iter().for_each(|pasted| canvas.paste(pasted, scale));
+                    layers.iter().for_each(|layer| canvas.layer(layer, scale));
+                });
             }
         }
     }
 
     /// Draws layers over what a region has of a piece. Also what is not wanted of the piece is drawn: lines are cut at its borders, and
     /// cut elsewhere they could be rounded to other pixels.
-    fn draw_piece(&mut self, region: Region, piece: Region, layers: &[Layer], scale: [f64; 2]) {
+    fn draw_piece(&mut self, region: Region, piece: Region, draw: impl FnOnce(&mut Canvas)) {
         let Some(shown) = piece.and(region) else { return };
         let Some(pixmap) = Pixmap::new(piece.width, piece.height) else { return };
         let mut canvas = Canvas { pixmap, corner: [piece.x, piece.y] };
         self.copy(region, shown, &mut canvas, |pixel, place| *place = C::laid_down(*pixel));
-        layers.iter().for_each(|layer| canvas.layer(layer, scale));
+        draw(&mut canvas);
         self.copy(region, shown, &mut canvas, |pixel, place| {
             *pixel = C::taken_up(*pixel, *place);
         });
@@ -143,15 +155,55 @@ impl Canvas {
     fn layer(&mut self, layer: &Layer, scale: [f64; 2]) {
         let mut paint = Paint { anti_alias: true, ..Paint::default() };
         paint.set_color(color(layer.pen.ink));
-        let stroke = stroke(&layer.pen, 0.5 * (scale[0] + scale[1]));
+        let pixels = 0.5 * (scale[0] + scale[1]);
+        let whole = stroke(&layer.pen, &[], pixels);
         for group in &layer.groups {
-            for path in paths(&group.strokes, scale, self.corner, POINTS) {
-                self.pixmap.stroke_path(&path, &paint, &stroke, Transform::identity(), None);
+            let (dashed, lines): (Vec<_>, Vec<_>) = group
+                .strokes
+                .iter()
+                .map(|line| (line, layer.pen.fitted_dashes(line)))
+                .partition(|(_, dashes)| !dashes.is_empty());
+            let (corner, lines) = (self.corner, lines.into_iter().map(|(line, _)| line));
+            for path in paths(lines, scale, corner, POINTS) {
+                self.pixmap.stroke_path(&path, &paint, &whole, Transform::identity(), None);
+            }
+            for (line, dashes) in dashed {
+                let stroke = stroke(&layer.pen, &dashes, pixels);
+                for path in paths([line], scale, corner, POINTS) {
+                    self.pixmap.stroke_path(&path, &paint, &stroke, Transform::identity(), None);
+                }
             }
             // Holes must be in the path of what they are holes of.
             for path in paths(&group.fills, scale, self.corner, usize::MAX) {
                 let rule = FillRule::EvenOdd;
                 self.pixmap.fill_path(&path, &paint, rule, Transform::identity(), None);
+            }
+        }
+    }
+
+    /// Puts a picture under all lines: each pixel is the mean of what it covers.
+    fn paste(&mut self, pasted: &Pasted, scale: [f64; 2]) {
+        let Pasted { corner, size, picture, .. } = pasted;
+        let (width, height) = (self.pixmap.width(), self.pixmap.height());
+        let first = self.corner;
+        let span = |axis: usize, side: u32, sides: u32| {
+            // Pixels of the pasted picture for one of the canvas, and where the canvas begins in it.
+            let pixels = f64::from(side) / (f64::from(size[axis]) / 1000.0 * scale[axis]);
+            let start = -f64::from(corner[axis]) / 1000.0 * scale[axis] * pixels;
+            (first[axis]..first[axis] + sides).map(move |at| {
+                let from = start + f64::from(at) * pixels;
+                [from, from + pixels].map(|edge| edge.clamp(0.0, f64::from(side)))
+            })
+        };
+        let columns: Vec<[f64; 2]> = span(0, picture.width, width).collect();
+        let rows = span(1, picture.height, height);
+        let places = self.pixmap.pixels_mut().chunks_exact_mut(width as usize);
+        for (row, places) in rows.zip(places) {
+            for (column, place) in columns.iter().zip(places) {
+                let below = place.demultiply();
+                let below = [below.red(), below.green(), below.blue(), below.alpha()];
+                let [r, g, b, alpha] = over(mean(picture, *column, row), below);
+                *place = ColorU8::from_rgba(r, g, b, alpha).premultiply();
             }
         }
     }
@@ -161,8 +213,8 @@ fn color([r, g, b]: Ink) -> Color {
     Color::from_rgba8(r, g, b, 255)
 }
 
-fn stroke(pen: &Pen, scale: f64) -> Stroke {
-    let dashes = pen.dashes.iter().map(|dash| (dash * scale) as f32).collect::<Vec<_>>();
+fn stroke(pen: &Pen, dashes: &[f64], scale: f64) -> Stroke {
+    let dashes = dashes.iter().map(|dash| (dash * scale) as f32).collect::<Vec<_>>();
     Stroke {
         width: (pen.width * scale) as f32,
         miter_limit: 4.0,
@@ -181,8 +233,51 @@ fn stroke(pen: &Pen, scale: f64) -> Stroke {
     }
 }
 
+/// The mean of an area of a picture: red, green and blue times alpha, and alpha, from 0 to 255; nothing beside the picture.
+fn mean(picture: &Picture, columns: [f64; 2], rows: [f64; 2]) -> [f64; 4] {
+    let cells = |[from, to]: [f64; 2]| {
+        let first = from as u32;
+        (first..libm::ceil(to) as u32)
+            .map(move |at| (at, to.min(f64::from(at) + 1.0) - from.max(f64::from(at))))
+    };
+    let area = (columns[1] - columns[0]) * (rows[1] - rows[0]);
+    let mut sum = [0.0; 4];
+    if area <= 0.0 {
+        return sum;
+    }
+    for (y, height) in cells(rows) {
+        for (x, width) in cells(columns) {
+            let Some([r, g, b, alpha]) = picture.pixel(x, y) else { continue };
+            let share = width * height / area;
+            let alpha = f64::from(alpha) * share;
+            let color = [r, g, b].map(|channel| f64::from(channel) * alpha / 255.0);
+            let part = [color[0], color[1], color[2], alpha];
+            sum.iter_mut().zip(part).for_each(|(sum, part)| *sum += part);
+        }
+    }
+    sum
+}
+
+/// A colour times its alpha over a straight one, as a straight one.
+fn over([r, g, b, alpha]: [f64; 4], below: [u8; 4]) -> [u8; 4] {
+    let rest = f64::from(below[3]) * (1.0 - alpha / 255.0);
+    let whole = alpha + rest;
+    if whole <= 0.0 {
+        return [0; 4];
+    }
+    let mixed = |above: f64, below: u8| {
+        libm::round((above * 255.0 + f64::from(below) * rest) / whole) as u8
+    };
+    [mixed(r, below[0]), mixed(g, below[1]), mixed(b, below[2]), libm::round(whole) as u8]
+}
+
 /// The lines as paths of about so many points, in pixels.
-fn paths(lines: &[Polyline], scale: [f64; 2], corner: [u32; 2], most: usize) -> Vec<Path> {
+fn paths<'a>(
+    lines: impl IntoIterator<Item = &'a Polyline>,
+    scale: [f64; 2],
+    corner: [u32; 2],
+    most: usize,
+) -> Vec<Path> {
     let mut paths = Vec::new();
     let mut path = PathBuilder::new();
     for line in lines {

@@ -6,10 +6,12 @@
 //! Everything is computed in f64 from the same stages as the pictures (HL-1); nothing is sampled.
 
 mod chain;
+mod dashes;
 mod draw;
 mod edges;
 mod fixed;
 mod font;
+mod hatch;
 mod in_order;
 mod label;
 mod layout;
@@ -24,23 +26,26 @@ mod pdf;
 mod sheet;
 mod sight;
 mod svg;
+mod tone;
 mod verify;
 mod visibility;
+mod warning;
 
 pub use draw::draw;
 pub use label::{Align, Label};
 pub use layout::Placement;
 pub use line::{EdgeClass, Line, LineDrawing};
 pub use linetype::{IsoGroup, LineType};
-pub use look::{HiddenLines, LineLook, Shown, Widths};
+pub use look::{HiddenLines, LineLook, Shown, Tone, Widths};
 pub use options::{EdgeClasses, Hidden, Options};
 pub use overlay::{Overlay, overlays};
 pub use page::{
-    Cap, Group, Ink, Join, Layer, MILLIMETRES_PER_PIXEL, Page, Pen, Place, Polyline, micrometres,
-    millimetres,
+    Cap, Group, Ink, Join, Layer, MILLIMETRES_PER_PIXEL, Page, Pasted, Pen, Place, Polyline,
+    micrometres, millimetres,
 };
 pub use pdf::to_pdf;
 pub use sheet::{Sheet, SheetError, Titles};
 pub use sight::Sight;
 pub use verify::{Agreement, verify};
 pub use visibility::{Obstacles, Parts, Tolerance};
+pub use warning::Warning;

@@ -1,13 +1,15 @@
 //! `explain`: the viewing pipeline, told step by step for one point, segment, triangle or matrix.
 //!
 //! ```text
-//!  subject ─► steps, each with its formula ─► items: matrices, coordinates, words ─► text, JSON
+//!  subject ─► steps, each with its formula ─► items: matrices, coordinates, words ─► text, JSON, page
 //! ```
 //! Nothing is computed in a way of its own here: every number comes from the stage that a picture goes through.
 
 mod chain;
 mod conventions;
 mod factors;
+mod figures;
+mod html;
 mod json;
 mod matrix;
 mod node;

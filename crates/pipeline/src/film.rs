@@ -8,6 +8,7 @@
 
 use crate::model::Model;
 use crate::render::{RenderError, Renderer, Textures};
+use crate::scene::file::EnvironmentFile;
 use crate::scene::{Origin, Placed, ResolveError, Scene, SceneFile, bounds};
 use crate::{Picture, Timings, render};
 use homog::{Affine, Point, World};
@@ -76,8 +77,14 @@ impl Film {
         let middle = middle(&bounds::world_points(&scene.models));
         let mut film = Self { scene, motion, frames, middle };
         let moments = (0..MOMENTS).flat_map(|at| film.models_at(at as f64 / MOMENTS as f64));
-        let framed = Scene::of_models(origin, file, moments.collect())?;
+        // The surroundings have been read before: whoever was allowed to then is so now.
+        let known = match &file.environment {
+            Some(EnvironmentFile::File { path, .. }) => vec![origin.folder.join(path)],
+            _ => Vec::new(),
+        };
+        let framed = Scene::around(origin, file, moments.collect(), &known)?;
         (film.scene.shot, film.scene.lights) = (framed.shot, framed.lights);
+        film.scene.ground = framed.ground;
         Ok(film)
     }
 

@@ -10,7 +10,7 @@ fn main() -> ExitCode {
     match cli::run(cli::Args::parse()) {
         Ok(code) => code,
         Err(failure) => {
-            cli::complain("error", &failure.to_string());
+            cli::complain("error", &failure.told());
             ExitCode::FAILURE
         }
     }

@@ -7,14 +7,17 @@
 //! ```
 
 mod assemble;
+mod ground;
 mod images;
 mod lines;
 mod needs;
+mod occlusion;
 mod paint;
 pub mod passes;
 mod pixel;
 mod region;
 mod renderer;
+mod shadows;
 mod shot;
 mod stage;
 #[cfg(test)]
@@ -31,6 +34,7 @@ pub use renderer::Renderer;
 pub use shot::Shot;
 pub use textures::Textures;
 
+use crate::drawing::Warning;
 use crate::scene::Scene;
 use crate::{Picture, Timings};
 
@@ -44,6 +48,12 @@ pub enum RenderError {
     /// The picture has no viewport.
     #[error(transparent)]
     Viewport(#[from] viewport::ViewportError),
+    /// Somebody asked for its end by a [`Cancel`](crate::Cancel).
+    #[error("the picture was cancelled")]
+    Cancelled,
+    /// Ambient occlusion reads the whole picture, which has more pixels than can be held.
+    #[error("ambient occlusion is for pictures of {} pixels a side at most", raster::MAX_SIDE)]
+    OcclusionTooLarge,
     /// There are more points, lines and triangles than can be told apart.
     #[error("the scene has more than {} points, lines and triangles", u32::MAX)]
     TooManyPrimitives,
@@ -66,7 +76,20 @@ pub fn render_timed(
     threads: usize,
     timings: &Timings,
 ) -> Result<Picture, RenderError> {
+    render_reported(scene, threads, timings).map(|(picture, _)| picture)
+}
+
+/// Renders a scene, and tells what could not be drawn as it should.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_reported(
+    scene: &Scene,
+    threads: usize,
+    timings: &Timings,
+) -> Result<(Picture, Vec<Warning>), RenderError> {
     let whole = Region::whole(scene.image);
     whole.check(scene.image)?;
-    Paint::new(scene, threads, timings)?.region(whole)
+    let mut paint = Paint::new(scene, threads, timings)?;
+    Ok((paint.region(whole)?, paint.into_warnings()))
 }

@@ -3,10 +3,14 @@
 //! A scene is written in a file ([`SceneFile`], RON, by people) and resolved ([`Scene`]): models are loaded, angles are
 //! radians, every default is decided, and what does not make sense has become an error that points at its place.
 
+mod advice;
 pub(crate) mod bounds;
 mod classical;
 mod error;
 pub mod file;
+mod ground;
+mod include;
+mod layout;
 mod lights;
 mod locate;
 mod look;
@@ -17,14 +21,21 @@ mod origin;
 mod outputs;
 mod parse;
 mod radiance;
+pub mod reference;
 mod resolve;
 mod review;
+mod section;
+mod shadows;
 mod sheet;
 mod surroundings;
 mod viewpoint;
+mod wording;
 
+pub use advice::{Advice, advise};
 pub use error::SceneError;
 pub use file::SceneFile;
+pub use ground::Ground;
+pub use layout::laid_out;
 pub use origin::Origin;
 pub use outputs::Outputs;
 pub use parse::parse;
@@ -36,7 +47,7 @@ use crate::import::ImportError;
 use crate::model::Model;
 use crate::render::Shot;
 use crate::shade::{Develop, Environment, Light};
-use homog::{Affine, Model as ModelSpace, Point, World};
+use homog::{Affine, Model as ModelSpace, Plane, Point, World};
 use raster::Samples;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -50,8 +61,12 @@ pub struct Scene {
     pub shot: Shot,
     /// The lights.
     pub lights: Vec<Light>,
+    /// What is below the models.
+    pub ground: Option<Ground>,
     /// Light from all around.
     pub environment: Option<Arc<Environment>>,
+    /// How far away things still take light from all around, in the units of the world; `None` if they do not.
+    pub occlusion_radius: Option<f64>,
     /// How light becomes colours.
     pub develop: Develop,
     /// How surfaces are drawn.
@@ -60,6 +75,8 @@ pub struct Scene {
     pub image: ImageSpec,
     /// What is drawn over it.
     pub overlays: Vec<Overlay>,
+    /// Planes that cut the models open in line drawings; their unit normals point to what is kept.
+    pub sections: Vec<Plane<World>>,
 }
 
 impl Scene {
@@ -155,6 +172,8 @@ pub struct ImageSpec {
     pub backdrop: Option<f32>,
     /// Coverage samples per pixel.
     pub samples: Samples,
+    /// How many places textures are read at along the longer side of what a pixel covers of them, from 1 to 8.
+    pub anisotropy: u32,
 }
 
 /// A scene that cannot be resolved.

@@ -10,14 +10,19 @@ mod corners;
 mod develop;
 mod draw;
 mod environment;
+mod fibres;
+mod ground;
 mod inputs;
 mod layers;
 mod light;
 mod maps;
 mod microfacet;
 mod normal;
+mod occlusion;
+mod receiver;
 mod reflection;
 mod seen;
+mod shadow;
 mod styled;
 mod substance;
 mod surroundings;
@@ -26,10 +31,12 @@ mod texture;
 pub use corners::Vertex;
 pub(crate) use corners::{NORMAL, PLACE, UV};
 pub use develop::{Develop, ToneMapping};
-pub use draw::{Draw, DrawList, Tangents};
+pub use draw::{Draw, DrawList, Role, Tangents};
 pub use environment::Environment;
 pub use light::Light;
 pub use maps::{Map, Maps};
+pub use occlusion::ScreenSpace;
+pub use shadow::{Shadow, ShadowMap};
 pub use styled::{Look, Styled};
 pub use surroundings::{Sky, studio};
 pub use texture::{MipChain, Texels};
@@ -40,6 +47,7 @@ use homog::{HPoint, World};
 use inputs::Inputs;
 use normal::{Facing, seen_from_behind, turn, views};
 use raster::{Eight, Fragment, Fragments, Instructions, Surface, WIDE, Work};
+use receiver::Receivers;
 use reflection::Reflection;
 use seen::{Seen, Wide, scale};
 
@@ -50,6 +58,10 @@ pub struct Shading<'a> {
     pub draws: &'a DrawList<'a>,
     /// The lights, in the world.
     pub lights: &'a [Light],
+    /// What the lights see, one after the other, as far as they cast shadows; nothing where none does.
+    pub shadows: &'a [Option<ShadowMap>],
+    /// What is in the way of light from all around; nothing unless it is asked for.
+    pub occlusion: Option<&'a ScreenSpace>,
     /// Light from all around.
     pub environment: Option<&'a Environment>,
     /// How light becomes colours.
@@ -62,13 +74,11 @@ pub struct Shading<'a> {
 
 impl Surface for Shading<'_> {
     fn keeps(&self, fragment: &Fragment<'_>) -> bool {
-        let (draw, _) = self.draws.of(fragment.id);
-        let [keeps] = draw.keeps(&draw.items(&[fragment.id], true), fragment);
-        keeps
+        self.draws.keeps(fragment)
     }
 
     fn keeps_eight(&self, fragments: &Fragments<'_>) -> [bool; WIDE] {
-        self.instructions.run(KeepEight { shading: self, fragments })
+        self.draws.keeps_eight(fragments, self.instructions)
     }
 
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
@@ -84,7 +94,7 @@ impl Surface for Shading<'_> {
 
 /// The question whether eight fragments of one masked primitive are there.
 struct KeepEight<'a> {
-    shading: &'a Shading<'a>,
+    draws: &'a DrawList<'a>,
     fragments: &'a Fragments<'a>,
 }
 
@@ -94,8 +104,26 @@ impl Work for KeepEight<'_> {
     #[inline(always)]
     fn run(self) -> [bool; WIDE] {
         let id = self.fragments.id(0);
-        let (draw, _) = self.shading.draws.of(id);
+        let (draw, _) = self.draws.of(id);
         draw.keeps(&draw.items(&[id; WIDE], true), &Wide::new(self.fragments))
+    }
+}
+
+impl DrawList<'_> {
+    /// Whether a masked primitive is there in a fragment.
+    pub(crate) fn keeps(&self, fragment: &Fragment<'_>) -> bool {
+        let (draw, _) = self.of(fragment.id);
+        let [keeps] = draw.keeps(&draw.items(&[fragment.id], true), fragment);
+        keeps
+    }
+
+    /// The same for eight fragments of one primitive.
+    pub(crate) fn keeps_eight(
+        &self,
+        fragments: &Fragments<'_>,
+        instructions: Instructions,
+    ) -> [bool; WIDE] {
+        instructions.run(KeepEight { draws: self, fragments })
     }
 }
 
@@ -151,15 +179,17 @@ impl Shading<'_> {
         items: &Items<N>,
         seen: &impl Seen<N>,
     ) -> [[f32; N]; 4] {
-        if let Some(blur) = draw.backdrop {
-            return self.backdrop(draw, items, seen, blur);
+        match draw.role {
+            Role::Surface => {}
+            Role::Backdrop(blur) => return self.backdrop(draw, items, seen, blur),
+            Role::Ground => return self.ground(draw, items, seen),
         }
         let is_blended = draw.material.alpha_mode == AlphaMode::Blend;
-        let inputs = Inputs::of(draw, &draw.corners(items), seen, is_blended);
+        let mut inputs = Inputs::of(draw, &draw.corners(items), seen, is_blended);
         let mut sums = inputs.emitted;
         let mut passing = [0.0; N];
         if draw.is_lit() {
-            passing = self.add_reflected(draw, items, seen, &inputs, &mut sums);
+            passing = self.add_reflected(draw, items, seen, &mut inputs, &mut sums);
         } else {
             for (sum, color) in sums.iter_mut().zip(&inputs.base) {
                 for lane in 0..N {
@@ -221,13 +251,21 @@ impl Shading<'_> {
         draw: &Draw<'_>,
         items: &Items<N>,
         seen: &impl Seen<N>,
-        inputs: &Inputs<N>,
+        inputs: &mut Inputs<N>,
         sums: &mut [[f32; N]; 3],
     ) -> [f32; N] {
         let facing = self.facing(draw, items, seen);
+        if let Some(occlusion) = self.occlusion {
+            let open = occlusion.open(&facing.places, &facing.normals, &facing.views);
+            scale(std::slice::from_mut(&mut inputs.occlusion), &[open]);
+        }
         let tangents = draw.tangents(items, &seen.weights());
+        let mut receivers = None;
+        if !self.shadows.is_empty() {
+            receivers = Some(Receivers::of(draw, &draw.corners(items), seen, &facing));
+        }
         let mut reflection = Reflection::of(draw, inputs, facing, &tangents, *sums);
-        reflection.add_lights(self.lights);
+        reflection.add_lights(self.lights, self.shadows, receivers.as_ref());
         if let Some(environment) = self.environment {
             reflection.add_environment(environment);
         }
@@ -292,7 +330,8 @@ impl Draw<'_> {
             scale(&mut alpha, &blend::<N, 1>(&corners.carried(colors, 3), &seen.weights()));
         }
         if let Some(map) = self.maps.of_base_color() {
-            let [_, _, _, texel] = map.chain.sample(&self.uvs(&corners, seen, &map.used), true);
+            let uvs = self.uvs(&corners, seen, &map.used);
+            let [_, _, _, texel] = map.chain.sample_along(&uvs, true, self.maps.anisotropy);
             scale(&mut alpha, &[texel]);
         }
         let [alpha] = alpha;

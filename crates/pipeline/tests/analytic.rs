@@ -96,7 +96,7 @@ fn draw(parts: &[Part], rest: &str) -> Picture {
     let loaded =
         load_bytes("made.gltf", &model(parts), &ImportOptions::default()).expect("a model");
     let placed = Placed { model: Arc::new(loaded), model_to_world: homog::Affine::IDENTITY };
-    let origin = Origin { file: "made.ron".into(), text, folder: ".".into() };
+    let origin = Origin::of_text("made.ron", text, ".".into());
     let scene = Scene::of_models(&origin, &file, vec![placed]).expect("a scene that makes sense");
     render(&scene, 2).expect("a picture")
 }

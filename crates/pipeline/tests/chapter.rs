@@ -9,7 +9,7 @@ use std::path::Path;
 fn scene(text: &str) -> Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/models");
     let file = parse("test.ron", text).expect("a scene");
-    let origin = Origin { file: "test.ron".into(), text: text.into(), folder };
+    let origin = Origin::of_text("test.ron", text, folder);
     Scene::resolve(&origin, &file, &Default::default()).expect("a scene that makes sense")
 }
 

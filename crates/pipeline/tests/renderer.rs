@@ -1,6 +1,6 @@
 //! Pictures that are rendered one after the other are those that are rendered alone, and take no memory anew.
 
-use pipeline::{Origin, Picture, Renderer, Scene, Textures, Timings, render};
+use pipeline::{Cancel, Origin, Picture, RenderError, Renderer, Scene, Textures, Timings, render};
 use std::path::Path;
 
 /// A scene of the project, small.
@@ -46,4 +46,22 @@ fn pictures_do_not_depend_on_those_before() {
         next(&mut renderer, &scene, &textures, &mut picture);
         assert!(picture == render(&scene, 2).expect("a picture"), "{name}");
     }
+}
+
+#[test]
+fn a_cancelled_picture_ends_with_an_error_and_the_renderer_is_told_nothing_else() {
+    let scene = scene("crates.ron", (160, 120));
+    let textures = Textures::of(&scene.models);
+    let cancel = Cancel::default();
+    let mut renderer = Renderer::default().cancelled_by(cancel.clone());
+    let mut picture = Picture::default();
+    let mut draw = |renderer: &mut Renderer| {
+        renderer.render(&scene, &textures, 2, &Timings::default(), &mut picture)
+    };
+    assert!(draw(&mut renderer).is_ok(), "nobody has cancelled it yet");
+    cancel.cancel();
+    assert!(matches!(draw(&mut renderer), Err(RenderError::Cancelled)));
+    let mut again = renderer.cancelled_by(Cancel::default());
+    assert!(draw(&mut again).is_ok());
+    assert!(picture == render(&scene, 1).expect("a picture"));
 }

@@ -87,6 +87,9 @@ impl Frame {
         workers.resize_with(threads.max(1), Worker::default);
         let bands = Bands { part: self.part, rows: self.part.rows(), target };
         share_among(&mut workers, bands, |worker, (row, pixels)| {
+            if self.is_stopped() {
+                return;
+            }
             // Memory takes whole rows faster than tiles, and what tiles write is then in a cache already.
             pixels.fill(encode.pixel(background));
             self.draw_band(row, pixels, &bins, worker, surface, background, &encode);

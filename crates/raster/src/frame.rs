@@ -9,6 +9,8 @@ use crate::threads::share;
 use crate::vertex::SUBPIXEL_BITS;
 use crate::{Cover, Cull, Instructions, RasterError, Samples, ScreenVertex, SourceWeights};
 use core::ops::Range;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The longest side of a picture in pixels.
 pub const MAX_SIDE: u32 = 16384;
@@ -25,6 +27,8 @@ pub struct Frame {
     pub(crate) pieces: Pieces,
     pub(crate) source_weights: Vec<SourceWeights>,
     threads: usize,
+    /// Drawing ends early once this is true.
+    stop: Option<Arc<AtomicBool>>,
     /// What the last drawing left behind for the next.
     pub(crate) kept: Kept,
 }
@@ -57,6 +61,7 @@ impl Frame {
             pieces: Pieces::default(),
             source_weights: Vec::new(),
             threads: 1,
+            stop: None,
             kept: Kept::default(),
         })
     }
@@ -72,6 +77,17 @@ impl Frame {
     #[must_use]
     pub fn with_threads(self, threads: usize) -> Self {
         Self { threads, ..self }
+    }
+
+    /// The same frame, whose [drawing](Self::draw) begins no further row of tiles once `stop` is true. What the target then holds
+    /// is no picture.
+    #[must_use]
+    pub fn with_stop(self, stop: Arc<AtomicBool>) -> Self {
+        Self { stop: Some(stop), ..self }
+    }
+
+    pub(crate) fn is_stopped(&self) -> bool {
+        self.stop.as_ref().is_some_and(|stop| stop.load(Ordering::Relaxed))
     }
 
     /// The instructions that it is drawn with.

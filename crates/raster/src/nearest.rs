@@ -1,92 +1,58 @@
-//! What is nearest in each pixel, layers and holes included: the visibility of a picture without its colours.
+//! The nearest surface of each pixel as a plane: what shadow maps and ambient occlusion read.
 
 use crate::bins::Bins;
 use crate::draw::Bands;
-use crate::grid::TILE;
 use crate::memory::{Memory, Worker};
 use crate::plane::index_of;
+use crate::setup::slopes;
 use crate::threads::share_among;
-use crate::tile::{Layer, Tile};
-use crate::{Fragment, Frame, Surface};
+use crate::{Frame, Surface};
 
-/// The layers of one pixel of a filled tile, the farthest first, and its place.
-struct Pixel<'a> {
-    tile: &'a Tile,
-    layers: &'a [Layer],
-    /// The column and row in the tile.
-    within: [u32; 2],
-    /// The column and row in the picture.
-    place: [u32; 2],
+/// How near the nearest surface is at a pixel's centre, and how that changes from pixel to pixel.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Nearest {
+    /// Depth: 1 at the near plane, 0 at the far plane; −∞ where nothing is seen.
+    pub depth: f32,
+    /// What depth grows by from pixel to pixel to the right, on the surface's plane. It is cut off at the difference between the
+    /// nearest and the farthest corner: beside a triangle smaller than a pixel its plane means nothing.
+    pub dx: f32,
+    /// The same from pixel to pixel downwards.
+    pub dy: f32,
+}
+
+impl Nearest {
+    /// No surface.
+    pub const NOTHING: Self = Self { depth: f32::NEG_INFINITY, dx: 0.0, dy: 0.0 };
 }
 
 impl Frame {
-    /// Calls `note` with the nearest fragment of each pixel in which there is one, and keeps what it says in `target`: rows from
-    /// the top, `width` × `height` of them. Uses up to `threads` threads.
-    ///
-    /// Nearest is what covers the first sample of the pixel, with one sample its centre. Translucent primitives count as they are, and
-    /// masked ones where `surface` keeps them. Of translucent ones at the same depth it is the one given last, which is drawn over
-    /// the others; of the others it is the one given first.
-    pub fn nearest<S: Surface, P: Copy + Send>(
-        &self,
-        surface: &S,
-        threads: usize,
-        target: &mut [P],
-        note: impl Fn(&Fragment<'_>) -> P + Sync,
-    ) {
-        self.each_pixel(surface, threads, target, |pixel, target| {
-            let [x, y] = pixel.place;
-            let layer = pixel.layers.iter().rev().find(|layer| layer.mask & 1 != 0);
-            let [column, row] = pixel.within.map(|c| c as usize);
-            let solid = || pixel.tile.piece(0, index_of(column, row));
-            let piece = self.pieces.get(layer.map_or_else(solid, |layer| layer.piece));
-            if let Some(piece) = piece {
-                *target = note(&Fragment::new(piece, &self.source_weights, x, y));
-            }
-        });
-    }
-
-    /// Counts the translucent fragments that cover the first sample of each pixel, those that `surface` does not keep left out.
-    /// In a frame with all primitives given as translucent these are all that there are, hidden ones too: its overdraw.
-    pub fn count_layers<S: Surface>(&self, surface: &S, threads: usize, target: &mut [u32]) {
-        self.each_pixel(surface, threads, target, |pixel, target| {
-            let [x, y] = pixel.place;
-            let counts = |layer: &&Layer| {
-                let piece = self.pieces.at(layer.piece);
-                let keeps = || surface.keeps(&Fragment::new(piece, &self.source_weights, x, y));
-                layer.mask & 1 != 0 && keeps()
-            };
-            *target = pixel.layers.iter().filter(counts).count() as u32;
-        });
-    }
-
-    /// Fills tile after tile and calls `each` with every pixel of those that show something.
-    fn each_pixel<S: Surface, P: Send>(
-        &self,
-        surface: &S,
-        threads: usize,
-        target: &mut [P],
-        each: impl Fn(&Pixel<'_>, &mut P) + Sync,
-    ) {
+    /// Finds the nearest surface at the first sample of each pixel, with its depth at the pixel's centre, rows from the top: `width` ×
+    /// `height` of them. Masked primitives count where `surface` keeps them, translucent ones not at all. Uses up to `threads`
+    /// threads, whose number does not matter.
+    pub fn nearest<S: Surface>(&self, surface: &S, threads: usize, target: &mut [Nearest]) {
         let Memory { mut bins, mut workers } = self.kept.take();
         bins.sort(&self.pieces, self.part, threads);
         workers.resize_with(threads.max(1), Worker::default);
         let bands = Bands { part: self.part, rows: self.part.rows(), target };
-        share_among(&mut workers, bands, |worker, (row, pixels)| {
-            self.each_of_band(row, pixels, &bins, worker, surface, &each);
+        share_among(&mut workers, bands, |worker, (row, nearest)| {
+            nearest.fill(Nearest::NOTHING);
+            self.band_of_nearest(row, nearest, &bins, worker, surface);
         });
         self.kept.put(Memory { bins, workers });
     }
 
-    fn each_of_band<S: Surface, P>(
+    /// Writes a row of tiles, of which nothing is known yet.
+    fn band_of_nearest<S: Surface>(
         &self,
         row: u32,
-        pixels: &mut [P],
+        target: &mut [Nearest],
         bins: &Bins,
         Worker { list, tile, .. }: &mut Worker,
         surface: &S,
-        each: &impl Fn(&Pixel<'_>, &mut P),
     ) {
         let (left, right) = self.part.columns();
+        let first = self.samples.offsets().next().unwrap_or((128, 128));
+        let to_center = [first.0, first.1].map(|at| 0.5 - at as f32 / 256.0);
         for column in left..right {
             let rect = self.part.tile(column, row);
             list.clear();
@@ -95,26 +61,78 @@ impl Frame {
                 continue;
             }
             tile.fill(self, rect, list, surface);
-            for y in rect.top..rect.bottom {
-                let first =
-                    ((y - rect.top) * self.part.width + rect.x + rect.left - self.part.x) as usize;
-                for x in rect.left..rect.right {
-                    let number = (y * TILE + x) as u16;
-                    let start = tile.layers.partition_point(|layer| layer.pixel < number);
-                    let count =
-                        tile.layers[start..].iter().take_while(|l| l.pixel == number).count();
-                    let pixel = Pixel {
-                        tile,
-                        layers: &tile.layers[start..start + count],
-                        within: [x, y],
-                        place: [rect.x + x, rect.y + y],
-                    };
-                    let at = first + (x - rect.left) as usize;
-                    if let Some(target) = pixels.get_mut(at) {
-                        each(&pixel, target);
-                    }
+            // Neighbours are most often of one piece.
+            let (mut last, mut slope) = (None, [0.0; 2]);
+            for (y, x) in
+                (rect.top..rect.bottom).flat_map(|y| (rect.left..rect.right).map(move |x| (y, x)))
+            {
+                let at = index_of(x as usize, y as usize);
+                let number = tile.piece(0, at);
+                let Some(piece) = self.pieces.get(number) else { continue };
+                if last != Some(number) {
+                    (last, slope) = (Some(number), slopes(piece));
+                }
+                let place = (y - rect.top) as usize * self.part.width as usize
+                    + (rect.x + x - self.part.x) as usize;
+                if let Some(nearest) = target.get_mut(place) {
+                    let [dx, dy] = slope;
+                    let depth = tile.depth(0, at) + dx * to_center[0] + dy * to_center[1];
+                    *nearest = Nearest { depth, dx, dy };
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Cover, Fragment, Samples, ScreenVertex};
+    use homog::Point;
+
+    /// Keeps the left half.
+    struct Left;
+
+    impl Surface for Left {
+        fn keeps(&self, fragment: &Fragment<'_>) -> bool {
+            fragment.x < 50
+        }
+        fn shade(&self, _: &Fragment<'_>) -> [f32; 4] {
+            [0.0; 4]
+        }
+    }
+
+    fn sloped(cover: Cover) -> Frame {
+        let mut frame = Frame::new(100, 70, Samples::One).expect("a frame");
+        // Depth 0.1 + x / 200 + y / 400 over all of it.
+        let corner = |x: f64, y: f64| {
+            let depth = 0.1 + x / 200.0 + y / 400.0;
+            ScreenVertex::snap(Point::new(x, y, depth), 1.0).expect("a corner")
+        };
+        frame.triangle([corner(0.0, 0.0), corner(0.0, 200.0), corner(200.0, 0.0)], 3, cover);
+        frame
+    }
+
+    #[test]
+    fn planes_are_those_of_the_triangles_for_any_number_of_threads() {
+        let mut target = vec![Nearest::NOTHING; 7000];
+        let mut other = target.clone();
+        sloped(Cover::Solid).nearest(&Left, 1, &mut target);
+        sloped(Cover::Solid).nearest(&Left, 3, &mut other);
+        assert!(target == other);
+        for (at, nearest) in target.iter().enumerate() {
+            let (x, y) = ((at % 100) as f32 + 0.5, (at / 100) as f32 + 0.5);
+            assert!((nearest.depth - (0.1 + x / 200.0 + y / 400.0)).abs() < 1e-6);
+            assert!((nearest.dx - 0.005).abs() < 1e-7 && (nearest.dy - 0.0025).abs() < 1e-7);
+        }
+    }
+
+    #[test]
+    fn holes_and_glass_are_not_seen() {
+        let mut target = vec![Nearest::NOTHING; 7000];
+        sloped(Cover::Masked).nearest(&Left, 1, &mut target);
+        assert!((0..7000).all(|at| (target[at].depth > 0.0) == (at % 100 < 50)));
+        sloped(Cover::Translucent).nearest(&Left, 1, &mut target);
+        assert!(target.iter().all(|nearest| *nearest == Nearest::NOTHING));
     }
 }

@@ -111,6 +111,15 @@ impl Setup {
     }
 }
 
+/// What a piece's depth grows by from pixel to pixel to the right and downwards, cut off at the range of its corners' depths.
+pub(crate) fn slopes(piece: &Piece) -> [f32; 2] {
+    let plane = DepthPlane::new(piece);
+    let depths = piece.corners.map(|corner| corner.depth);
+    let least = depths[0].min(depths[1]).min(depths[2]);
+    let range = depths[0].max(depths[1]).max(depths[2]) - least;
+    [plane.dx, plane.dy].map(|step| ((step * f64::from(SUBPIXELS)) as f32).clamp(-range, range))
+}
+
 impl DepthPlane {
     fn new(piece: &Piece) -> Self {
         let [p, q, r] = piece.corners;

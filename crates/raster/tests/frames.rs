@@ -2,6 +2,41 @@
 
 use homog::Point;
 use raster::{Cover, Cull, Fragment, Frame, Samples, ScreenVertex, Surface};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+
+/// Counts what is shaded, and asks for the end with the first of it.
+#[derive(Default)]
+struct Impatient {
+    shaded: AtomicU32,
+    stop: Arc<AtomicBool>,
+}
+
+impl Surface for Impatient {
+    fn keeps(&self, _: &Fragment<'_>) -> bool {
+        true
+    }
+
+    fn shade(&self, _: &Fragment<'_>) -> [f32; 4] {
+        self.stop.store(true, Ordering::Relaxed);
+        self.shaded.fetch_add(1, Ordering::Relaxed);
+        [1.0; 4]
+    }
+}
+
+#[test]
+fn no_row_of_tiles_is_begun_once_drawing_is_to_stop() {
+    let surface = Impatient::default();
+    let frame = Frame::new(64, 1024, Samples::One).expect("a frame");
+    let mut frame = frame.with_stop(Arc::clone(&surface.stop));
+    let corners = [(0.0, 0.0), (64.0, 0.0), (0.0, 2048.0)]
+        .map(|(x, y)| ScreenVertex::snap(Point::new(x, y, 0.5), 1.0).expect("on the grid"));
+    frame.triangle(corners, 0, Cover::Solid);
+    let mut pixels = vec![[0.0_f32; 4]; 64 * 1024];
+    frame.draw(&surface, [0.0; 4], 1, &mut pixels, |color: [f32; 4]| color);
+    let shaded = surface.shaded.into_inner();
+    assert!(shaded > 0 && shaded <= 64 * 128, "{shaded} pixels of one row of tiles");
+}
 
 const SIZE: (u32, u32) = (200, 150);
 

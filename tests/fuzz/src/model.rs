@@ -95,7 +95,7 @@ fn draw(model: &Model, style: StyleFile, view: ViewFile) {
     file.style = style;
     file.camera.view = view;
     let origin =
-        Origin { file: "model.glb".to_owned(), text: String::new(), folder: PathBuf::new() };
+        Origin::of_text("model.glb", "", PathBuf::new());
     let placed = Placed { model: Arc::new(model.clone()), model_to_world: Affine::IDENTITY };
     // A model with nothing to see has no picture, and the error says so.
     match Scene::of_models(&origin, &file, vec![placed]) {

@@ -11,7 +11,7 @@ const NAMED_BY: &[(&str, &[&str])] = &[
     ("gltf", &["crates/pipeline/src/import"]),
     ("ron", &["crates/pipeline/src/scene"]),
     ("serde", &["crates/pipeline/src/scene"]),
-    ("tiny_skia", &["crates/pipeline/src/canvas"]),
+    ("tiny_skia", &["crates/pipeline/src/canvas", "crates/raster/examples/pixmap.rs"]),
     ("clap", &["crates/pipeline/src/cli", "crates/pipeline/src/main.rs"]),
 ];
 

@@ -47,12 +47,13 @@ pub(crate) struct AnimateArgs {
 }
 
 pub(crate) fn run(args: &AnimateArgs) -> Result<(), Failure> {
-    let (origin, mut file) = open(&args.input)?;
+    let (origin, mut file) = open(&args.input, &args.look.import(&args.load))?;
     args.look.override_in(&mut file);
-    let scene = Scene::resolve(&origin, &file, &ResolveOptions { import: args.load.options() })?;
-    warn(&scene);
+    let scene =
+        Scene::resolve(&origin, &file, &ResolveOptions { import: args.look.import(&args.load) })?;
+    warn(&scene, &[]);
     let film = args.film(&origin, &file, scene)?;
-    let mut sink = Sink::open(&args.output, &film, args.fps)?;
+    let mut sink = Sink::open(&args.input, &args.output, &film, args.fps)?;
     let counter = Counter::start(film.frames());
     let drawn = film.draw(threads(args.threads), |frame, picture| {
         counter.count();

@@ -2,15 +2,21 @@
 
 use super::animate::AnimateArgs;
 use super::batch::BatchArgs;
+use super::color::ColorArg;
 use super::compare::CompareArgs;
 use super::explain::ExplainArgs;
+use super::format::Format;
 use super::loading::LoadArgs;
-use super::look::LookArgs;
+use super::look::{LookArgs, named_view};
+use super::manual::{CompletionArgs, ManArgs};
 use super::matrix::MatrixArgs;
 use super::part::PartArgs;
 use super::passes::PassArgs;
 use super::pick::PickArgs;
+use super::reference::ReferenceArgs;
+use super::scene::SceneArgs;
 use super::sheet::SheetArgs;
+use camera::NamedView;
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -22,6 +28,9 @@ use std::path::PathBuf;
 pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) command: Command,
+    /// Colours in messages; with `auto` on a terminal, unless the variable NO_COLOR says no
+    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    pub(crate) color: ColorArg,
 }
 
 const EXAMPLES: &str = "\
@@ -37,6 +46,8 @@ Examples:
   alberti explain model.glb --point 0,1,0         where a point goes, stage by stage
   alberti animate model.glb --turntable -o turn.png
   alberti batch models --out thumbs --size 256x256
+  alberti scene init model.glb                    a scene file to begin with
+  alberti reference camera                        what a field or a flag means
 
 Exit codes: 0 done, 1 the input or the work failed (no output file is touched), 2 wrong usage.
 `check` ends with 1 if there are errors, and with 0 if there are only warnings and notes; `render --compare` ends with 1 if the
@@ -60,16 +71,33 @@ pub(crate) enum Command {
     Animate(AnimateArgs),
     /// Make pictures of many models: thumbnails, a report, a contact sheet
     Batch(BatchArgs),
+    /// Begin, check and lay out scene files, and tell what they may say
+    Scene(SceneArgs),
+    /// Write the completions of a shell to the standard output
+    Completions(CompletionArgs),
+    /// Write the manual page of the program or of a command
+    Man(ManArgs),
+    /// Tell what every flag and every field of scene files means
+    Reference(ReferenceArgs),
 }
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct RenderArgs {
-    /// A scene (.ron) or a model (.gltf, .glb)
-    pub(crate) input: PathBuf,
-    /// Where the picture goes: .png, or a line drawing as .svg or .pdf [default: the input's name with .png, in the current
-    /// folder]
+    /// Scenes (.ron) or models (.gltf, .glb); `-` reads one from the standard input
+    #[arg(required = true, value_name = "INPUT")]
+    pub(crate) inputs: Vec<PathBuf>,
+    /// Where the picture goes: .png, or a line drawing as .svg or .pdf; `-` is the standard output. In the name {stem}, {camera},
+    /// {view}, {style}, {projection} and {variant} stand for the input's name and what the flags say, {frame} for the number of
+    /// the picture among those of its input and {index} among all, both from 0; {index:04} has four digits, {{ and }} are braces
+    /// [default: {stem}.png in the current folder, {stem}_{view}.png for several views]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
+    /// What is written [default: by the end of the output's name; png to the standard output]
+    #[arg(long)]
+    pub(crate) format: Option<Format>,
+    /// A picture from each of these sides, such as front,right,top,iso
+    #[arg(long, value_name = "VIEWS", value_delimiter = ',', value_parser = named_view(), conflicts_with_all = ["view", "camera"])]
+    pub(crate) views: Vec<NamedView>,
     #[command(flatten)]
     pub(crate) look: LookArgs,
     #[command(flatten)]

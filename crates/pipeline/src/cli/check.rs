@@ -1,50 +1,96 @@
-//! `alberti check`: everything that is wrong with a scene or a model.
+//! `alberti check` and `alberti scene check`: everything that is wrong with scenes and models, and what is probably not meant.
 
-use super::Failure;
+mod json;
+
 use super::args::CheckArgs;
+use super::loading::LoadArgs;
 use super::render::is_scene;
-use pipeline::import::{ImportOptions, Problem, Report, check};
-use pipeline::scene::{ResolveOptions, review};
-use pipeline::{Origin, ResolveError, SceneError, SceneFile};
-use serde_json::{Value, json};
+use super::{Failure, color, say};
+use pipeline::import::{ImportOptions, Report, check};
+use pipeline::scene::{Advice, ResolveOptions, advise, review};
+use pipeline::{Origin, ResolveError, Scene, SceneError, SceneFile};
 use std::fmt::Write as _;
-use std::io::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// The version of the schema of `--json`. New members may come in any release; it rises when one changes its meaning or goes.
-const VERSION: u32 = 1;
+#[derive(Debug, clap::Args)]
+pub(crate) struct SceneCheckArgs {
+    /// Scenes (.ron)
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// The report for programs
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    load: LoadArgs,
+}
 
 /// What was found in a scene, and in each model.
 struct Findings {
+    file: PathBuf,
     scene: Option<Vec<SceneError>>,
+    advice: Vec<Advice>,
     models: Vec<Report>,
 }
 
-/// Prints what is wrong; the exit code is 1 if there are errors.
+/// Prints what is wrong with a scene or a model; the exit code is 1 if there are errors.
 pub(crate) fn run(args: &CheckArgs) -> Result<ExitCode, Failure> {
     let options = args.load.options();
     let findings = if is_scene(&args.input) {
         check_scene(&args.input, &options)?
     } else {
-        Findings { scene: None, models: vec![check(&args.input, &options)] }
+        let models = vec![check(&args.input, &options)];
+        Findings { file: args.input.clone(), scene: None, advice: Vec::new(), models }
     };
-    let text = if args.json { findings.json(&args.input) } else { findings.text(&args.input) };
-    std::io::stdout().write_all(text.as_bytes())?;
-    Ok(if findings.errors() == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+    say((if args.json { json::of_file(&findings) } else { findings.text() }).as_bytes())?;
+    Ok(exit_code(findings.errors()))
+}
+
+/// Prints what is wrong with scenes; the exit code is 1 if there are errors.
+pub(crate) fn scenes(args: &SceneCheckArgs) -> Result<ExitCode, Failure> {
+    let options = args.load.options();
+    let check = |path: &PathBuf| check_scene(path, &options);
+    let findings = args.files.iter().map(check).collect::<Result<Vec<_>, _>>()?;
+    let text = if args.json {
+        json::of_scenes(&findings)
+    } else {
+        findings.iter().map(Findings::text).collect()
+    };
+    say(text.as_bytes())?;
+    Ok(exit_code(findings.iter().map(Findings::errors).sum()))
+}
+
+fn exit_code(errors: usize) -> ExitCode {
+    if errors == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
 fn check_scene(input: &Path, options: &ImportOptions) -> Result<Findings, Failure> {
-    let (origin, file) = match Origin::read(input) {
+    let found = |scene, advice, models| Findings {
+        file: input.to_owned(),
+        scene: Some(scene),
+        advice,
+        models,
+    };
+    let (origin, file) = match Origin::read_below(input, &options.allow_outside) {
         Err(ResolveError::Scene(mistake)) => {
-            return Ok(Findings { scene: Some(vec![mistake]), models: Vec::new() });
+            return Ok(found(vec![mistake], Vec::new(), Vec::new()));
         }
         read => read?,
     };
     let resolve = ResolveOptions { import: options.clone() };
-    let scene = Some(review(&origin, &file, &resolve));
+    let mut mistakes = review(&origin, &file, &resolve);
+    let mut advice = Vec::new();
+    if mistakes.is_empty() {
+        // What `render` would refuse is a mistake, also where the review has no eye for it.
+        match Scene::resolve(&origin, &file, &resolve) {
+            Ok(scene) => advice = advise(&origin, &file, &scene),
+            Err(ResolveError::Scene(mistake)) => mistakes.push(mistake),
+            // The reports of the models tell it.
+            Err(_) => {}
+        }
+    }
     let models = models(&origin, &file, options);
-    Ok(Findings { scene, models })
+    Ok(found(mistakes, advice, models))
 }
 
 /// The reports of the models of a scene, each once; those that may not be read have none.
@@ -66,18 +112,27 @@ impl Findings {
     }
 
     /// A line for each problem, the worst first, and a summary of each file. Writing to a `String` cannot fail.
-    fn text(&self, input: &Path) -> String {
-        let mut text = String::new();
+    fn text(&self) -> String {
+        let (mut text, color) = (String::new(), color::on_stdout());
         if let Some(mistakes) = &self.scene {
             for mistake in mistakes {
-                let _ = writeln!(text, "{mistake}\n");
+                let _ =
+                    writeln!(text, "{}: {}\n", color::level("error", color), mistake.told(color));
             }
-            let count = match mistakes.len() {
-                0 => "no mistakes".to_owned(),
-                1 => "1 mistake".to_owned(),
-                count => format!("{count} mistakes"),
+            for Advice { code, fault } in &self.advice {
+                let _ = writeln!(
+                    text,
+                    "{}: {}\n",
+                    color::level(&format!("warning[{code}]"), color),
+                    fault.told(color)
+                );
+            }
+            let mistakes = counted(mistakes.len(), "mistake");
+            let advice = match self.advice.len() {
+                0 => String::new(),
+                count => format!(", {}", counted(count, "warning")),
             };
-            let _ = writeln!(text, "{}: {count}", input.display());
+            let _ = writeln!(text, "{}: {mistakes}{advice}", self.file.display());
         }
         for report in &self.models {
             for problem in &report.problems {
@@ -90,45 +145,12 @@ impl Findings {
         }
         text
     }
+}
 
-    fn json(&self, input: &Path) -> String {
-        let document = json!({
-            "schema": {"name": "alberti-check", "version": VERSION},
-            "file": input.to_string_lossy(),
-            "errors": self.errors(),
-            "scene": self.scene.as_ref().map(|all| all.iter().map(mistake_json).collect::<Vec<_>>()),
-            "models": self.models.iter().map(report_json).collect::<Vec<_>>(),
-        });
-        format!("{document:#}\n")
+fn counted(count: usize, what: &str) -> String {
+    match count {
+        0 => format!("no {what}s"),
+        1 => format!("1 {what}"),
+        _ => format!("{count} {what}s"),
     }
-}
-
-fn mistake_json(mistake: &SceneError) -> Value {
-    let (line, column) = mistake.line_and_column();
-    json!({"line": line, "column": column, "message": mistake.message, "remedy": mistake.help})
-}
-
-fn report_json(report: &Report) -> Value {
-    let refusal = report.refusal.as_ref().map(
-        |fault| json!({"pointer": fault.pointer, "message": fault.problem, "remedy": fault.remedy}),
-    );
-    json!({
-        "file": report.file.to_string_lossy(),
-        "errors": report.errors,
-        "warnings": report.warnings,
-        "notes": report.notes,
-        "refusal": refusal,
-        "problems": report.problems.iter().map(problem_json).collect::<Vec<_>>(),
-        "problems_left_out": report.left_out(),
-    })
-}
-
-fn problem_json(problem: &Problem) -> Value {
-    json!({
-        "severity": problem.severity.name(),
-        "code": problem.code,
-        "pointer": problem.pointer,
-        "message": problem.message,
-        "remedy": problem.remedy,
-    })
 }

@@ -3,17 +3,20 @@
 use super::Failure;
 use super::loading::LoadArgs;
 use super::look::LookArgs;
-use super::render::open;
+use super::render::{open, threads};
 use homog::{Point, World};
-use pipeline::Scene;
 use pipeline::explain::{
     Chain, Conventions, Explanation, Vertex, explain_chain, explain_node, explain_pixel,
     explain_place, explain_segment, explain_triangle, explain_vertex,
 };
 use pipeline::model::Model;
 use pipeline::scene::{Placed, ResolveOptions};
+use pipeline::{Picture, Scene};
 use std::io::Write as _;
 use std::path::PathBuf;
+
+/// The longer side of the picture on a page, in pixels.
+const SIDE: f64 = 960.0;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct ExplainArgs {
@@ -27,6 +30,12 @@ pub(crate) struct ExplainArgs {
     /// The explanation for programs
     #[arg(long)]
     json: bool,
+    /// The explanation as a page with figures, which needs no other file
+    #[arg(long, conflicts_with = "json")]
+    html: bool,
+    /// Where it goes [default: the standard output]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
     #[command(flatten)]
     look: LookArgs,
     #[command(flatten)]
@@ -64,16 +73,33 @@ struct SubjectArgs {
 }
 
 pub(crate) fn run(args: &ExplainArgs) -> Result<(), Failure> {
-    let (origin, mut file) = open(&args.input)?;
+    let (origin, mut file) = open(&args.input, &args.look.import(&args.load))?;
     args.look.override_in(&mut file);
-    let scene = Scene::resolve(&origin, &file, &ResolveOptions { import: args.load.options() })?;
+    let scene =
+        Scene::resolve(&origin, &file, &ResolveOptions { import: args.look.import(&args.load) })?;
     let size = (scene.image.width, scene.image.height);
     let chain =
         Chain::of(&scene.shot, size, args.conventions).map_err(pipeline::RenderError::from)?;
     let told = args.subject.explain(&chain, &scene).map_err(Failure::Usage)?;
-    let text = if args.json { format!("{:#}\n", told.to_json()) } else { told.to_string() };
-    std::io::stdout().write_all(text.as_bytes())?;
+    let text = match (args.json, args.html) {
+        (true, _) => format!("{:#}\n", told.to_json()),
+        (_, true) => told.to_html(&chain, Some(&small_picture(scene)?)),
+        _ => told.to_string(),
+    };
+    match &args.output {
+        Some(path) => pipeline::write_file(path, text.as_bytes())?,
+        None => std::io::stdout().write_all(text.as_bytes())?,
+    }
     Ok(())
+}
+
+/// The picture of a scene, no larger than a page has room for.
+fn small_picture(mut scene: Scene) -> Result<Picture, Failure> {
+    let image = &mut scene.image;
+    let most = f64::from(image.width.max(image.height));
+    let shrunk = |side: u32| ((f64::from(side) * (SIDE / most).min(1.0)) as u32).max(1);
+    (image.width, image.height) = (shrunk(image.width), shrunk(image.height));
+    Ok(pipeline::render(&scene, threads(None))?)
 }
 
 impl SubjectArgs {

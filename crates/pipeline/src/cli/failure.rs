@@ -1,5 +1,6 @@
 //! What can go wrong in the program.
 
+use super::color;
 use pipeline::drawing::SheetError;
 use pipeline::import::ImportError;
 use pipeline::{OutputError, RenderError, ResolveError, SceneError};
@@ -23,4 +24,14 @@ pub(crate) enum Failure {
     Stdout(#[from] std::io::Error),
     #[error("{0}")]
     Usage(String),
+}
+
+impl Failure {
+    /// The message as the standard error stream shows it: in colours, if it has them.
+    pub(crate) fn told(&self) -> String {
+        match self {
+            Self::Resolve(ResolveError::Scene(mistake)) => mistake.told(color::on_stderr()),
+            other => other.to_string(),
+        }
+    }
 }

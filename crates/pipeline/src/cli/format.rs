@@ -5,10 +5,13 @@ use pipeline::drawing::{Page, to_pdf};
 use std::path::Path;
 
 /// What an output is written as.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Format {
+#[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
+pub(crate) enum Format {
+    /// Pixels
     Png,
+    /// A line drawing
     Svg,
+    /// A line drawing on a page
     Pdf,
 }
 
@@ -22,8 +25,20 @@ impl Format {
             Some("pdf") => Ok(Self::Pdf),
             _ => {
                 let name = output.display();
-                Err(Failure::Usage(format!("the output {name} does not end in .png, .svg or .pdf")))
+                let help = "name it so, or say what it is with --format";
+                Err(Failure::Usage(format!(
+                    "the output {name} does not end in .png, .svg or .pdf\n  = help: {help}"
+                )))
             }
+        }
+    }
+
+    /// The end of the names of such files.
+    pub(super) fn ending(self) -> &'static str {
+        match self {
+            Self::Png => "png",
+            Self::Svg => "svg",
+            Self::Pdf => "pdf",
         }
     }
 

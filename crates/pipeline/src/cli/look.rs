@@ -1,9 +1,13 @@
 //! Flags that change what a scene says of its picture: the size, the camera, the style, the state of the models.
 
 use super::args::{OverlayArg, ProjectionArg, StyleArg};
+use super::light::LightArgs;
+use super::loading::LoadArgs;
 use super::pick::PickArgs;
+use super::section::SectionArgs;
 use camera::NamedView;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use pipeline::import::ImportOptions;
 use pipeline::scene::file::{
     BackgroundFile, CameraChoice, CameraFile, OverlayFile, PrincipalFile, ProjectionFile,
     SceneFile, StyleFile, USUAL_PADDING, ViewFile,
@@ -15,6 +19,9 @@ pub(crate) struct LookArgs {
     /// Width and height in pixels, such as 1920x1080
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(crate) size: Option<(u32, u32)>,
+    /// Multiply width and height, those of the scene or of --size, by a number up to 64
+    #[arg(long, value_name = "N", value_parser = parse_factor)]
+    pub(crate) scale: Option<f64>,
     /// How surfaces are drawn
     #[arg(long)]
     pub(crate) style: Option<StyleArg>,
@@ -32,12 +39,19 @@ pub(crate) struct LookArgs {
     /// What is drawn over the picture to explain it; may be given several times
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     pub(crate) overlay: Vec<OverlayArg>,
+    #[command(flatten)]
+    pub(crate) section: SectionArgs,
     /// What is seen where no model is: transparent, or a colour such as #f4f1ea
-    #[arg(long, value_name = "COLOR")]
+    #[arg(long, value_name = "COLOR", value_parser = parse_background)]
     pub(crate) background: Option<String>,
     /// Coverage samples per pixel: 1, 4, 8 or 16
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = parse_samples)]
     pub(crate) samples: Option<u32>,
+    /// Places that textures are read at along the longer side of what a pixel covers of them: 1 to 8
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8))]
+    pub(crate) anisotropy: Option<u32>,
+    #[command(flatten)]
+    pub(crate) light: LightArgs,
 }
 
 impl LookArgs {
@@ -46,8 +60,16 @@ impl LookArgs {
         if let Some(size) = self.size {
             file.image.size = size;
         }
+        if let Some(factor) = self.scale {
+            let (width, height) = file.image.size;
+            let side = |side: u32| libm::round(f64::from(side) * factor).max(1.0) as u32;
+            file.image.size = (side(width), side(height));
+        }
         if let Some(samples) = self.samples {
             file.image.samples = samples;
+        }
+        if let Some(anisotropy) = self.anisotropy {
+            file.image.anisotropy = anisotropy;
         }
         if let Some(text) = &self.background {
             let transparent = text.eq_ignore_ascii_case("transparent");
@@ -57,9 +79,18 @@ impl LookArgs {
         if let Some(style) = self.style {
             file.style = style.into();
         }
+        self.section.add_to(file);
         file.overlays.extend(self.overlay.iter().copied().map(OverlayFile::from));
         file.models.iter_mut().for_each(|model| self.pick.override_in(model));
+        self.light.override_in(file);
         self.override_camera(&mut file.camera);
+    }
+
+    /// How models are loaded by these flags too: a file that they name may be read wherever it is.
+    pub(crate) fn import(&self, load: &LoadArgs) -> ImportOptions {
+        let mut options = load.options();
+        options.allow_outside.extend(self.light.named_file());
+        options
     }
 
     fn override_camera(&self, file: &mut CameraFile) {
@@ -137,12 +168,32 @@ impl From<OverlayArg> for OverlayFile {
 }
 
 /// The views of the `camera` crate by their names.
-fn named_view() -> impl TypedValueParser<Value = NamedView> {
+pub(super) fn named_view() -> impl TypedValueParser<Value = NamedView> {
     let value = |view: NamedView| match view {
         NamedView::Isometric => PossibleValue::new(view.name()).alias("iso"),
         _ => PossibleValue::new(view.name()),
     };
     PossibleValuesParser::new(NamedView::ALL.map(value)).try_map(|name| name.parse::<NamedView>())
+}
+
+fn parse_factor(text: &str) -> Result<f64, String> {
+    let factor = text.parse().ok().filter(|factor: &f64| *factor > 0.0 && *factor <= 64.0);
+    factor.ok_or_else(|| "expected a number greater than 0, up to 64, such as 2 or 0.5".to_owned())
+}
+
+/// `transparent`, or a colour.
+fn parse_background(text: &str) -> Result<String, String> {
+    let digits = text.strip_prefix('#').unwrap_or("");
+    let is_color = matches!(digits.len(), 3 | 6) && digits.chars().all(|c| c.is_ascii_hexdigit());
+    if is_color || text.eq_ignore_ascii_case("transparent") {
+        return Ok(text.to_owned());
+    }
+    Err("expected transparent, or a colour such as #fff or #f4f1ea".to_owned())
+}
+
+fn parse_samples(text: &str) -> Result<u32, String> {
+    let samples = text.parse().ok().filter(|samples| [1, 4, 8, 16].contains(samples));
+    samples.ok_or_else(|| "possible are 1, 4, 8 and 16".to_owned())
 }
 
 fn parse_size(text: &str) -> Result<(u32, u32), String> {

@@ -32,7 +32,7 @@ pub(super) fn tell(painting: &Painting<'_>, painted: &Painted) -> Result<(), Fai
         painting.timings.stages().into_iter().map(milliseconds).collect();
     let report = json!({
         "schema": {"name": "alberti-render", "version": VERSION},
-        "input": painting.args.input.to_string_lossy(),
+        "input": painting.job.input.to_string_lossy(),
         "image": {
             "size": [scene.image.width, scene.image.height],
             "region": [x, y, width, height],
@@ -41,6 +41,7 @@ pub(super) fn tell(painting: &Painting<'_>, painted: &Painted) -> Result<(), Fai
         },
         "camera": camera(painting),
         "models": models(painting),
+        "warnings": painted.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
         "comparison": comparison,
         "milliseconds": timings,
         "files": files?,

@@ -6,6 +6,7 @@ use super::loading::LoadArgs;
 use super::pick::PickArgs;
 use super::progress::Progress;
 use super::render::{open, threads, warn};
+use super::section::SectionArgs;
 use clap::ValueEnum;
 use pipeline::drawing::{Page, Sheet};
 use pipeline::scene::ResolveOptions;
@@ -62,6 +63,8 @@ pub(crate) struct SheetArgs {
     /// The number of the drawing
     #[arg(long)]
     number: Option<String>,
+    #[command(flatten)]
+    section: SectionArgs,
     #[command(flatten)]
     pick: PickArgs,
     /// Threads to use; the sheet does not depend on it [default: as many as there are cores]
@@ -124,8 +127,9 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), Failure> {
     let output = args.output.clone().map_or_else(|| beside(args), Ok)?;
     let format = Format::of(&output)?;
     let progress = Progress::start("loading");
-    let (origin, mut file) = open(&args.input)?;
+    let (origin, mut file) = open(&args.input, &args.load.options())?;
     file.models.iter_mut().for_each(|model| args.pick.override_in(model));
+    args.section.add_to(&mut file);
     // The views are the sheet's; what the scene says of its camera does not matter.
     file.camera = pipeline::scene::file::CameraFile::default();
     let mut described = file.sheet.take().unwrap_or_default();
@@ -136,13 +140,14 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), Failure> {
     progress.stage("drawing");
     let page = sheet.draw(&scene, threads(args.threads))?;
     progress.stage("writing");
+    let warnings = page.warnings.clone();
     let bytes = match format {
         Format::Png => picture(&page)?.to_png(),
         Format::Svg | Format::Pdf => format.vectors(&[page]),
     };
     pipeline::write_file(&output, &bytes)?;
     drop(progress);
-    warn(&scene);
+    warn(&scene, &warnings);
     Ok(())
 }
 

@@ -1,11 +1,13 @@
 //! From a scene to its line drawing.
 
 use super::edges::{Candidate, Surface};
+use super::hatch::Hatching;
 use super::in_order::in_order;
 use super::options::{Hidden, Options};
 use super::sight::Sight;
+use super::tone::{Lamp, painted};
 use super::visibility::{Obstacles, Scratch, Trace};
-use super::{Line, LineDrawing};
+use super::{EdgeClass, Line, LineDrawing, Tone, Warning};
 use crate::render::RenderError;
 use crate::scene::Scene;
 use glam::DVec2;
@@ -18,8 +20,25 @@ use viewport::Viewport;
 pub fn draw(scene: &Scene, options: &Options, threads: usize) -> Result<LineDrawing, RenderError> {
     let (width, height) = (scene.image.width, scene.image.height);
     let sight = Sight::new(&scene.shot, &Viewport::image(width, height)?);
-    let surface = Surface::of(scene);
-    let edges = surface.edges(&sight, options, threads);
+    let mut surface = Surface::of(scene);
+    let mut edges = surface.edges(&sight, options, threads);
+    let mut warnings = surface.warnings().to_vec();
+    for hatching in hatchings(&surface, scene, &sight, options) {
+        warnings.extend(hatching.is_cut_off.then_some(Warning::HatchingLeftOut));
+        let class = EdgeClass::Hatching;
+        let lines = hatching.segments.into_iter();
+        edges.extend(lines.map(|(ends, object)| Candidate { ends, class, object }));
+    }
+    edges.sort_by_key(|candidate| candidate.object);
+    warnings.sort_unstable();
+    warnings.dedup();
+    let tone = match options.tone {
+        Tone::Flat => {
+            let faces = surface.painted().map(|(corners, _, color)| (corners, color));
+            Some(painted(faces, &scene.shot, [width, height], options)?)
+        }
+        _ => None,
+    };
     let obstacles = match options.hidden {
         Hidden::Ignored => Obstacles::new([], sight, surface.tolerance()),
         _ => Obstacles::new(surface.triangles(), sight, surface.tolerance()),
@@ -29,7 +48,26 @@ pub fn draw(scene: &Scene, options: &Options, threads: usize) -> Result<LineDraw
         size: DVec2::new(width.into(), height.into()),
         objects: surface.into_objects(),
         lines: drawer.lines(&edges, threads),
+        tone,
+        warnings,
     })
+}
+
+/// The hatching of caps, and that of all other faces if it is wanted.
+fn hatchings(surface: &Surface, scene: &Scene, sight: &Sight, options: &Options) -> Vec<Hatching> {
+    if !options.classes.contains(EdgeClass::Hatching) {
+        return Vec::new();
+    }
+    let touching = surface.tolerance().world;
+    let mut all = vec![Hatching::of_caps(&surface.caps(), sight, options.hatch, touching)];
+    if options.tone == Tone::Hatching {
+        let lamp = Lamp::of(&scene.shot, *sight);
+        let toned = surface
+            .toned()
+            .map(|(corners, object, color)| (corners, object, lamp.tone(corners, color)));
+        all.push(Hatching::of_tones(toned, sight, options.hatch));
+    }
+    all
 }
 
 struct Drawer {
@@ -52,7 +90,9 @@ impl Drawer {
     fn divide(&self, edge: &Candidate, number: u32, scratch: &mut Scratch, lines: &mut Vec<Line>) {
         let Some(trace) = Trace::of(edge.ends, &self.sight) else { return };
         let hidden = self.obstacles.hidden(&trace, scratch);
-        let pieces = hidden.divide().filter(|(_, hidden)| !hidden || self.keeps_hidden);
+        // Hatching is never drawn where it is hidden.
+        let keeps_hidden = self.keeps_hidden && edge.class != EdgeClass::Hatching;
+        let pieces = hidden.divide().filter(|(_, hidden)| !hidden || keeps_hidden);
         lines.extend(pieces.map(|(span, hidden)| Line {
             ends: span.map(|s| trace.at(s)),
             depths: span.map(|s| trace.depth_at(s)),

@@ -4,10 +4,12 @@
 //!  primitives ─gather─► points, faces ─weld─► shared points ─sides─► edges with their faces ─classify─► edges to draw
 //! ```
 
+mod caps;
 mod classify;
 mod crossings;
 mod gather;
 mod seams;
+mod section;
 mod sides;
 mod surface;
 mod weld;

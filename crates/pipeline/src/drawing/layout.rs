@@ -4,7 +4,7 @@ use super::chain::{Chain, chained};
 use super::linetype::LineType;
 use super::look::{HiddenLines, LineLook, Shown};
 use super::overlap::{Piece, once};
-use super::page::{Group, Ink, Layer, MILLIMETRES_PER_PIXEL, Page, Pen};
+use super::page::{Group, Ink, Layer, MILLIMETRES_PER_PIXEL, Page, Pasted, Pen, micrometres};
 use super::{EdgeClass, Line, LineDrawing};
 use glam::DVec2;
 
@@ -52,8 +52,20 @@ impl LineDrawing {
     #[must_use]
     pub fn to_page(&self, look: &LineLook, title: &str, paper: Option<Ink>) -> Page {
         let mut page = Page::new(self.size * MILLIMETRES_PER_PIXEL, title, paper);
+        page.pictures.extend(self.pasted(Placement::PICTURE, ""));
         page.layers = self.layers(look, Placement::PICTURE, "", page.ink(look));
+        page.warnings.clone_from(&self.warnings);
         page
+    }
+
+    /// The tones of the faces, to be pasted under the lines, if there are any.
+    #[must_use]
+    pub fn pasted(&self, placement: Placement, prefix: &str) -> Option<Pasted> {
+        let picture = self.tone.clone()?;
+        let (corner, end) = (micrometres(placement.corner), placement.place(self.size));
+        let end = micrometres(end);
+        let size = [0, 1].map(|axis| (end[axis] - corner[axis]).max(1));
+        Some(Pasted { id: format!("{prefix}tone"), corner, size, picture })
     }
 
     /// The layers of the drawing, the lowest first. `prefix` begins their names, so that several drawings go on one page.
@@ -170,7 +182,8 @@ impl<'a> Kinds<'a> {
     fn pen(&self, kind: Kind, ink: Ink) -> Pen {
         let look = self.look;
         let [wide, narrow] = look.widths.wide_and_narrow();
-        let is_narrow = kind.hidden || kind.class == EdgeClass::Tangent;
+        let is_narrow =
+            kind.hidden || matches!(kind.class, EdgeClass::Tangent | EdgeClass::Hatching);
         let width = if is_narrow { narrow } else { wide };
         let line_type = if kind.hidden { LineType::Dashed } else { LineType::Continuous };
         let ink = if kind.band == 0 { ink } else { paler(ink, look.depth_cue, kind.band) };
@@ -194,6 +207,7 @@ fn draws(look: &LineLook, class: EdgeClass, hidden: bool) -> bool {
     match class {
         EdgeClass::Silhouette | EdgeClass::Boundary => true,
         EdgeClass::Facet => look.shown == Shown::Facets,
+        EdgeClass::Hatching => !hidden && look.shown != Shown::Silhouette,
         // What is only there in thought is not drawn where it is hidden.
         EdgeClass::Tangent => {
             look.shown == Shown::Tangents && !hidden || look.shown == Shown::Facets
@@ -204,7 +218,7 @@ fn draws(look: &LineLook, class: EdgeClass, hidden: bool) -> bool {
 
 impl EdgeClass {
     /// All classes, the most important first.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Silhouette,
         Self::Boundary,
         Self::Crease,
@@ -213,6 +227,7 @@ impl EdgeClass {
         Self::Marked,
         Self::Tangent,
         Self::Line,
+        Self::Hatching,
         Self::Facet,
     ];
 
@@ -228,6 +243,7 @@ impl EdgeClass {
             Self::Marked => "marked",
             Self::Tangent => "tangent",
             Self::Line => "line",
+            Self::Hatching => "hatching",
             Self::Facet => "facet",
         }
     }

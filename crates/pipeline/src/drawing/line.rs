@@ -1,5 +1,7 @@
 //! What the hidden-line engine hands to the outputs: pieces of edges on the screen.
 
+use super::Warning;
+use crate::Picture;
 use glam::DVec2;
 
 /// Why an edge is drawn.
@@ -21,6 +23,8 @@ pub enum EdgeClass {
     Tangent,
     /// A line primitive of the model.
     Line,
+    /// A line of hatching: on a cut face, or for the tone of any face.
+    Hatching,
     /// Any other side of a triangle; only wireframes show it.
     Facet,
 }
@@ -51,4 +55,8 @@ pub struct LineDrawing {
     pub objects: Vec<String>,
     /// The pieces.
     pub lines: Vec<Line>,
+    /// The tones of the faces under the lines, if the options want them flat: a picture that fills the drawing.
+    pub tone: Option<Picture>,
+    /// What could not be drawn as it should, each once.
+    pub warnings: Vec<Warning>,
 }

@@ -24,6 +24,10 @@ pub struct LineLook {
     pub cap: Cap,
     /// How lines turn corners.
     pub join: Join,
+    /// The distance between lines of hatching in millimetres.
+    pub hatch: f64,
+    /// What is on the faces under the lines.
+    pub tone: Tone,
 }
 
 /// Which lines are drawn.
@@ -50,6 +54,17 @@ pub enum HiddenLines {
     Drawn,
 }
 
+/// What is on the faces under the lines.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Tone {
+    /// Nothing.
+    Blank,
+    /// A picture in which each face has one tone.
+    Flat,
+    /// Lines, the closer the darker the face is.
+    Hatching,
+}
+
 /// How wide lines are.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Widths {
@@ -72,6 +87,8 @@ impl LineLook {
         ink: None,
         cap: Cap::Round,
         join: Join::Round,
+        hatch: 2.0,
+        tone: Tone::Blank,
     };
     /// The same with hidden lines dashed.
     pub const DASHED: Self = Self { hidden: HiddenLines::Dashed, ..Self::REMOVED };
@@ -109,6 +126,9 @@ impl LineLook {
                 HiddenLines::Drawn => Hidden::Ignored,
             },
             crease: self.crease,
+            hatch: self.hatch / MILLIMETRES_PER_PIXEL,
+            tone: self.tone,
+            ..Options::default()
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What a drawing shows.
 
-use super::EdgeClass;
+use super::page::MILLIMETRES_PER_PIXEL;
+use super::{EdgeClass, Tone};
 
 /// What a drawing shows.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -12,6 +13,12 @@ pub struct Options {
     /// Two faces that meet at more than this angle make a crease: in radians, 0 for faces that go on straight.
     /// Default: 30 degrees.
     pub crease: f64,
+    /// The distance between lines of hatching in pixels, greater than 0. Default: 2 mm at 96 pixels to the inch.
+    pub hatch: f64,
+    /// What is on the faces under the lines. Default: nothing.
+    pub tone: Tone,
+    /// Pixels of the picture of tones for each pixel of the drawing. Default: 3.
+    pub tone_scale: f64,
 }
 
 /// What becomes of the hidden parts of edges.
@@ -37,7 +44,14 @@ impl Options {
     /// The edges one would draw by hand, where they can be seen.
     #[must_use]
     pub const fn hidden_removed() -> Self {
-        Self { classes: EdgeClasses::FEATURES, hidden: Hidden::Removed, crease: Self::CREASE }
+        Self {
+            classes: EdgeClasses::FEATURES,
+            hidden: Hidden::Removed,
+            crease: Self::CREASE,
+            hatch: 2.0 / MILLIMETRES_PER_PIXEL,
+            tone: Tone::Blank,
+            tone_scale: 3.0,
+        }
     }
 
     /// The same with the hidden parts, to be dashed.
@@ -56,7 +70,7 @@ impl Options {
     /// Every side of every face, as if surfaces were of wire.
     #[must_use]
     pub const fn wireframe() -> Self {
-        Self { classes: EdgeClasses::ALL, hidden: Hidden::Ignored, crease: Self::CREASE }
+        Self { classes: EdgeClasses::ALL, hidden: Hidden::Ignored, ..Self::hidden_removed() }
     }
 }
 

@@ -3,6 +3,8 @@
 //! Coordinates are whole micrometres from the upper left corner, y down. Being whole they are the same in SVG, PDF and PNG, and
 //! relative steps between them add up without error.
 
+use super::Warning;
+use crate::Picture;
 use glam::DVec2;
 
 /// Millimetres of a picture's pixel on paper: 96 of them make an inch, as in CSS.
@@ -23,8 +25,25 @@ pub struct Page {
     pub title: String,
     /// The colour of the paper; `None` for no colour.
     pub paper: Option<Ink>,
+    /// Pictures on the paper, under the lines.
+    pub pictures: Vec<Pasted>,
     /// What is drawn, one layer over the other.
     pub layers: Vec<Layer>,
+    /// What could not be drawn as it should, each once.
+    pub warnings: Vec<Warning>,
+}
+
+/// A picture on a page.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Pasted {
+    /// A name for programs: lower case, hyphens, unique on its page.
+    pub id: String,
+    /// The upper left corner in micrometres.
+    pub corner: Place,
+    /// Width and height in micrometres, greater than 0.
+    pub size: Place,
+    /// The picture, stretched to this size.
+    pub picture: Picture,
 }
 
 /// Lines of one kind, drawn with one pen.
@@ -69,7 +88,8 @@ pub struct Pen {
     pub width: f64,
     /// The colour.
     pub ink: Ink,
-    /// Lengths of dashes and gaps in turn, in millimetres; none for a continuous line. Each polyline begins anew.
+    /// Lengths of dashes and gaps in turn, in millimetres; none for a continuous line. Each polyline begins anew, with a pattern
+    /// fitted to its length: [`Pen::fitted_dashes`].
     pub dashes: Vec<f64>,
     /// How lines end.
     pub cap: Cap,
@@ -105,7 +125,8 @@ impl Page {
     /// An empty page.
     #[must_use]
     pub fn new(size: DVec2, title: impl Into<String>, paper: Option<Ink>) -> Self {
-        Self { size, title: title.into(), paper, layers: Vec::new() }
+        let (pictures, layers, warnings) = (Vec::new(), Vec::new(), Vec::new());
+        Self { size, title: title.into(), paper, pictures, layers, warnings }
     }
 }
 

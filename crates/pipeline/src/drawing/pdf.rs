@@ -5,7 +5,8 @@
 //! on chance: no dates, no identifiers.
 
 use super::fixed::thousandths;
-use super::page::{Cap, Ink, Join, Layer, Page, Pen, Place, Polyline};
+use super::page::{Cap, Ink, Join, Layer, Page, Pasted, Pen, Place, Polyline};
+use crate::Picture;
 use pdf_writer::{Dict, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 
 /// Points in a millimetre: an inch has 72.
@@ -17,9 +18,10 @@ const EFFORT: u8 = 6;
 /// The longest name of a layer that is written, in characters.
 const LONGEST_NAME: usize = 200;
 
-/// The numbers of the objects of a file: three at the beginning, two for each page, one for each layer.
+/// The numbers of the objects of a file: three at the beginning, two for each page, one for each layer, two for each picture.
 struct Numbers {
     pages: usize,
+    layers: usize,
 }
 
 impl Numbers {
@@ -38,16 +40,27 @@ impl Numbers {
     fn layer(&self, number: usize) -> Ref {
         Ref::new(4 + 2 * self.pages as i32 + number as i32)
     }
+
+    /// A picture's colours and its alpha.
+    fn picture(&self, number: usize) -> [Ref; 2] {
+        let first = 4 + 2 * self.pages + self.layers + 2 * number;
+        [first, first + 1].map(|number| Ref::new(number as i32))
+    }
 }
 
 /// The pages as a PDF file; its title is that of the first.
 #[must_use]
 pub fn to_pdf(pages: &[Page]) -> Vec<u8> {
     let mut pdf = Pdf::new();
-    let numbers = Numbers { pages: pages.len() };
-    let mut layers = 0;
+    let layers = pages.iter().map(|page| page.layers.len()).sum();
+    let numbers = Numbers { pages: pages.len(), layers };
+    let (mut layers, mut pictures) = (0, 0);
     for (number, page) in pages.iter().enumerate() {
-        write_page(&mut pdf, &numbers, number, page, layers);
+        write_page(&mut pdf, &numbers, number, page, [layers, pictures]);
+        for (at, pasted) in page.pictures.iter().enumerate() {
+            write_picture(&mut pdf, numbers.picture(pictures + at), &pasted.picture);
+        }
+        pictures += page.pictures.len();
         for (at, layer) in page.layers.iter().enumerate() {
             let mut group = pdf.indirect(numbers.layer(layers + at)).dict();
             group.pair(Name(b"Type"), Name(b"OCG"));
@@ -78,7 +91,31 @@ fn write_layer_list(catalog: &mut Dict<'_>, layers: impl Iterator<Item = Ref> + 
     usual.insert(Name(b"Order")).array().items(layers);
 }
 
-fn write_page(pdf: &mut Pdf, numbers: &Numbers, number: usize, page: &Page, layers: usize) {
+/// The colours of a picture, and its alpha as a mask.
+fn write_picture(pdf: &mut Pdf, [color, mask]: [Ref; 2], picture: &Picture) {
+    let (width, height) = (picture.width as i32, picture.height as i32);
+    let packed = |bytes: Vec<u8>| miniz_oxide::deflate::compress_to_vec_zlib(&bytes, EFFORT);
+    let colors = packed(picture.pixels.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect());
+    let mut image = pdf.image_xobject(color, &colors);
+    image.width(width).height(height).bits_per_component(8).s_mask(mask);
+    image.color_space().device_rgb();
+    image.filter(Filter::FlateDecode);
+    image.finish();
+    let alphas = packed(picture.pixels.iter().map(|pixel| pixel[3]).collect());
+    let mut image = pdf.image_xobject(mask, &alphas);
+    image.width(width).height(height).bits_per_component(8);
+    image.color_space().device_gray();
+    image.filter(Filter::FlateDecode);
+}
+
+/// A page; its first layer and its first picture have these numbers.
+fn write_page(
+    pdf: &mut Pdf,
+    numbers: &Numbers,
+    number: usize,
+    page: &Page,
+    [layers, pictures]: [usize; 2],
+) {
     let [width, height] = page.size.to_array().map(|side| (side * POINTS) as f32);
     let mut entry = pdf.page(Numbers::page(number));
     entry.media_box(Rect::new(0.0, 0.0, width, height));
@@ -90,6 +127,12 @@ fn write_page(pdf: &mut Pdf, numbers: &Numbers, number: usize, page: &Page, laye
         for at in 0..page.layers.len() {
             let name = format!("L{at}");
             properties.pair(Name(name.as_bytes()), numbers.layer(layers + at));
+        }
+    }
+    if !page.pictures.is_empty() {
+        let mut objects = resources.x_objects();
+        for at in 0..page.pictures.len() {
+            objects.pair(Name(format!("P{at}").as_bytes()), numbers.picture(pictures + at)[0]);
         }
     }
     resources.finish();
@@ -109,6 +152,14 @@ fn content(page: &Page) -> Vec<u8> {
         out.text("0 0 ");
         out.pair([x, y]);
         out.text("re f\n");
+    }
+    for (at, Pasted { corner, size, .. }) in page.pictures.iter().enumerate() {
+        // The unit square of pictures has y up.
+        out.text("q ");
+        out.pair([size[0], 0]);
+        out.pair([0, -size[1]]);
+        out.pair([corner[0], corner[1] + size[1]]);
+        out.text(&format!("cm /P{at} Do Q\n"));
     }
     for (at, layer) in page.layers.iter().enumerate() {
         out.text(&format!("/OC /L{at} BDC\n"));
@@ -151,9 +202,11 @@ impl Content {
     fn layer(&mut self, layer: &Layer) {
         self.pen(&layer.pen);
         for group in &layer.groups {
-            if !group.strokes.is_empty() {
+            if layer.pen.dashes.is_empty() {
                 group.strokes.iter().for_each(|line| self.path(line));
-                self.text("S\n");
+                self.text(if group.strokes.is_empty() { "" } else { "S\n" });
+            } else {
+                group.strokes.iter().for_each(|line| self.dashed(line, &layer.pen));
             }
             if !group.fills.is_empty() {
                 group.fills.iter().for_each(|line| self.path(line));
@@ -166,8 +219,8 @@ impl Content {
         self.ink(pen.ink, "RG");
         self.ink(pen.ink, "rg");
         self.length(pen.width);
-        self.text("w [");
-        pen.dashes.iter().for_each(|&dash| self.length(dash));
+        self.text("w\n");
+        self.dashes(&[]);
         let cap = match pen.cap {
             Cap::Butt => 0,
             Cap::Round => 1,
@@ -178,7 +231,20 @@ impl Content {
             Join::Round => 1,
             Join::Bevel => 2,
         };
-        self.text(&format!("] 0 d {cap} J {join} j 4 M\n"));
+        self.text(&format!("{cap} J {join} j 4 M\n"));
+    }
+
+    fn dashes(&mut self, dashes: &[f64]) {
+        self.text("[");
+        dashes.iter().for_each(|&dash| self.length(dash));
+        self.text("] 0 d\n");
+    }
+
+    /// A line by itself, with dashes that fit it.
+    fn dashed(&mut self, line: &Polyline, pen: &Pen) {
+        self.dashes(&pen.fitted_dashes(line));
+        self.path(line);
+        self.text("S\n");
     }
 
     fn path(&mut self, line: &Polyline) {
@@ -204,12 +270,13 @@ mod tests {
         let mut pen = Pen::of_width(0.25, [0; 3]);
         pen.dashes = vec![3.0, 0.75];
         let mut layer = Layer::new("a", "b", pen);
-        let strokes = vec![Polyline { points: vec![[10_000, -500], [110_000, 500]], closed: true }];
+        let strokes =
+            vec![Polyline { points: vec![[10_000, -500], [110_000, 500]], closed: false }];
         layer.groups.push(Group { strokes, ..Group::default() });
         page.layers.push(layer);
         let text = String::from_utf8(content(&page)).expect("text");
         let expected = "2.834645669 0 0 -2.834645669 0 841.889764 cm\n1 .502 0 rg\n0 0 210 297 re f\n/OC /L0 BDC\n\
-            0 0 0 RG\n0 0 0 rg\n.25 w [3 .75 ] 0 d 1 J 1 j 4 M\n10 -.5 m\n110 .5 l\nh\nS\nEMC\n";
+            0 0 0 RG\n0 0 0 rg\n.25 w\n[] 0 d\n1 J 1 j 4 M\n[2.985 .746 ] 0 d\n10 -.5 m\n110 .5 l\nS\nEMC\n";
         assert_eq!(text, expected);
         let file = to_pdf(&[page.clone(), page]);
         assert!(file.starts_with(b"%PDF-1.7") && file.ends_with(b"%%EOF"));

@@ -17,6 +17,7 @@
 //! the standard series (ISO 5455); frame and title block follow ISO 5457 and ISO 7200, dimensions ISO 129-1.
 
 mod arrange;
+mod cut_line;
 mod dimension;
 mod frame;
 mod scale_bar;
@@ -156,27 +157,36 @@ impl Sheet {
         let mut page = Page::new(size, title, Some([255; 3]));
         let ink = self.look.ink.unwrap_or(INK);
         for placed in &arrangement.placed {
-            page.layers.extend(self.view_layers(placed, scene, threads, ink)?);
+            self.draw_view(&mut page, placed, scene, threads)?;
         }
+        page.layers.extend(cut_line::layers(self, scene, &arrangement, ink));
         self.draw_apparatus(&mut page, &arrangement, ink);
         Ok(page)
     }
 
-    /// The lines of a view. Hidden ones would only confuse in an axonometric view.
-    fn view_layers(
+    /// The lines of a view. Hidden ones would only confuse in an axonometric view, and where a cut shows what is inside.
+    fn draw_view(
         &self,
+        page: &mut Page,
         placed: &Placed<'_>,
         scene: &Scene,
         threads: usize,
-        ink: Ink,
-    ) -> Result<Vec<Layer>, SheetError> {
+    ) -> Result<(), SheetError> {
         let view = placed.view;
-        let is_principal = NamedView::PRINCIPAL.contains(&view.name);
-        let hidden = if is_principal { self.look.hidden } else { HiddenLines::Removed };
+        let mut scene = scene.clone();
+        scene.sections.retain(|plane| placed.shows(*plane));
+        let is_outside = NamedView::PRINCIPAL.contains(&view.name) && scene.sections.is_empty();
+        let hidden = if is_outside { self.look.hidden } else { HiddenLines::Removed };
         let look = LineLook { hidden, ..self.look };
-        let drawing = view.draw(scene, &look, threads)?;
+        let drawing = view.draw(scene, &look, placed.scale, threads)?;
         let placement = view.placement(&drawing, placed.scale, placed.centre);
-        Ok(drawing.layers(&look, placement, &format!("{}-", view.name), ink))
+        let (prefix, ink) = (format!("{}-", view.name), self.look.ink.unwrap_or(INK));
+        page.pictures.extend(drawing.pasted(placement, &prefix));
+        page.layers.extend(drawing.layers(&look, placement, &prefix, ink));
+        page.warnings.extend(drawing.warnings);
+        page.warnings.sort_unstable();
+        page.warnings.dedup();
+        Ok(())
     }
 
     /// What says that a view has another scale than the sheet, below it.

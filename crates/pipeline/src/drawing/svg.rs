@@ -3,8 +3,10 @@
 //! A layer is a group with its pen, an object a group in it with one path; both have ids and titles. Paths go by relative steps of
 //! whole micrometres, so they are short, and their sums are exact.
 
-use super::fixed::{length, thousandths};
-use super::page::{Cap, Group, Ink, Join, Layer, Page, Pen, Place, Polyline};
+use super::fixed::{length, text, thousandths};
+use super::page::{Cap, Group, Ink, Join, Layer, Page, Pasted, Pen, Place, Polyline};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write;
 
 impl Page {
@@ -23,12 +25,30 @@ impl Page {
             let paper = color(paper);
             let _ = writeln!(svg, "<rect width=\"{width}\" height=\"{height}\" fill=\"{paper}\"/>");
         }
+        for pasted in &self.pictures {
+            write_picture(&mut svg, pasted);
+        }
         for layer in &self.layers {
             write_layer(&mut svg, layer);
         }
         svg += "</svg>\n";
         svg
     }
+}
+
+/// A picture, within the file.
+fn write_picture(svg: &mut String, pasted: &Pasted) {
+    let [x, y, width, height] =
+        [pasted.corner[0], pasted.corner[1], pasted.size[0], pasted.size[1]]
+            .map(|n| text(n.into()));
+    let _ = write!(
+        svg,
+        "<image id=\"{}\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" \
+         preserveAspectRatio=\"none\" href=\"data:image/png;base64,",
+        escaped(&pasted.id)
+    );
+    STANDARD.encode_string(pasted.picture.to_png(), svg);
+    *svg += "\"/>\n";
 }
 
 fn write_layer(svg: &mut String, layer: &Layer) {
@@ -41,25 +61,35 @@ fn write_layer(svg: &mut String, layer: &Layer) {
     );
     for group in &layer.groups {
         if group.id.is_empty() {
-            write_paths(svg, group, layer.pen.ink);
+            write_paths(svg, group, &layer.pen);
             continue;
         }
         let _ = writeln!(svg, "<g id=\"{id}.{}\">", escaped(&group.id));
         if !group.title.is_empty() {
             let _ = writeln!(svg, "<title>{}</title>", escaped(&group.title));
         }
-        write_paths(svg, group, layer.pen.ink);
+        write_paths(svg, group, &layer.pen);
         *svg += "</g>\n";
     }
     *svg += "</g>\n";
 }
 
-fn write_paths(svg: &mut String, group: &Group, ink: Ink) {
-    if !group.strokes.is_empty() {
-        let _ = writeln!(svg, "<path d=\"{}\"/>", path(&group.strokes));
+fn write_paths(svg: &mut String, group: &Group, pen: &Pen) {
+    let (dashed, whole): (Vec<_>, Vec<_>) = group
+        .strokes
+        .iter()
+        .map(|line| (line, pen.fitted_dashes(line)))
+        .partition(|(_, d)| !d.is_empty());
+    if !whole.is_empty() {
+        let _ = writeln!(svg, "<path d=\"{}\"/>", path(whole.into_iter().map(|(line, _)| line)));
+    }
+    for (line, dashes) in dashed {
+        let dashes: Vec<String> = dashes.into_iter().map(length).collect();
+        let (path, dashes) = (path([line]), dashes.join(" "));
+        let _ = writeln!(svg, "<path d=\"{path}\" stroke-dasharray=\"{dashes}\"/>");
     }
     if !group.fills.is_empty() {
-        let (path, ink) = (path(&group.fills), color(ink));
+        let (path, ink) = (path(&group.fills), color(pen.ink));
         let _ = writeln!(
             svg,
             "<path d=\"{path}\" fill=\"{ink}\" fill-rule=\"evenodd\" stroke=\"none\"/>"
@@ -84,10 +114,6 @@ fn attributes(pen: &Pen) -> String {
         Join::Round => words += " stroke-linejoin=\"round\"",
         Join::Bevel => words += " stroke-linejoin=\"bevel\"",
     }
-    if !pen.dashes.is_empty() {
-        let dashes: Vec<String> = pen.dashes.iter().map(|&dash| length(dash)).collect();
-        words += &format!(" stroke-dasharray=\"{}\"", dashes.join(" "));
-    }
     words
 }
 
@@ -100,7 +126,7 @@ fn color([r, g, b]: Ink) -> String {
 }
 
 /// The `d` of a path through all these lines.
-fn path(lines: &[Polyline]) -> String {
+fn path<'a>(lines: impl IntoIterator<Item = &'a Polyline>) -> String {
     let mut path = Path { out: Vec::new(), at: [0, 0], is_begun: false };
     for line in lines {
         path.line(line);

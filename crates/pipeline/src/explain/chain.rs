@@ -103,6 +103,37 @@ impl Chain {
         clip.divide().map_or(f64::NEG_INFINITY, Point::z)
     }
 
+    /// From view space to clip space.
+    pub(super) fn view_to_clip(&self) -> Projective<View, Clip> {
+        self.view_to_clip
+    }
+
+    /// Whether view space has the scene at positive z.
+    pub(super) fn looks_along_z(&self) -> bool {
+        self.conventions.looks_along_z()
+    }
+
+    /// The z of the near and of the far plane after the divide.
+    pub(super) fn depth_range(&self) -> [f64; 2] {
+        match self.conventions {
+            Conventions::Alberti | Conventions::Chapter => [1.0, -1.0],
+            Conventions::OpenGl => [-1.0, 1.0],
+            Conventions::Vulkan | Conventions::Direct3d | Conventions::WebGpu => [0.0, 1.0],
+        }
+    }
+
+    /// Width and height of the picture in pixels.
+    pub(super) fn size(&self) -> [f64; 2] {
+        [self.viewport.area().width(), self.viewport.area().height()]
+    }
+
+    /// A place on the screen in pixels from the upper left corner of the picture, rows running down.
+    pub(super) fn from_upper_left(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let border = self.viewport.convention().centres.border();
+        let (x, y) = (x - border, y - border);
+        [x, if self.rows_go_up() { self.size()[1] - y } else { y }]
+    }
+
     fn turn(&self) -> Affine<View, View> {
         let z = if self.conventions.looks_along_z() { -1.0 } else { 1.0 };
         Affine::scale(1.0, 1.0, z)

@@ -9,11 +9,11 @@ use super::textures::Textures;
 use super::vertices::{Parts, tangents};
 use crate::model::{Instance, Material, Posed, Primitive, TextureSlot, TextureUse, Topology};
 use crate::scene::{Placed, Scene};
-use crate::shade::{Draw, Maps, MipChain, PLACE, Tangents};
+use crate::shade::{Draw, Maps, MipChain, PLACE, Role, Tangents};
 use clip::{Outcode, clip_triangle};
 use glam::DVec3;
 use homog::{Affine, Clip, HPoint, Model, Ndc, Point, World};
-use raster::{Cover, Cull, ScreenVertex, signed_area};
+use raster::{Cover, Cull, Frame, ScreenVertex, signed_area};
 use std::ops::Range;
 
 /// The width of lines that a file draws, in pixels: glTF gives none.
@@ -39,16 +39,24 @@ pub(super) fn assemble_as<'a>(
     memory: Memory<'a>,
     cover: Option<Cover>,
 ) -> Result<Memory<'a>, RenderError> {
-    let stage = Stage::of(scene, memory.sheet)?;
-    let needs = Needs::of(scene.style, cover);
-    let viewer = scene.shot.viewer();
-    let mut assembler =
-        Assembler { stage, viewer, needs, threads, memory, next_id: 0, next_part: 0 };
+    let mut assembler = Assembler {
+        stage: Stage::of(scene, memory.sheet)?,
+        viewer: scene.shot.viewer(),
+        needs: Needs::of(scene.style, cover),
+        anisotropy: scene.image.anisotropy,
+        threads,
+        memory,
+        next_id: 0,
+        next_part: 0,
+    };
     for (number, placed) in scene.models.iter().enumerate() {
         for (instance, primitive) in placed.model.shown_primitives() {
             let texture = |slot, used: TextureUse| textures.chain(number, slot, used.texture);
             assembler.draw(placed, instance, primitive, texture)?;
         }
+    }
+    if let Some(ground) = scene.ground {
+        assembler.ground(ground)?;
     }
     if let Some(blur) = scene.image.backdrop {
         assembler.backdrop(blur)?;
@@ -56,24 +64,24 @@ pub(super) fn assemble_as<'a>(
     Ok(assembler.memory)
 }
 
-struct Assembler<'a> {
-    stage: Stage,
+pub(super) struct Assembler<'a> {
+    pub(super) stage: Stage,
     viewer: HPoint<World>,
     needs: Needs,
+    anisotropy: u32,
     threads: usize,
-    memory: Memory<'a>,
-    next_id: u32,
-    next_part: u32,
+    pub(super) memory: Memory<'a>,
+    pub(super) next_id: u32,
+    pub(super) next_part: u32,
 }
 
 /// The material of primitives that name none.
-static DEFAULT_MATERIAL: std::sync::LazyLock<Material> =
+pub(super) static DEFAULT_MATERIAL: std::sync::LazyLock<Material> =
     std::sync::LazyLock::new(Material::default);
 
-/// The triangles of an environment behind everything.
-static BACKDROP: std::sync::LazyLock<Primitive> = std::sync::LazyLock::new(|| Primitive {
-    indices: vec![0, 1, 2, 0, 2, 3],
-    ..Primitive::default()
+/// The triangles of the ground, or of an environment behind everything.
+pub(super) static BACKDROP: std::sync::LazyLock<Primitive> = std::sync::LazyLock::new(|| {
+    Primitive { indices: vec![0, 1, 2, 0, 2, 3], ..Primitive::default() }
 });
 
 impl<'a> Assembler<'a> {
@@ -106,13 +114,13 @@ impl<'a> Assembler<'a> {
             part,
             primitive,
             material,
-            maps: Maps::of(material, texture),
+            maps: Maps::of(material, self.anisotropy, texture),
             vertices: self.memory.spare.pop().unwrap_or_default(),
             tangents: tangents(model, instance, primitive, material, &posed, model_to_world),
             smooth: normals.is_some() && !self.needs.is_flat,
             uv_set: self.needs.uv_set(material, primitive),
             colors: model.posed_colors(instance, primitive),
-            backdrop: None,
+            role: Role::Surface,
             mirrored: model_to_world.determinant() < 0.0,
         };
         self.submit(&draw);
@@ -174,7 +182,7 @@ impl<'a> Assembler<'a> {
             smooth: false,
             uv_set: None,
             colors: None,
-            backdrop: Some(blur),
+            role: Role::Backdrop(blur),
             mirrored: false,
         });
         let triangles = primitive.indices.as_chunks::<3>().0;
@@ -217,7 +225,8 @@ impl<'a> Assembler<'a> {
                 (Topology::Points, &[p]) => self.point(images, p, id, cover),
                 (Topology::Lines, &[p, q]) => self.line(images, [p, q], id, cover),
                 (Topology::Triangles, &[p, q, r]) => {
-                    self.triangle(images, [p, q, r], id, cover, cull);
+                    let frame = &mut self.memory.frame;
+                    triangle(&self.stage, images, frame, [p, q, r], id, cover, cull);
                 }
                 _ => {}
             }
@@ -239,36 +248,45 @@ impl<'a> Assembler<'a> {
         }
     }
 
-    fn triangle(&mut self, images: &Images, vertices: [u32; 3], id: u32, cover: Cover, cull: Cull) {
-        let Images { clip, outcodes, screen, .. } = images;
-        let vertices = vertices.map(|vertex| vertex as usize);
-        if let Some(corners) = all(vertices.map(|vertex| screen[vertex])) {
-            if is_kept(cull, -signed_area(corners).signum() as f64) {
-                self.memory.frame.triangle(corners, id, cover);
-            }
-            return;
-        }
-        let points = vertices.map(|vertex| clip[vertex]);
-        let outcodes = vertices.map(|vertex| outcodes[vertex]);
-        if !Outcode::rejects(&outcodes).is_inside() || !is_kept(cull, orientation(points)) {
-            return;
-        }
-        for piece in clip_triangle(points, &self.stage.volume).triangles() {
-            if let Some(corners) = self.stage.snap_all(piece.map(|vertex| vertex.point)) {
-                let weights = piece.map(|vertex| vertex.weights.map(|weight| weight as f32));
-                self.memory.frame.triangle_piece(corners, weights, id, cover);
-            }
-        }
-    }
-
     /// Which triangles are not to be seen: the backs of surfaces with one side. Fronts run counter-clockwise in the picture,
     /// unless either the way to the world or that to the screen mirrors.
-    fn cull(&self, draw: &Draw<'_>) -> Cull {
+    pub(super) fn cull(&self, draw: &Draw<'_>) -> Cull {
         let both = draw.material.double_sided || self.needs.backs;
         match (both, draw.mirrored == self.stage.mirrors) {
             (true, _) => Cull::Nothing,
             (false, true) => Cull::Clockwise,
             (false, false) => Cull::CounterClockwise,
+        }
+    }
+}
+
+/// Clips a triangle and adds what is left of it to a frame.
+pub(super) fn triangle(
+    stage: &Stage,
+    images: &Images,
+    frame: &mut Frame,
+    vertices: [u32; 3],
+    id: u32,
+    cover: Cover,
+    cull: Cull,
+) {
+    let Images { clip, outcodes, screen, .. } = images;
+    let vertices = vertices.map(|vertex| vertex as usize);
+    if let Some(corners) = all(vertices.map(|vertex| screen[vertex])) {
+        if is_kept(cull, -signed_area(corners).signum() as f64) {
+            frame.triangle(corners, id, cover);
+        }
+        return;
+    }
+    let points = vertices.map(|vertex| clip[vertex]);
+    let outcodes = vertices.map(|vertex| outcodes[vertex]);
+    if !Outcode::rejects(&outcodes).is_inside() || !is_kept(cull, orientation(points)) {
+        return;
+    }
+    for piece in clip_triangle(points, &stage.volume).triangles() {
+        if let Some(corners) = stage.snap_all(piece.map(|vertex| vertex.point)) {
+            let weights = piece.map(|vertex| vertex.weights.map(|weight| weight as f32));
+            frame.triangle_piece(corners, weights, id, cover);
         }
     }
 }

@@ -51,10 +51,8 @@ impl Needs {
     pub(super) fn cover(&self, material: &Material) -> Cover {
         match (self.covers, material.alpha_mode) {
             (Covers::As(cover), _) => cover,
-            (_, AlphaMode::Mask { .. }) => Cover::Masked,
-            (Covers::Solid, _) => Cover::Solid,
-            (_, AlphaMode::Opaque) if !material.transmits() => Cover::Solid,
-            _ => Cover::Translucent,
+            (Covers::Solid, AlphaMode::Opaque | AlphaMode::Blend) => Cover::Solid,
+            _ => cover_of(material),
         }
     }
 
@@ -65,5 +63,15 @@ impl Needs {
         } else {
             uv_set(material, primitive)
         }
+    }
+}
+
+/// How surfaces of a material cover what is behind them.
+pub(super) fn cover_of(material: &Material) -> Cover {
+    match material.alpha_mode {
+        AlphaMode::Opaque if material.transmits() => Cover::Translucent,
+        AlphaMode::Opaque => Cover::Solid,
+        AlphaMode::Mask { .. } => Cover::Masked,
+        AlphaMode::Blend => Cover::Translucent,
     }
 }

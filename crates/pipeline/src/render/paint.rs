@@ -3,12 +3,14 @@
 //! What all regions need is made once: mip chains, the page of a line drawing, the layers of overlays. Each region is then drawn
 //! from the models on, so that memory is bounded by the region and not by the picture.
 
+use super::occlusion::whole_screen_space;
 use super::region::Region;
 use super::renderer::Renderer;
 use super::{RenderError, Textures, lines};
-use crate::drawing::{Layer, Page, overlays};
+use crate::drawing::{Layer, Page, Warning, overlays};
 use crate::output::encode_png;
 use crate::scene::Scene;
+use crate::shade::ScreenSpace;
 use crate::{Channel, Picture, Timings};
 use std::io::{self, Write};
 
@@ -24,6 +26,9 @@ pub struct Paint<'a> {
     page: Option<Page>,
     /// What is drawn over surfaces.
     layers: Vec<Layer>,
+    /// The nearest surfaces of the whole picture, when regions need them.
+    occlusion: Option<ScreenSpace>,
+    warnings: Vec<Warning>,
 }
 
 /// How many rows of a picture of this width are drawn at once when its memory is to be bounded: some 64 MiB of pixels, in whole rows of the
@@ -45,13 +50,24 @@ impl<'a> Paint<'a> {
         timings: &'a Timings,
     ) -> Result<Self, RenderError> {
         let surfaces = scene.style.shows_surfaces();
-        let page = (!surfaces).then(|| lines::draw(scene, threads, timings)).transpose()?;
+        let mut page = (!surfaces).then(|| lines::draw(scene, threads, timings)).transpose()?;
+        let mut warnings =
+            page.as_mut().map_or(Vec::new(), |page| std::mem::take(&mut page.warnings));
+        warnings
+            .extend((surfaces && !scene.sections.is_empty()).then_some(Warning::SectionsUnseen));
         let models = if surfaces { &scene.models[..] } else { &[] };
         let textures = timings.measure("mip chains", || Textures::of(models));
         let mut layers = lines::over_surfaces(scene, threads)?;
         layers.extend(if surfaces { overlays(scene) } else { Vec::new() });
         let renderer = Renderer::default();
-        Ok(Self { scene, threads, timings, textures, renderer, page, layers })
+        let occlusion = None;
+        Ok(Self { scene, threads, timings, textures, renderer, page, layers, occlusion, warnings })
+    }
+
+    /// What could not be drawn as it should.
+    #[must_use]
+    pub fn into_warnings(self) -> Vec<Warning> {
+        self.warnings
     }
 
     /// A region of the picture.
@@ -59,14 +75,28 @@ impl<'a> Paint<'a> {
     /// # Errors
     /// If it is empty, too large or not in the picture, or the scene holds too much.
     pub fn region<C: Channel>(&mut self, region: Region) -> Result<Picture<C>, RenderError> {
-        let Self { scene, threads, timings, textures, renderer, page, layers } = self;
+        let Self { scene, threads, timings, textures, renderer, page, layers, occlusion, .. } =
+            self;
         region.check(scene.image)?;
         let size = [scene.image.width, scene.image.height];
         if let Some(page) = page {
             return Ok(timings.measure("pixels", || page.to_region(size, region)));
         }
         let mut picture = Picture::default();
-        renderer.render_region(scene, textures, region, *threads, timings, &mut picture)?;
+        let is_part = region != Region::whole(scene.image);
+        if is_part && occlusion.is_none() {
+            *occlusion = whole_screen_space(scene, textures, *threads)?;
+        }
+        let occlusion = occlusion.as_ref().filter(|_| is_part);
+        renderer.render_part(
+            scene,
+            textures,
+            region,
+            *threads,
+            timings,
+            occlusion,
+            &mut picture,
+        )?;
         picture.draw_over(size, region, layers);
         Ok(picture)
     }

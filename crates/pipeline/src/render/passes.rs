@@ -82,7 +82,7 @@ impl Drawing<'_> {
     fn hits(&self) -> Result<Vec<Hit>, RenderError> {
         let mut hits = vec![Hit::NOTHING; self.part.area()];
         self.with_frame(Samples::One, None, |frame, surface| {
-            frame.nearest(surface, self.threads, &mut hits, |fragment| Hit {
+            frame.front(surface, self.threads, &mut hits, |fragment| Hit {
                 id: fragment.id,
                 weights: fragment.weights,
             });
@@ -113,11 +113,12 @@ impl Drawing<'_> {
     ) -> Result<(), RenderError> {
         let mut scene = self.scene.clone();
         (scene.image.samples, scene.image.backdrop) = (samples, None);
+        (scene.ground, scene.occlusion_radius) = (None, None);
         // Styles may show backs, and what is opaque as glass.
         scene.style = if scene.style == Style::Flat { Style::Flat } else { Style::Shaded };
         let memory = Renderer::default().lend(&scene, self.part, self.threads)?;
         let memory = assemble_as(&scene, self.textures, self.threads, memory, cover)?;
-        draw(&memory.frame, &shading(&scene, &memory.draws, &memory.frame));
+        draw(&memory.frame, &shading(&scene, &memory.draws, &memory.frame, &[], None));
         Ok(())
     }
 }

@@ -5,8 +5,10 @@
 
 use super::RenderError;
 use super::assemble::assemble;
+use super::occlusion::whole_screen_space;
 use super::region::PartOfSheet;
 use super::renderer::{Renderer, shading, styled};
+use super::shadows::ShadowMemory;
 use super::textures::Textures;
 use crate::color::SrgbEncoder;
 use crate::model::Model;
@@ -61,10 +63,14 @@ pub fn pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelMakeup>, Rende
     let one = PartOfSheet::of_pixel(image, [x, y]);
     let memory = Renderer::default().lend(scene, one, 1)?;
     let memory = assemble(scene, &textures, 1, memory)?;
-    let surface = shading(scene, &memory.draws, &memory.frame);
+    let mut shadows = ShadowMemory::default();
+    shadows.render(scene, &textures, 1)?;
+    let occlusion = whole_screen_space(scene, &textures, 1)?;
+    let (frame, draws) = (&memory.frame, &memory.draws);
+    let surface = shading(scene, draws, frame, &shadows.maps, occlusion.as_ref());
     let (color, mut seen) = match &styled(scene, &surface) {
-        Some(styled) => witnessed(&memory.frame, styled, one.corner(), image.background),
-        None => witnessed(&memory.frame, &surface, one.corner(), image.background),
+        Some(styled) => witnessed(frame, styled, one.corner(), image.background),
+        None => witnessed(frame, &surface, one.corner(), image.background),
     };
     seen.sort_by_key(|(id, ..)| *id);
     seen.dedup_by_key(|(id, ..)| *id);

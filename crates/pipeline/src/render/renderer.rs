@@ -3,13 +3,15 @@
 use super::RenderError;
 use super::assemble::assemble;
 use super::images::Images;
+use super::occlusion::{screen_space, whole_screen_space};
 use super::region::{PartOfSheet, Region, Sheet, sheets};
+use super::shadows::ShadowMemory;
 use super::textures::Textures;
 use crate::picture::Channel;
 use crate::scene::{Scene, Style};
-use crate::shade::{Draw, DrawList, Look, Shading, Styled, Vertex};
-use crate::{Picture, Timings};
-use raster::Frame;
+use crate::shade::{Draw, DrawList, Look, ScreenSpace, Shading, ShadowMap, Styled, Vertex};
+use crate::{Cancel, Picture, Timings};
+use raster::{Frame, Nearest};
 
 /// Renders surfaces again and again: the same models from elsewhere, in other light, in another pose.
 ///
@@ -36,6 +38,9 @@ pub struct Renderer {
     /// No draws, but room for them.
     draws: Vec<Draw<'static>>,
     spare: Vec<Vec<Vertex>>,
+    shadows: ShadowMemory,
+    nearest: Vec<Nearest>,
+    cancel: Cancel,
 }
 
 /// What a picture is put together in.
@@ -51,11 +56,17 @@ pub(super) struct Memory<'a> {
 }
 
 impl Renderer {
+    /// The same renderer, whose pictures end early once `cancel` says so: with [`RenderError::Cancelled`], and a picture that is none.
+    #[must_use]
+    pub fn cancelled_by(self, cancel: Cancel) -> Self {
+        Self { cancel, ..self }
+    }
+
     /// Renders the surfaces of a scene with up to `threads` threads, whose number does not change the picture. `textures` are
     /// those of the scene's models.
     ///
     /// # Errors
-    /// If the picture's size is out of range or the scene holds too much.
+    /// If the picture's size is out of range or the scene holds too much, or it was [cancelled](Self::cancelled_by).
     pub fn render<C: Channel>(
         &mut self,
         scene: &Scene,
@@ -71,7 +82,8 @@ impl Renderer {
     /// Renders a part of the picture of a scene. Its pixels are those that the whole picture has there, bit for bit.
     ///
     /// # Errors
-    /// If the region is empty, too large, or not in the picture, or the scene holds too much.
+    /// If the region is empty, too large, or not in the picture, or the scene holds too much, or it was
+    /// [cancelled](Self::cancelled_by).
     pub fn render_region<C: Channel>(
         &mut self,
         scene: &Scene,
@@ -81,35 +93,76 @@ impl Renderer {
         timings: &Timings,
         picture: &mut Picture<C>,
     ) -> Result<(), RenderError> {
+        let is_part = region != Region::whole(scene.image);
+        let whole = || whole_screen_space(scene, textures, threads);
+        let occlusion = if is_part { whole()? } else { None };
+        self.render_part(scene, textures, region, threads, timings, occlusion.as_ref(), picture)
+    }
+
+    /// The same with the nearest surfaces of the whole picture, if they are needed and the region is a part of it.
+    #[expect(clippy::too_many_arguments, reason = "a region, and all that drawing it depends on")]
+    pub(super) fn render_part<C: Channel>(
+        &mut self,
+        scene: &Scene,
+        textures: &Textures<'_>,
+        region: Region,
+        threads: usize,
+        timings: &Timings,
+        occlusion: Option<&ScreenSpace>,
+        picture: &mut Picture<C>,
+    ) -> Result<(), RenderError> {
         region.check(scene.image)?;
         picture.resize(region.width, region.height);
+        let shadows = || self.shadows.render(scene, textures, threads);
+        if scene.lights.iter().any(|light| light.shadow().is_some()) {
+            timings.measure("shadows", shadows)?;
+        } else {
+            self.shadows.clear();
+        }
         let parts = sheets(scene.image, region);
-        let mut patch = Vec::new();
-        for part in &parts {
-            let memory = self.lend(scene, *part, threads)?;
-            let memory =
-                timings.measure("vertices", || assemble(scene, textures, threads, memory))?;
-            let (background, whole) = (scene.image.background, parts.len() == 1);
-            let shading = shading(scene, &memory.draws, &memory.frame);
-            let styled = styled(scene, &shading);
-            let target = if whole {
-                &mut picture.pixels
-            } else {
-                patch.resize(part.area(), [C::default(); 4]);
-                &mut patch
-            };
-            timings.measure("pixels", || {
-                let (frame, encoder) = (&memory.frame, C::encoder());
-                match &styled {
-                    Some(styled) => frame.draw(styled, background, threads, target, encoder),
-                    None => frame.draw(&shading, background, threads, target, encoder),
-                }
-            });
-            if !whole {
+        if let [part] = parts[..] {
+            let pixels = &mut picture.pixels;
+            self.draw_part(scene, textures, part, threads, timings, occlusion, pixels)?;
+        } else {
+            for part in parts {
+                let mut patch = vec![[C::default(); 4]; part.area()];
+                self.draw_part(scene, textures, part, threads, timings, occlusion, &mut patch)?;
                 part.put(&patch, region, &mut picture.pixels);
             }
-            self.take_back(memory);
         }
+        if self.cancel.is_cancelled() { Err(RenderError::Cancelled) } else { Ok(()) }
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "a part, and all that drawing it depends on")]
+    fn draw_part<C: Channel>(
+        &mut self,
+        scene: &Scene,
+        textures: &Textures<'_>,
+        part: PartOfSheet,
+        threads: usize,
+        timings: &Timings,
+        occlusion: Option<&ScreenSpace>,
+        target: &mut [[C; 4]],
+    ) -> Result<(), RenderError> {
+        let memory = self.lend(scene, part, threads)?;
+        let memory = timings.measure("vertices", || assemble(scene, textures, threads, memory))?;
+        let Memory { frame, draws, .. } = &memory;
+        let own = match occlusion {
+            Some(_) => None,
+            None => {
+                let nearest = std::mem::take(&mut self.nearest);
+                screen_space(scene, frame, draws, threads, nearest)?
+            }
+        };
+        let space = occlusion.or(own.as_ref());
+        let shading = shading(scene, draws, frame, &self.shadows.maps, space);
+        let background = scene.image.background;
+        timings.measure("pixels", || match &styled(scene, &shading) {
+            Some(styled) => frame.draw(styled, background, threads, target, C::encoder()),
+            None => frame.draw(&shading, background, threads, target, C::encoder()),
+        });
+        self.nearest = own.map(|space| space.nearest).unwrap_or_default();
+        self.take_back(memory);
         Ok(())
     }
 
@@ -132,7 +185,7 @@ impl Renderer {
         let draws = DrawList { draws: emptied(std::mem::take(&mut self.draws)) };
         let images = std::mem::take(&mut self.images);
         let spare = std::mem::take(&mut self.spare);
-        let frame = frame.with_threads(threads);
+        let frame = frame.with_threads(threads).with_stop(self.cancel.flag());
         Ok(Memory { frame, sheet: part.sheet, draws, images, spare })
     }
 
@@ -140,15 +193,26 @@ impl Renderer {
         let Memory { frame, mut draws, images, mut spare, .. } = memory;
         // The first list that is asked for next time is the one of the first draw.
         spare.extend(draws.draws.drain(..).rev().map(|draw| draw.vertices));
-        *self = Self { frame: Some(frame), images, draws: emptied(draws.draws), spare };
+        self.frame = Some(frame);
+        self.images = images;
+        self.draws = emptied(draws.draws);
+        self.spare = spare;
     }
 }
 
 /// What the fragments of a frame are shaded with.
-pub(super) fn shading<'a>(scene: &'a Scene, draws: &'a DrawList<'a>, frame: &Frame) -> Shading<'a> {
+pub(super) fn shading<'a>(
+    scene: &'a Scene,
+    draws: &'a DrawList<'a>,
+    frame: &Frame,
+    shadows: &'a [Option<ShadowMap>],
+    occlusion: Option<&'a ScreenSpace>,
+) -> Shading<'a> {
     Shading {
         draws,
         lights: &scene.lights,
+        shadows,
+        occlusion,
         environment: scene.environment.as_deref(),
         develop: scene.develop,
         viewer: scene.shot.viewer(),

@@ -1,7 +1,7 @@
 //! The way from the world to the screen.
 
-use super::RenderError;
 use super::region::Sheet;
+use super::{RenderError, Shot};
 use crate::scene::Scene;
 use clip::{Extent, Outcode, Volume, clip_segment};
 use glam::DVec3;
@@ -10,7 +10,7 @@ use raster::{GUARD_BAND, ScreenVertex};
 use viewport::Viewport;
 
 /// The way from the world to the screen.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Stage {
     /// With the sheet of the picture in the whole of the view volume.
     pub(super) world_to_clip: Projective<World, Clip>,
@@ -34,21 +34,27 @@ pub(super) enum Whereabouts {
 
 impl Stage {
     pub(super) fn of(scene: &Scene, sheet: Sheet) -> Result<Self, RenderError> {
-        let viewport = Viewport::image(sheet.area.width, sheet.area.height)?;
+        let mut stage = Self::new(&scene.shot, sheet.area.width, sheet.area.height)?;
+        stage.world_to_clip = sheet.world_to_clip(scene)?;
+        Ok(stage)
+    }
+
+    /// The way to a picture of this size.
+    pub(super) fn new(shot: &Shot, width: u32, height: u32) -> Result<Self, RenderError> {
+        let viewport = Viewport::image(width, height)?;
         // Clip only what would leave the rasteriser's grid, with a pixel to spare: its tiles cut the rest (CL-4).
         let band = |side: u32| {
             let half = 0.5 * f64::from(side);
             (1.0 - (GUARD_BAND.start() + 1.0) / half).clamp(1.0, Volume::MAX_GUARD_BAND)
         };
         let volume = Volume::CHAPTER;
-        let (across, down) = (band(sheet.area.width), band(sheet.area.height));
-        let volume = volume.with_guard_band(across, down).unwrap_or(volume);
+        let volume = volume.with_guard_band(band(width), band(height)).unwrap_or(volume);
         Ok(Self {
-            world_to_clip: sheet.world_to_clip(scene)?,
+            world_to_clip: shot.world_to_clip(),
             volume,
             ndc_to_screen: viewport.ndc_to_screen(),
             screen_to_ndc: viewport.screen_to_ndc(),
-            mirrors: scene.shot.mirrors(),
+            mirrors: shot.mirrors(),
         })
     }
 

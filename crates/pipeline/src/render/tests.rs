@@ -28,7 +28,7 @@ fn scene(name: &str) -> Scene {
     let text = std::fs::read_to_string(folder.join(name)).expect("a scene of the project");
     let mut file = parse(name, &text).expect("a scene");
     file.image.size = (200, 130);
-    let origin = Origin { file: name.into(), text, folder };
+    let origin = Origin::of_text(name, text, folder);
     Scene::resolve(&origin, &file, &Default::default()).expect("a scene that makes sense")
 }
 
@@ -49,6 +49,8 @@ fn eight_fragments_at_once_have_the_colours_of_one_by_one() {
             let shading = Shading {
                 draws: &draws,
                 lights: &scene.lights,
+                shadows: &[],
+                occlusion: None,
                 environment: scene.environment.as_deref(),
                 develop: scene.develop,
                 viewer,

@@ -41,9 +41,18 @@ impl SceneError {
 
 impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.told(false))
+    }
+}
+
+impl SceneError {
+    /// The message with the line and the mark; in colours of a terminal (ECMA-48), if they are wanted.
+    #[must_use]
+    pub fn told(&self, colors: bool) -> String {
         if self.source.is_empty() {
-            write!(f, "{}: {}", self.file, self.message)?;
-            return self.help.iter().try_for_each(|help| write!(f, "\n  = help: {help}"));
+            let help =
+                self.help.as_ref().map_or(String::new(), |help| format!("\n  = help: {help}"));
+            return format!("{}: {}{help}", self.file, self.message);
         }
         let snippet = Snippet::source(self.source.as_str())
             .path(self.file.as_str())
@@ -53,11 +62,10 @@ impl fmt::Display for SceneError {
         if let Some(help) = &self.help {
             group = group.element(Level::HELP.message(help.as_str()));
         }
-        write!(f, "{}", Renderer::plain().render(&[group]))
+        let renderer = if colors { Renderer::styled() } else { Renderer::plain() };
+        renderer.render(&[group])
     }
-}
 
-impl SceneError {
     /// A mark over many lines hides more than it shows: keep it to the first.
     fn first_line_of_span(&self) -> Range<usize> {
         let marked = &self.source[self.span.clone()];

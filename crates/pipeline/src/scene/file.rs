@@ -5,22 +5,32 @@
 
 mod camera;
 mod environment;
+mod ground;
+mod include;
 mod light;
 mod lines;
 mod look;
+mod occlusion;
 mod overlay;
 mod passes;
 mod projection;
+mod section;
+mod shadow;
 mod sheet;
 
 pub use self::camera::{CameraChoice, CameraFile, FromFile, USUAL_PADDING, ViewFile};
 pub use self::environment::EnvironmentFile;
+pub use self::ground::GroundFile;
+pub use self::include::Paths;
 pub use self::light::LightFile;
-pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, WidthFile};
+pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, ToneFile, WidthFile};
 pub use self::look::{BackgroundFile, ImageFile, StyleFile, ToneMappingFile};
+pub use self::occlusion::AmbientOcclusionFile;
 pub use self::overlay::OverlayFile;
 pub use self::passes::{PassEncodingFile, PassFile, PassesFile};
 pub use self::projection::{PrincipalFile, ProjectionFile};
+pub use self::section::SectionFile;
+pub use self::shadow::ShadowsFile;
 pub use self::sheet::{
     AngleFile, AxonometricFile, OrientationFile, PaperFile, SheetFile, SideFile, UnitFile,
 };
@@ -30,19 +40,31 @@ use crate::import;
 use serde::Deserialize;
 
 /// A scene file.
-#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[derive(Clone, PartialEq, Default, Debug, Deserialize)]
 #[serde(rename = "Scene", deny_unknown_fields)]
 pub struct SceneFile {
-    /// The models to draw.
+    /// Other scene files to begin with, in this order. Their models, lights, overlays and sections come before those of this file; of all
+    /// other fields this file's goes before theirs, whole, and a later file's before an earlier one's. Paths in an included file
+    /// begin at its own folder; it must lie below the folder of the scene. Default: none.
+    #[serde(default)]
+    pub include: Paths,
+    /// The models to draw. A scene needs one; a file that is included does not. Default: none.
+    #[serde(default)]
     pub models: Vec<ModelFile>,
     /// From where, and by which projection. Default: framed from a named direction, in perspective.
     #[serde(default)]
     pub camera: CameraFile,
     /// The lights. Default: those of the models; where they have none and there is no environment either, a key light from above
-    /// the viewer's left shoulder, and ambient light.
+    /// the viewer's left shoulder, and ambient light; with an environment the key light alone, if there are to be shadows.
     pub lights: Option<Vec<LightFile>>,
-    /// Light from all around. Default: none.
+    /// The shadows of all suns and spots that say nothing of theirs, those of the models too. Default: `Off`.
+    pub shadows: Option<ShadowsFile>,
+    /// What is below the models. Default: nothing.
+    pub ground: Option<GroundFile>,
+    /// Light from all around. Default: none; a bare model without lights of its own stands in the `Studio()`.
     pub environment: Option<EnvironmentFile>,
+    /// Less light from all around where the picture shows something in its way. Default: none.
+    pub ambient_occlusion: Option<AmbientOcclusionFile>,
     /// How surfaces are drawn. Default: `Shaded`.
     #[serde(default)]
     pub style: StyleFile,
@@ -55,6 +77,9 @@ pub struct SceneFile {
     /// What is written of each pixel besides its colour. Default: nothing.
     #[serde(default)]
     pub passes: PassesFile,
+    /// Planes that cut the models open, one after the other, in line drawings and on sheets; at most 16. Default: none.
+    #[serde(default)]
+    pub sections: Vec<SectionFile>,
     /// How `alberti sheet` puts the models on paper. Default: as its flags say.
     pub sheet: Option<SheetFile>,
 }
@@ -65,13 +90,13 @@ pub struct SceneFile {
 pub struct ModelFile {
     /// The path of a `.gltf` or `.glb` file, from the folder of the scene file.
     pub path: String,
-    /// The translation.
+    /// The translation, in metres as glTF has them. Default: (0, 0, 0).
     #[serde(default)]
     pub translate: Triple,
-    /// Turns about the x, then the y, then the z axis.
+    /// Turns about the x, then the y, then the z axis, in degrees. Default: (0, 0, 0).
     #[serde(default)]
     pub rotate_degrees: Triple,
-    /// One factor for all axes, or one for each.
+    /// One factor for all axes, or one for each; none of them 0. Default: 1.
     #[serde(default)]
     pub scale: Scale,
     /// The scene of the model that is shown. Default: its default scene, else its first.
@@ -116,14 +141,19 @@ impl SceneFile {
             time: None,
         };
         Self {
+            include: Paths::default(),
             models: vec![model],
             camera: CameraFile::default(),
             lights: None,
+            shadows: None,
+            ground: None,
             environment: None,
+            ambient_occlusion: None,
             style: StyleFile::default(),
             image: ImageFile::default(),
             overlays: Vec::new(),
             passes: PassesFile::default(),
+            sections: Vec::new(),
             sheet: None,
         }
     }

@@ -1,12 +1,13 @@
 //! From the lights that a scene file asks for to those that drawing needs.
 
-use super::file::{Finite, LightFile, SceneFile};
+use super::file::{Finite, LightFile, SceneFile, ShadowsFile};
 use super::locate::Step::{Field, Index};
 use super::number::Positive;
+use super::shadows::resolve_shadow;
 use super::{Origin, Placed, SceneError};
 use crate::model::LightKind;
 use crate::render::Shot;
-use crate::shade::Light;
+use crate::shade::{Light, Shadow};
 use homog::{Point, Vector, World};
 
 pub(super) fn resolve_lights(
@@ -15,23 +16,32 @@ pub(super) fn resolve_lights(
     models: &[Placed],
     shot: &Shot,
 ) -> Result<Vec<Light>, SceneError> {
+    // Ground that only shows shadows is there for the sake of shadows.
+    let of_ground = file.ground.map(|_| ShadowsFile::USUAL);
+    let asked = file.shadows.or(of_ground);
+    let shadow = resolve_shadow(origin, asked.as_ref(), &[Field("shadows")])?;
     let Some(lights) = &file.lights else {
-        let theirs = lights_of(models);
-        let none_else = theirs.is_empty() && file.environment.is_none();
-        return Ok(if none_else { default_lights(shot) } else { theirs });
+        let theirs = lights_of(models, shadow);
+        let is_dark = file.surroundings(origin, models).is_none();
+        return Ok(match (theirs.is_empty(), is_dark) {
+            (true, true) => default_lights(shot, shadow),
+            // Shadows were asked for, and somebody must cast them.
+            (true, false) if shadow.is_some() => vec![key_light(shot, 1.5, shadow)],
+            _ => theirs,
+        });
     };
     let mut resolved = Vec::new();
     for (number, light) in lights.iter().enumerate() {
-        match resolve_light(origin, number, light)? {
+        match resolve_light(origin, number, light, shadow)? {
             Some(light) => resolved.push(light),
-            None => resolved.extend(lights_of(models)),
+            None => resolved.extend(lights_of(models, shadow)),
         }
     }
     Ok(resolved)
 }
 
 /// The lights that the models' files have, in the world (KHR_lights_punctual). Scales do not make them brighter.
-fn lights_of(models: &[Placed]) -> Vec<Light> {
+fn lights_of(models: &[Placed], shadow: Option<Shadow>) -> Vec<Light> {
     let mut lights = Vec::new();
     for placed in models {
         for (instance, light) in placed.model.shown_lights() {
@@ -41,11 +51,13 @@ fn lights_of(models: &[Placed]) -> Vec<Light> {
             let axis = axis.raw().as_vec3().to_array();
             let strength = light.color.map(|channel| channel * light.intensity);
             lights.push(match light.kind {
-                LightKind::Directional => Light::Sun { towards: axis.map(|c| -c), lux: strength },
+                LightKind::Directional => {
+                    Light::Sun { towards: axis.map(|c| -c), lux: strength, shadow }
+                }
                 LightKind::Point { range } => Light::Point { position, candela: strength, range },
                 LightKind::Spot { range, inner, outer } => {
                     let cosines = [inner, outer].map(libm::cosf);
-                    Light::Spot { position, axis, candela: strength, range, cosines }
+                    Light::Spot { position, axis, candela: strength, range, cosines, shadow }
                 }
             });
         }
@@ -54,20 +66,23 @@ fn lights_of(models: &[Placed]) -> Vec<Light> {
 }
 
 /// A key light from above the viewer's left shoulder, so that shape reads from every side, and a quarter as much ambient.
-fn default_lights(shot: &Shot) -> Vec<Light> {
+fn default_lights(shot: &Shot, shadow: Option<Shadow>) -> Vec<Light> {
+    vec![key_light(shot, 2.5, shadow), Light::Ambient { lux: [0.7; 3] }]
+}
+
+fn key_light(shot: &Shot, lux: f32, shadow: Option<Shadow>) -> Light {
     let camera = shot.camera;
     let towards = camera.u() * -0.45 + camera.v() * 0.65 + camera.w();
     let towards = towards.normalized().unwrap_or(camera.w());
-    vec![
-        Light::Sun { towards: towards.raw().as_vec3().to_array(), lux: [2.5; 3] },
-        Light::Ambient { lux: [0.7; 3] },
-    ]
+    Light::Sun { towards: towards.raw().as_vec3().to_array(), lux: [lux; 3], shadow }
 }
 
+/// A light of the file, with the scene's shadows where it says nothing of its own; `None` for those of the models.
 pub(super) fn resolve_light(
     origin: &Origin,
     number: usize,
     light: &LightFile,
+    shadow: Option<Shadow>,
 ) -> Result<Option<Light>, SceneError> {
     let range = |range: Option<Positive>| range.map_or(f32::INFINITY, |range| range.value() as f32);
     let direction_of = |direction: [f64; 3], whose: &str| {
@@ -77,13 +92,17 @@ pub(super) fn resolve_light(
             origin.fault(&at, format!("the {whose}'s direction is (0, 0, 0), which is none"), help)
         })
     };
+    let own = |file: Option<ShadowsFile>| {
+        let at = [Field("lights"), Index(number), Field("shadows")];
+        file.map_or(Ok(shadow), |file| resolve_shadow(origin, Some(&file), &at))
+    };
     let times = |strength: f64, color: [f64; 3]| color.map(|channel| (channel * strength) as f32);
     Ok(Some(match *light {
         LightFile::FromModels => return Ok(None),
-        LightFile::Sun { direction, lux, color } => {
+        LightFile::Sun { direction, lux, color, shadows } => {
             let towards = -direction_of(direction.0, "sun")?;
             let towards = towards.raw().as_vec3().to_array();
-            Light::Sun { towards, lux: times(lux.value(), color.0) }
+            Light::Sun { towards, lux: times(lux.value(), color.0), shadow: own(shadows)? }
         }
         LightFile::Spot {
             position,
@@ -93,6 +112,7 @@ pub(super) fn resolve_light(
             outer_degrees,
             range: end,
             color,
+            shadows,
         } => {
             let axis = direction_of(direction.0, "spot")?.raw().as_vec3().to_array();
             let inner = inner_degrees.map_or(0.0, Finite::value);
@@ -107,7 +127,8 @@ pub(super) fn resolve_light(
             let cosines = [inner, outer].map(|angle| libm::cos(angle.to_radians()) as f32);
             let position = position.0.map(|c| c as f32);
             let candela = times(candela.value(), color.0);
-            Light::Spot { position, axis, candela, range: range(end), cosines }
+            let shadow = own(shadows)?;
+            Light::Spot { position, axis, candela, range: range(end), cosines, shadow }
         }
         LightFile::Point { position, candela, range: end, color } => Light::Point {
             position: position.0.map(|c| c as f32),

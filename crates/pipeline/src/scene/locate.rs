@@ -17,16 +17,26 @@ pub(crate) enum Step<'a> {
 
 /// The bytes of the value at the end of `path`, or of the last value on the way that is there.
 pub(crate) fn locate(source: &str, path: &[Step<'_>]) -> Range<usize> {
+    follow(source, path).0
+}
+
+/// Whether the whole scene has a field of this name in its own text.
+pub(crate) fn says(source: &str, field: &str) -> bool {
+    follow(source, &[Step::Field(field)]).1
+}
+
+/// The last value on the path that is there, and whether it is the one at the path's end.
+fn follow(source: &str, path: &[Step<'_>]) -> (Range<usize>, bool) {
     let mut walker = Walker { source, at: 0 };
     walker.skip_attributes();
     let mut value = walker.value();
     for step in path {
         match walker.step_into(&value, *step) {
             Some(inner) => value = inner,
-            None => break,
+            None => return (value, false),
         }
     }
-    value
+    (value, true)
 }
 
 struct Walker<'a> {
@@ -198,6 +208,13 @@ Scene(
         assert!(up.starts_with("LookAt(") && up.ends_with("[0, 1, 0])"), "{up}");
         assert_eq!(found(&[Field("style"), Index(3)]), "Flat");
         assert_eq!(found(&[Field("models"), Index(7)]).chars().next(), Some('['));
+    }
+
+    #[test]
+    fn fields_of_the_whole_scene_are_there_or_not() {
+        let there =
+            ["models", "camera", "style", "view", "lights"].map(|field| says(SOURCE, field));
+        assert_eq!(there, [true, true, true, false, false]);
     }
 
     #[test]

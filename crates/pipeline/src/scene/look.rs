@@ -1,11 +1,13 @@
 //! What the line styles of a scene file mean.
 
-use super::file::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, StyleFile, WidthFile};
+use super::file::{
+    CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, StyleFile, ToneFile, WidthFile,
+};
 use super::locate::Step::{self, Field};
 use super::number::Positive;
 use super::{Origin, SceneError, Style};
 use crate::color::parse_hex_codes;
-use crate::drawing::{Cap, HiddenLines, Ink, IsoGroup, Join, LineLook, Shown, Widths};
+use crate::drawing::{Cap, HiddenLines, Ink, IsoGroup, Join, LineLook, Shown, Tone, Widths};
 
 /// How a scene is drawn.
 pub(super) fn resolve_style(origin: &Origin, file: &StyleFile) -> Result<Style, SceneError> {
@@ -49,6 +51,12 @@ fn resolve_lines(origin: &Origin, file: &LinesFile) -> Result<LineLook, SceneErr
             JoinFile::Miter => Join::Miter,
             JoinFile::Round => Join::Round,
             JoinFile::Bevel => Join::Bevel,
+        },
+        hatch: file.hatch_mm.value(),
+        tone: match file.tone {
+            ToneFile::Blank => Tone::Blank,
+            ToneFile::Flat => Tone::Flat,
+            ToneFile::Hatching => Tone::Hatching,
         },
     })
 }

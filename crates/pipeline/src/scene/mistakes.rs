@@ -104,13 +104,14 @@ fn numbers_out_of_range_are_named_with_their_path() {
 #[test]
 fn faults_of_grammar_are_pointed_at() {
     let begin = "a scene looks like this: Scene(models: [(path: \"model.glb\")])";
-    check("", "the file ends too early, or is no scene", (1, 1), begin);
-    check("Scene(", "the file ends too early, or is no scene", (1, 6), begin);
+    check("", "the file is empty", (1, 1), begin);
+    check("[]", "this is no scene", (1, 1), begin);
+    check("Scene(", "the file ends too early", (1, 6), "close the `(` of line 1");
     check(
         "Scene(models: [(path: \"a.glb\")]) more",
         "there is something behind the scene's last bracket",
         (1, 34),
-        "",
+        "a file has one scene: put it inside of the brackets, or remove it",
     );
     check(
         "Scene(models: [(scale: 3)])",

@@ -59,8 +59,23 @@ checked_number! {
     Percent, "a number from 0 to 100", |x| (0.0..=100.0).contains(&x)
 }
 checked_number! {
+    /// How large a light looks, in degrees across, from 0 to 30.
+    Softness, "an angle from 0 to 30 degrees", |x| (0.0..=30.0).contains(&x)
+}
+
+checked_number! {
     /// An angle between two faces in degrees, from 0 to 180.
     Crease, "an angle from 0 to 180 degrees", |x| (0.0..=180.0).contains(&x)
+}
+
+checked_number! {
+    /// The distance between lines of hatching in millimetres, from 0.1 to 1000.
+    Spacing, "a distance from 0.1 to 1000 millimetres", |x| (0.1..=1000.0).contains(&x)
+}
+
+impl Spacing {
+    /// 2 millimetres.
+    pub const USUAL: Self = Self(2.0);
 }
 
 impl Percent {

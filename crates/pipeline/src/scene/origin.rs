@@ -1,8 +1,10 @@
 //! Where a scene comes from: a file with text and a folder, or a bare model and the program's flags.
 
+use super::include::{Written, gather};
 use super::locate::{Step, locate};
-use super::{ResolveError, SceneError, SceneFile, parse};
+use super::{ResolveError, SceneError, SceneFile};
 use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
 
 /// The longest scene file that is read, in bytes: more is no text that a person wrote.
 const LONGEST_SCENE: u64 = 16 << 20;
@@ -16,26 +18,56 @@ pub struct Origin {
     pub text: String,
     /// The folder that paths of the scene begin at.
     pub folder: PathBuf,
+    /// Which parts are written in files that it includes.
+    written: Written,
+    /// The file of a bare model, if it is in memory.
+    pub(super) model: Option<Arc<[u8]>>,
 }
 
 impl Origin {
-    /// Reads and parses a scene file.
+    /// Where a scene comes from whose text is at hand.
+    #[must_use]
+    pub fn of_text(file: impl Into<String>, text: impl Into<String>, folder: PathBuf) -> Self {
+        Self {
+            file: file.into(),
+            text: text.into(),
+            folder,
+            written: Written::default(),
+            model: None,
+        }
+    }
+
+    /// Reads and parses a scene file and those it includes, which must lie below its folder.
     ///
     /// # Errors
-    /// If it cannot be read, is not UTF-8, is too long, or is no scene.
+    /// If one cannot be read, is not UTF-8, is too long, or is no scene, or if files include each other.
     pub fn read(path: &Path) -> Result<(Self, SceneFile), ResolveError> {
-        let unreadable = |cause| ResolveError::Unreadable { path: path.to_owned(), cause };
-        let length = std::fs::metadata(path).map_err(unreadable)?.len();
-        if length > LONGEST_SCENE {
-            let why = format!("it has {length} bytes; a scene file has {LONGEST_SCENE} at most");
-            return Err(unreadable(std::io::Error::other(why)));
-        }
-        let text = std::fs::read_to_string(path).map_err(unreadable)?;
-        let file = path.display().to_string();
-        let scene = parse(&file, &text)?;
+        Self::read_below(path, &[])
+    }
+
+    /// Reads and parses a scene file and those it includes, which must lie below its folder or one that is `allowed`.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn read_below(path: &Path, allowed: &[PathBuf]) -> Result<(Self, SceneFile), ResolveError> {
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-        let text = text.strip_prefix('\u{feff}').map(ToOwned::to_owned).unwrap_or(text);
-        Ok((Self { file, text, folder }, scene))
+        let text = read_text(path)?;
+        Self::with_includes(Self::of_text(path.display().to_string(), text, folder), allowed)
+    }
+
+    /// Parses a scene's text and the files it includes, which must lie below its folder or one that is `allowed`.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn with_includes(mut self, allowed: &[PathBuf]) -> Result<(Self, SceneFile), ResolveError> {
+        let (file, written) = gather(&self, allowed)?;
+        self.written = written;
+        Ok((self, file))
+    }
+
+    /// The texts of the files that are included, in the order in which they were read.
+    pub fn included_texts(&self) -> impl Iterator<Item = &str> {
+        self.written.texts()
     }
 
     /// The origin of a scene that is just one model, with every default.
@@ -44,7 +76,14 @@ impl Origin {
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let file = path.display().to_string();
-        (Self { file, text: String::new(), folder }, SceneFile::showing(name))
+        (Self::of_text(file, "", folder), SceneFile::showing(name))
+    }
+
+    /// The origin of a scene that is just one model, whose file is in memory and complete in itself.
+    #[must_use]
+    pub fn model_in_memory(name: &str, bytes: Vec<u8>) -> (Self, SceneFile) {
+        let origin = Self::of_text(name, "", PathBuf::new());
+        (Self { model: Some(bytes.into()), ..origin }, SceneFile::showing(name.to_owned()))
     }
 
     /// Whether a model of a scene file may be read: it must be below the file's folder, or below one of those that are
@@ -72,18 +111,35 @@ impl Origin {
         message: impl Into<String>,
         help: Option<String>,
     ) -> SceneError {
+        let (source, path) = self.written.source_of(path);
+        let (file, text) = source.unwrap_or((&self.file, &self.text));
         SceneError {
-            file: self.file.clone(),
-            span: locate(&self.text, path),
-            source: self.text.clone(),
+            file: file.to_owned(),
+            span: locate(text, &path),
+            source: text.to_owned(),
             message: message.into(),
             help,
         }
     }
 }
 
+/// The text of a scene file, without the byte order mark that it may begin with.
+///
+/// # Errors
+/// If it cannot be read, is not UTF-8, or is too long.
+pub(super) fn read_text(path: &Path) -> Result<String, ResolveError> {
+    let unreadable = |cause| ResolveError::Unreadable { path: path.to_owned(), cause };
+    let length = std::fs::metadata(path).map_err(unreadable)?.len();
+    if length > LONGEST_SCENE {
+        let why = format!("it has {length} bytes; a scene file has {LONGEST_SCENE} at most");
+        return Err(unreadable(std::io::Error::other(why)));
+    }
+    let text = std::fs::read_to_string(path).map_err(unreadable)?;
+    Ok(text.strip_prefix('\u{feff}').map(ToOwned::to_owned).unwrap_or(text))
+}
+
 /// A path from a folder on, without `.` and `..`.
-fn plain(folder: &Path, path: &Path) -> PathBuf {
+pub(super) fn plain(folder: &Path, path: &Path) -> PathBuf {
     let mut plain = folder.to_owned();
     for part in path.components() {
         match part {

@@ -3,6 +3,7 @@
 use super::SceneError;
 use super::file::SceneFile;
 use super::locate::{Step, locate};
+use super::wording::explain;
 use core::ops::Range;
 use ron::error::Error as Code;
 use ron::extensions::Extensions;
@@ -20,8 +21,8 @@ pub fn parse(file: &str, source: &str) -> Result<SceneFile, SceneError> {
         | Extensions::UNWRAP_VARIANT_NEWTYPES;
     let options = ron::Options::default().with_default_extension(extensions);
     let fault = |code: &Code, path: Option<&Path>, at: Range<usize>| {
-        let (message, help) = explain(code, path);
         let span = path.filter(|_| points_at_a_value(code)).map_or(at, |p| locate_path(source, p));
+        let (message, help) = explain(code, path, source, &span);
         SceneError { file: file.into(), source: source.into(), span, message, help }
     };
     let mut deserializer = ron::Deserializer::from_str_with_options(source, &options)
@@ -49,75 +50,11 @@ fn points_at_a_value(code: &Code) -> bool {
             | Code::ExpectedInteger
             | Code::ExpectedString
             | Code::ExpectedArray
+            | Code::ExpectedIdentifier
+            | Code::IntegerOutOfBounds
             | Code::ExpectedDifferentLength { .. }
             | Code::MissingStructField { .. }
     )
-}
-
-/// What is wrong and, where it can be told, what to do, in words.
-fn explain(code: &Code, path: Option<&Path>) -> (String, Option<String>) {
-    let place = path.map(ToString::to_string).filter(|path| path != "." && path != "?");
-    let at_place =
-        |what: &str| place.as_ref().map_or(what.to_owned(), |p| format!("`{p}`: {what}"));
-    match code {
-        Code::NoSuchStructField { expected, found, outer } => {
-            let owner = outer.as_ref().map_or(String::new(), |outer| format!(" in `{outer}`"));
-            (format!("unexpected field `{found}`{owner}"), suggestion(found, expected))
-        }
-        Code::NoSuchEnumVariant { expected, found, outer } => {
-            let owner = outer.as_ref().map_or(String::new(), |outer| format!(" for `{outer}`"));
-            (format!("unexpected `{found}`{owner}"), suggestion(found, expected))
-        }
-        Code::MissingStructField { field, outer } => {
-            let owner = outer.as_ref().map_or(String::new(), |outer| format!(" of `{outer}`"));
-            (format!("the field `{field}`{owner} is missing"), Some(format!("add `{field}: …`")))
-        }
-        Code::DuplicateStructField { field, .. } => {
-            (format!("the field `{field}` is there twice"), Some("remove one of them".into()))
-        }
-        Code::ExpectedFloat => (at_place("expected a number"), None),
-        Code::ExpectedInteger => (at_place("expected a whole number"), None),
-        Code::ExpectedString => (
-            at_place("expected a text"),
-            Some("texts stand in quotation marks: \"like this\"".into()),
-        ),
-        Code::ExpectedComma => (
-            "expected a comma or a closing bracket here".into(),
-            Some(
-                "whole numbers have no decimal point; fields and elements are parted by commas"
-                    .into(),
-            ),
-        ),
-        Code::InvalidValueForType { expected, found } => {
-            (at_place(&format!("expected {expected}, found {found}")), None)
-        }
-        Code::Eof | Code::ExpectedNamedStructLike(_) => (
-            "the file ends too early, or is no scene".into(),
-            Some("a scene looks like this: Scene(models: [(path: \"model.glb\")])".into()),
-        ),
-        Code::TrailingCharacters => {
-            ("there is something behind the scene's last bracket".into(), None)
-        }
-        Code::Message(message) => (at_place(message), None),
-        other => (at_place(&lower_first(&other.to_string())), None),
-    }
-}
-
-fn lower_first(text: &str) -> String {
-    let mut chars = text.chars();
-    chars.next().map_or(String::new(), |first| first.to_lowercase().chain(chars).collect())
-}
-
-/// "Did you mean", or the list of what is possible.
-pub(super) fn suggestion<S: AsRef<str>>(found: &str, expected: &[S]) -> Option<String> {
-    let likeness = |name: &str| strsim::jaro_winkler(&found.to_lowercase(), &name.to_lowercase());
-    let best =
-        expected.iter().map(AsRef::as_ref).max_by(|a, b| likeness(a).total_cmp(&likeness(b)))?;
-    if likeness(best) > 0.8 {
-        return Some(format!("did you mean `{best}`?"));
-    }
-    let names: Vec<String> = expected.iter().map(|name| format!("`{}`", name.as_ref())).collect();
-    Some(format!("possible here: {}", names.join(", ")))
 }
 
 fn locate_path(source: &str, path: &Path) -> Range<usize> {

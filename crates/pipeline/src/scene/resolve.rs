@@ -1,20 +1,25 @@
 //! From what a person wrote to what drawing needs, or to an error that points.
 
-use super::file::{BackgroundFile, Choice, Finite, ModelFile, OverlayFile, ToneMappingFile};
+use super::bounds::world_points;
+use super::file::{
+    BackgroundFile, Choice, EnvironmentFile, Finite, ModelFile, OverlayFile, ToneMappingFile,
+};
+use super::ground::resolve_ground;
 use super::lights::resolve_lights;
 use super::locate::Step::{Field, Index};
 use super::look::resolve_style;
 use super::number::Positive;
-use super::parse::suggestion;
+use super::section::resolve_sections;
 use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
-use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile};
+use super::wording::suggestion;
+use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile, Style};
 use crate::color::parse_hex;
 use crate::drawing::Overlay;
-use crate::import::{FaultKind, ImportError, ImportOptions, load};
+use crate::import::{FaultKind, ImportError, ImportOptions, load, load_bytes};
 use crate::model::Model;
 use crate::shade::{Develop, ToneMapping};
-use homog::{Affine, Model as ModelSpace, Vector, World};
+use homog::{Affine, Bounds, Model as ModelSpace, Vector, World};
 use raster::Samples;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -57,7 +62,7 @@ impl Scene {
     }
 
     /// The scene around its models; the environment's file may lie in one of the `allowed` folders too.
-    fn around(
+    pub(crate) fn around(
         origin: &Origin,
         file: &SceneFile,
         models: Vec<Placed>,
@@ -66,7 +71,12 @@ impl Scene {
         let image = resolve_image(origin, file)?;
         let shot = resolve_shot(origin, &file.camera, &models, image)?;
         let lights = resolve_lights(origin, file, &models, &shot)?;
-        let environment = resolve_environment(origin, file, allowed)?;
+        let ground = resolve_ground(file, &models, &lights);
+        let occlusion_radius = file.ambient_occlusion.map(|file| {
+            let usual =
+                || Bounds::of(world_points(&models)).map_or(1.0, |all| all.diagonal() / 12.0);
+            file.radius.map_or_else(usual, Positive::value)
+        });
         let curve = match file.image.tone_mapping {
             ToneMappingFile::None => ToneMapping::None,
             ToneMappingFile::Neutral => ToneMapping::Neutral,
@@ -75,8 +85,25 @@ impl Scene {
         };
         let develop = Develop::new(file.image.exposure_ev.map_or(0.0, Finite::value), curve);
         let style = resolve_style(origin, &file.style)?;
+        // Nothing is mirrored in line drawings.
+        let is_lit = matches!(style, Style::Shaded | Style::Flat);
+        let environment = || resolve_environment(origin, file, &models, allowed);
+        let environment = if is_lit { environment()? } else { None };
         let overlays = resolve_overlays(origin, &file.overlays, &models, image)?;
-        Ok(Self { models, shot, lights, environment, develop, style, image, overlays })
+        let sections = resolve_sections(origin, &file.sections)?;
+        Ok(Self {
+            models,
+            shot,
+            lights,
+            ground,
+            environment,
+            occlusion_radius,
+            develop,
+            style,
+            image,
+            overlays,
+            sections,
+        })
     }
 }
 
@@ -95,7 +122,9 @@ pub(super) fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSp
     })?;
     let background = match &file.image.background {
         BackgroundFile::Transparent => [0.0; 4],
-        BackgroundFile::Environment { .. } if file.environment.is_none() => {
+        BackgroundFile::Environment { .. }
+            if matches!(file.environment, None | Some(EnvironmentFile::Dark)) =>
+        {
             let help = Some("add one, such as environment: Studio()".to_owned());
             let at = [Field("image"), Field("background")];
             return Err(origin.fault(&at, "the scene has no environment to be seen", help));
@@ -116,7 +145,13 @@ pub(super) fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSp
         }
         _ => None,
     };
-    Ok(ImageSpec { width, height, background, backdrop, samples })
+    let anisotropy = file.image.anisotropy;
+    if !(1..=8).contains(&anisotropy) {
+        let message = format!("textures cannot be read at {anisotropy} places");
+        let help = Some("from 1 to 8 are possible".to_owned());
+        return Err(origin.fault(&[Field("image"), Field("anisotropy")], message, help));
+    }
+    Ok(ImageSpec { width, height, background, backdrop, samples, anisotropy })
 }
 
 pub(super) fn no_model(origin: &Origin) -> SceneError {
@@ -174,11 +209,26 @@ impl ModelFault {
             Self::File(error) if origin.text.is_empty() => error.into(),
             Self::File(error) => {
                 let at = [Field("models"), Index(number), Field("path")];
-                origin.fault(&at, format!("{}: {}", entry.path, error.fault), None).into()
+                let help = namesake(&origin.folder.join(&entry.path));
+                origin.fault(&at, format!("{}: {}", entry.path, error.fault), help).into()
             }
             Self::Scene(error) => error.into(),
         }
     }
+}
+
+/// For a model that is not there, one in the same folder with a similar name.
+fn namesake(path: &Path) -> Option<String> {
+    let folder = path.parent().filter(|_| !path.exists())?;
+    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let names = std::fs::read_dir(here)
+        .ok()?
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    let is_model = |name: &String| name.ends_with(".glb") || name.ends_with(".gltf");
+    let mut names: Vec<String> = names.filter(is_model).collect();
+    names.sort();
+    let wanted = path.file_name()?.to_str()?;
+    suggestion(wanted, &names).filter(|hint| hint.starts_with("did you mean"))
 }
 
 /// Loads a model and poses it.
@@ -200,7 +250,10 @@ pub(super) fn load_model(
         variant: entry.variant.clone().map(Into::into).or(options.import.variant.clone()),
         ..options.import.clone()
     };
-    let loaded = load(&origin.folder.join(&entry.path), &import);
+    let loaded = match &origin.model {
+        Some(bytes) => load_bytes(&entry.path, bytes, &import),
+        None => load(&origin.folder.join(&entry.path), &import),
+    };
     let mut model = loaded.map_err(|error| choice_fault(origin, number, entry, error))?;
     if entry.animation.is_some() || entry.time.is_some() {
         let field = if entry.animation.is_some() { "animation" } else { "time" };
@@ -238,7 +291,8 @@ pub fn chosen_animation(
 ) -> Result<usize, (String, Option<String>)> {
     let count = model.animations.len();
     if count == 0 {
-        return Err((format!("the model {} has no animation", model.name), None));
+        let help = "leave the animation and the time out".to_owned();
+        return Err((format!("the model {} has no animation", model.name), Some(help)));
     }
     let named = |wanted: &str| {
         model.animations.iter().position(|animation| animation.name.as_deref() == Some(wanted))

@@ -3,9 +3,12 @@
 use super::error::SceneError;
 use super::file::SceneFile;
 use super::lights::resolve_light;
+use super::locate::Step;
 use super::look::resolve_style;
 use super::origin::Origin;
 use super::resolve::{ModelFault, load_model, placement, resolve_image, resolve_overlays};
+use super::section::resolve_sections;
+use super::shadows::resolve_shadow;
 use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
 use super::{Placed, ResolveOptions};
@@ -40,9 +43,13 @@ pub fn review(origin: &Origin, file: &SceneFile, options: &ResolveOptions) -> Ve
         Ok(_) => {}
     }
     let lights = file.lights.iter().flatten().enumerate();
-    mistakes.extend(lights.filter_map(|(at, light)| resolve_light(origin, at, light).err()));
-    mistakes.extend(resolve_environment(origin, file, &options.import.allow_outside).err());
+    mistakes.extend(lights.filter_map(|(at, light)| resolve_light(origin, at, light, None).err()));
+    let shadows = resolve_shadow(origin, file.shadows.as_ref(), &[Step::Field("shadows")]);
+    mistakes.extend(shadows.err());
+    mistakes
+        .extend(resolve_environment(origin, file, &models, &options.import.allow_outside).err());
     mistakes.extend(resolve_style(origin, &file.style).err());
+    mistakes.extend(resolve_sections(origin, &file.sections).err());
     let sheet = file.sheet.iter();
     mistakes.extend(sheet.filter_map(|sheet| Sheet::resolve(origin, sheet).err()));
     mistakes.sort_by_key(|mistake| mistake.span.start);

@@ -3,7 +3,7 @@
 use super::file::{EnvironmentFile, Finite, SceneFile};
 use super::locate::Step::Field;
 use super::radiance::Panorama;
-use super::{Origin, SceneError};
+use super::{Origin, Placed, SceneError};
 use crate::shade::{Environment, Sky, studio};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -12,6 +12,22 @@ use std::sync::{Arc, Mutex, PoisonError};
 const LONGEST: u64 = 256 << 20;
 /// How many environments are kept.
 const KEPT: usize = 4;
+
+impl SceneFile {
+    /// The surroundings that a scene has. A bare model without lights of its own stands in the studio: metals show nothing but what
+    /// is around them.
+    pub(super) fn surroundings(
+        &self,
+        origin: &Origin,
+        models: &[Placed],
+    ) -> Option<EnvironmentFile> {
+        let is_lit = || models.iter().any(|placed| placed.model.shown_lights().next().is_some());
+        let is_bare = origin.text.is_empty() && self.lights.is_none() && !is_lit();
+        let environment = self.environment.clone();
+        let environment = environment.or_else(|| is_bare.then_some(EnvironmentFile::STUDIO));
+        environment.filter(|environment| *environment != EnvironmentFile::Dark)
+    }
+}
 
 /// What an environment is made of: its kind, all its numbers, and the sum of a file's bytes.
 type Key = (u8, [u64; 4]);
@@ -36,11 +52,13 @@ fn kept(key: Key, make: impl FnOnce() -> Environment) -> Arc<Environment> {
 pub(super) fn resolve_environment(
     origin: &Origin,
     file: &SceneFile,
+    models: &[Placed],
     allowed: &[PathBuf],
 ) -> Result<Option<Arc<Environment>>, SceneError> {
-    let Some(environment) = &file.environment else { return Ok(None) };
+    let Some(environment) = file.surroundings(origin, models) else { return Ok(None) };
     let degrees = |angle: Option<Finite>| angle.map_or(0.0, Finite::value);
-    Ok(Some(match environment {
+    Ok(Some(match &environment {
+        EnvironmentFile::Dark => return Ok(None),
         EnvironmentFile::Studio { strength, rotate_degrees } => {
             let turn = Turn::new(strength.value(), degrees(*rotate_degrees));
             kept(turn.key(0, 0), || Environment::of(|way| turn.light(way, studio)))
@@ -86,8 +104,10 @@ fn read(origin: &Origin, path: &str, allowed: &[PathBuf]) -> Result<Vec<u8>, Sce
         return Err(fault(origin, message, Some(help.to_owned())));
     }
     let full = origin.folder.join(path);
-    let unreadable =
-        |cause: std::io::Error| fault(origin, format!("cannot read {path}: {cause}"), None);
+    let unreadable = |cause: std::io::Error| {
+        let help = "check the path: it begins at the folder of the scene".to_owned();
+        fault(origin, format!("cannot read {path}: {cause}"), Some(help))
+    };
     let about = std::fs::metadata(&full).map_err(unreadable)?;
     if !about.is_file() || about.len() > LONGEST {
         let message = format!("{path} is no file of at most {LONGEST} bytes");

@@ -3,7 +3,7 @@
 use super::bounds::{DepthSpan, world_points};
 use super::file::{CameraChoice, CameraFile, FromFile, ProjectionFile, ViewFile};
 use super::locate::Step::{self, Field};
-use super::parse::suggestion;
+use super::wording::suggestion;
 use super::{ImageSpec, Origin, Placed, SceneError};
 use crate::model::{Instance, Lens, LensKind};
 use crate::render::Shot;
@@ -53,7 +53,17 @@ pub(super) fn resolve_shot(
     }
 }
 
-impl Resolver<'_> {
+/// The lens of the camera that is chosen; `None` if there is no such camera.
+pub(super) fn chosen_lens<'a>(
+    origin: &'a Origin,
+    models: &'a [Placed],
+    choice: &CameraChoice,
+) -> Option<&'a Lens> {
+    let resolver = Resolver { origin, models, points: Vec::new(), aspect: 1.0 };
+    Some(resolver.chosen_camera(choice).ok()?.2)
+}
+
+impl<'a> Resolver<'a> {
     pub(super) fn camera_fault(&self, error: &camera::CameraError) -> SceneError {
         self.view_fault(error.to_string(), None)
     }
@@ -249,7 +259,7 @@ impl Resolver<'_> {
     fn chosen_camera(
         &self,
         choice: &CameraChoice,
-    ) -> Result<(&Placed, Instance, &Lens), SceneError> {
+    ) -> Result<(&'a Placed, Instance, &'a Lens), SceneError> {
         let mut names = Vec::new();
         for placed in self.models {
             for instance in placed.model.instances() {
@@ -278,7 +288,7 @@ impl Resolver<'_> {
             CameraChoice::Name(name) => name.clone(),
         };
         let (message, help) = if names.is_empty() {
-            let help = "leave the camera out, or choose a view such as Frame(from: Front)";
+            let help = "leave it out, or choose a view: Frame(from: Front) in a scene, --view front as a flag";
             ("the models have no camera".to_owned(), Some(help.to_owned()))
         } else {
             (format!("the models have no camera `{wanted}`"), suggestion(&wanted, names))

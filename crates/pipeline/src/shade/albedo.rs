@@ -31,6 +31,7 @@ impl<const N: usize> Albedo<N> {
     /// For surfaces of these roughnesses (perceptual, 0 to 1) seen at these cosines (0 to 1): between the four nearest
     /// entries of the table. Its columns are equal steps of the root of the cosine, its rows the middles of sixteenths of the
     /// roughness; before the first and behind the last it stays, as in the tables that other renderers read as textures.
+    /// (Rows at the ends, which would be exact, put three of the reference pictures out of their limits.)
     #[inline(always)]
     pub(super) fn of(roughness: &[f32; N], cosines: &[f32; N]) -> Self {
         let mut albedo = Self { a: [0.0; N], b: [0.0; N] };
@@ -53,7 +54,7 @@ impl<const N: usize> Albedo<N> {
 
 /// The entry before a place between the first and the last, and how far it is to the next.
 #[inline(always)]
-fn place(x: f32) -> (usize, f32) {
+pub(super) fn place(x: f32) -> (usize, f32) {
     let place = x.clamp(0.0, 15.0);
     let entry = (place as usize).min(14);
     (entry, place - entry as f32)

@@ -32,10 +32,22 @@ pub struct Draw<'a> {
     pub uv_set: Option<usize>,
     /// The vertex colours, if there are any.
     pub colors: Option<Cow<'a, [[f32; 4]]>>,
-    /// That it is no surface but the environment behind all of them, and how blurred that is.
-    pub backdrop: Option<f32>,
+    /// What it stands for.
+    pub role: Role,
     /// Whether the way to the world mirrors, so that triangles run the other way round.
     pub mirrored: bool,
+}
+
+/// What a draw stands for.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub enum Role {
+    /// A surface of a model.
+    #[default]
+    Surface,
+    /// The environment behind everything, blurred so much, from 0 to 1.
+    Backdrop(f32),
+    /// The ground, of which only shadows are seen.
+    Ground,
 }
 
 /// Which way the u of textures runs on a surface: unit vectors in the world, and in w the side of the bitangent, 1 or −1.

@@ -85,7 +85,7 @@ impl<const N: usize> Inputs<N> {
                         TextureSlot::BaseColor | TextureSlot::Diffuse => alpha_counts,
                         slot => reads_alpha(slot),
                     };
-                    map.chain.sample(&uvs, with_alpha)
+                    map.chain.sample_along(&uvs, with_alpha, draw.maps.anisotropy)
                 }
             };
             last = Some((map, texels));

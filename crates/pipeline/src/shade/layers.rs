@@ -1,6 +1,7 @@
 //! Layers over and in a surface: clear coat, fibres, long highlights and thin films, as the KHR_materials extensions have them.
 
 use super::environment::Environment;
+use super::fibres::{charlie, sheen_albedo};
 use super::inputs::{Inputs, Layers};
 use super::light::Arriving;
 use super::microfacet::{Meeting, alpha_of, fifth};
@@ -155,39 +156,6 @@ impl<const N: usize> Sheen<N> {
     }
 }
 
-/// The lobe of fibres, times the cosine to the light.
-fn charlie(roughness: f32, meeting: &Meeting) -> f32 {
-    let per_alpha = 1.0 / (roughness * roughness);
-    let sine_squared = meeting.sin_squared.clamp(0.0, 1.0);
-    let spread = libm::powf(sine_squared, 0.5 * per_alpha);
-    let distribution = (2.0 + per_alpha) * spread * (0.5 * FRAC_1_PI);
-    let (nl, nv) = (meeting.nl, meeting.nv);
-    let shadows = 1.0 + shadow(nv, 1.0 / per_alpha) + shadow(nl, 1.0 / per_alpha);
-    let visibility = (0.25 / (shadows * nv * nl).max(1e-6)).min(1.0);
-    distribution * visibility * nl
-}
-
-/// How fibres of this α shade each other from a direction: a fit of the lobe's Λ (Estevez and Kulla 2017, table 1).
-fn shadow(cosine: f32, alpha: f32) -> f32 {
-    let smooth = (1.0 - alpha) * (1.0 - alpha);
-    let mix = |rough: f32, fine: f32| rough + (fine - rough) * smooth;
-    let [a, b, c] = [mix(21.5473, 25.3245), mix(3.82987, 3.32435), mix(0.198_23, 0.168_01)];
-    let [d, e] = [mix(-1.977_6, -1.273_93), mix(-4.320_54, -4.859_67)];
-    let line = |x: f32| a / (1.0 + b * libm::powf(x, c)) + d * x + e;
-    let exponent = if cosine < 0.5 { line(cosine) } else { 2.0 * line(0.5) - line(1.0 - cosine) };
-    libm::expf(exponent)
-}
-
-/// The integral of the lobe over the hemisphere, by the fit that browsers use. It is up to two fifths below the integral of the
-/// lobe above for views along the surface, so that rims are a little too bright.
-fn sheen_albedo(cosine: f32, roughness: f32) -> f32 {
-    let square = roughness * roughness;
-    let per = 1.0 / (roughness + 0.1);
-    let slope = -1.9362 + 1.0678 * roughness + 0.4573 * square - 0.8469 * per;
-    let start = -0.6014 + 0.5538 * roughness - 0.4670 * square - 0.1255 * per;
-    libm::expf(slope * cosine + start).clamp(0.0, 1.0)
-}
-
 /// Which way highlights are long, and how rough the surface is along and across (KHR_materials_anisotropy).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grain<const N: usize> {
@@ -337,32 +305,6 @@ mod tests {
                     let found = film_f0([f0, f0 * 0.5, 0.0], 1.4, thickness, cosine);
                     assert!(found.iter().all(|share| (0.0..=1.0).contains(share)), "{found:?}");
                 }
-            }
-        }
-    }
-
-    #[test]
-    fn fibres_reflect_no_more_than_arrives() {
-        let n = [0.0, 0.0, 1.0];
-        for roughness in [0.1, 0.3, 0.6, 1.0] {
-            for degrees in [5.0_f32, 40.0, 80.0] {
-                let angle = degrees.to_radians();
-                let v = [libm::sinf(angle), 0.0, libm::cosf(angle)];
-                let (rings, spokes) = (200, 64);
-                let mut sum = 0.0;
-                for (ring, spoke) in (0..rings).flat_map(|r| (0..spokes).map(move |s| (r, s))) {
-                    let height = (ring as f32 + 0.5) / rings as f32;
-                    let turn = (spoke as f32 + 0.5) / spokes as f32 * 2.0 * PI;
-                    let flat = (1.0 - height * height).sqrt();
-                    let l = [flat * libm::cosf(turn), flat * libm::sinf(turn), height];
-                    sum += charlie(roughness, &Meeting::of(n, v, l));
-                }
-                let whole = sum * 2.0 * PI / (rings * spokes) as f32;
-                let fitted = sheen_albedo(v[2], roughness);
-                assert!(
-                    whole < 1.0 && (roughness < 0.3 || (whole - fitted).abs() < 0.2),
-                    "{roughness} {degrees}: {whole} {fitted}"
-                );
             }
         }
     }

@@ -1,6 +1,8 @@
 //! Lights, resolved: in the world, in the units of photometry.
 
+use super::receiver::Receivers;
 use super::seen::{dot, in_all, lane_of};
+use super::shadow::{Shadow, ShadowMap};
 
 /// A light of the resolved scene. Colours are linear and already multiplied by the light's strength.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -11,6 +13,8 @@ pub enum Light {
         towards: [f32; 3],
         /// The illuminance of a surface that faces it, in lux.
         lux: [f32; 3],
+        /// Its shadows, if it casts any.
+        shadow: Option<Shadow>,
     },
     /// Light from a point.
     Point {
@@ -33,6 +37,8 @@ pub enum Light {
         range: f32,
         /// The cosines of the angles from the axis up to which the light is full, and at which it ends.
         cosines: [f32; 2],
+        /// Its shadows, if it casts any.
+        shadow: Option<Shadow>,
     },
     /// The same light from everywhere. It scatters and makes no highlights.
     Ambient {
@@ -59,15 +65,26 @@ impl Light {
         }
     }
 
+    /// The shadows that it casts.
+    #[must_use]
+    pub const fn shadow(&self) -> Option<Shadow> {
+        match self {
+            Self::Sun { shadow, .. } | Self::Spot { shadow, .. } => *shadow,
+            Self::Point { .. } | Self::Ambient { .. } => None,
+        }
+    }
+
     /// What of a light with a direction arrives at places in the world.
     #[inline(always)]
     pub(super) fn at<const N: usize>(&self, places: &[[f32; N]; 3]) -> Arriving<N> {
         match *self {
-            Self::Sun { towards, lux } => Arriving { towards: in_all(towards), lux: in_all(lux) },
+            Self::Sun { towards, lux, .. } => {
+                Arriving { towards: in_all(towards), lux: in_all(lux) }
+            }
             Self::Point { position, candela, range } => {
                 from(position, places, candela, range, |_| 1.0)
             }
-            Self::Spot { position, axis, candela, range, cosines: [full, end] } => {
+            Self::Spot { position, axis, candela, range, cosines: [full, end], .. } => {
                 // The share between the two angles is the square of a line over the cosine (KHR_lights_punctual).
                 let per = 1.0 / (full - end).max(0.001);
                 from(position, places, candela, range, |towards| {
@@ -76,6 +93,22 @@ impl Light {
                 })
             }
             Self::Ambient { .. } => Arriving { towards: in_all([0.0; 3]), lux: in_all([0.0; 3]) },
+        }
+    }
+}
+
+impl<const N: usize> Arriving<N> {
+    /// Takes away what does not arrive because something is in the way.
+    #[inline(always)]
+    pub(super) fn shade(&mut self, map: &ShadowMap, receivers: &Receivers<N>) {
+        for lane in 0..N {
+            let normal = lane_of(&receivers.normals, lane);
+            // From behind nothing arrives that a shadow could take away, but where slopes pretend otherwise.
+            let faces = dot(normal, lane_of(&self.towards, lane)) > 0.0;
+            let lit = if faces { map.lit(lane_of(&receivers.places, lane), normal) } else { 0.0 };
+            for channel in &mut self.lux {
+                channel[lane] *= lit;
+            }
         }
     }
 }
@@ -135,7 +168,8 @@ mod tests {
         let cosines = [0.8, 0.6];
         let (position, candela) = ([0.0; 3], [1.0; 3]);
         let axis = [0.0, 0.0, -1.0];
-        let light = Light::Spot { position, axis, candela, range: f32::INFINITY, cosines };
+        let light =
+            Light::Spot { position, axis, candela, range: f32::INFINITY, cosines, shadow: None };
         let along = |cosine: f32| at(&light, [(1.0 - cosine * cosine).sqrt(), 0.0, -cosine]);
         for (cosine, due) in [(1.0, 1.0), (0.8, 1.0), (0.7, 0.25), (0.6, 0.0), (-1.0, 0.0)] {
             assert!((along(cosine) - due).abs() < 1e-5, "{cosine}: {}", along(cosine));

@@ -19,18 +19,21 @@ pub struct Map<'a> {
 pub struct Maps<'a> {
     /// All of them; those that are read alike stand side by side, so that texels are fetched once for both.
     maps: Vec<Map<'a>>,
+    /// How many places along a pixel's longer side textures are read at, at most.
+    pub(super) anisotropy: u32,
 }
 
 impl<'a> Maps<'a> {
     /// Those textures of a material for which `chain` has texels. An unlit material shows nothing but its base colour.
     pub fn of(
         material: &Material,
+        anisotropy: u32,
         chain: impl Fn(TextureSlot, TextureUse) -> Option<&'a MipChain<'a>>,
     ) -> Self {
         let map = |(slot, used)| Some(Map { slot, used, chain: chain(slot, used)? });
         let mut maps: Vec<Map<'a>> = material.textures().filter_map(map).collect();
         maps.sort_by_key(|map| (map.used.texture, map.used.uv_set, map.slot));
-        Self { maps }
+        Self { maps, anisotropy }
     }
 
     /// All maps in the order in which they are best read.

@@ -5,6 +5,8 @@ use super::inputs::Inputs;
 use super::layers::{Coat, Grain, Sheen};
 use super::light::Light;
 use super::normal::Facing;
+use super::receiver::Receivers;
+use super::shadow::ShadowMap;
 use super::substance::Substance;
 use super::{Draw, Tangents};
 use std::f32::consts::FRAC_1_PI;
@@ -65,16 +67,24 @@ impl<'a, const N: usize> Reflection<'a, N> {
         self.sheen.as_ref().map_or([1.0; N], Sheen::left)
     }
 
-    /// Adds what the lights of a scene send.
+    /// Adds what the lights of a scene send, where their shadows are not; there are `receivers` if there are shadows.
     #[inline(always)]
-    pub(super) fn add_lights(&mut self, lights: &[Light]) {
+    pub(super) fn add_lights(
+        &mut self,
+        lights: &[Light],
+        shadows: &[Option<ShadowMap>],
+        receivers: Option<&Receivers<N>>,
+    ) {
         let mut everywhere = [0.0; 3];
-        for light in lights {
+        for (number, light) in lights.iter().enumerate() {
             if let Some(lux) = light.ambient() {
                 everywhere = [0, 1, 2].map(|k: usize| everywhere[k] + lux[k]);
                 continue;
             }
             let mut arriving = light.at(&self.facing.places);
+            if let (Some(Some(map)), Some(receivers)) = (shadows.get(number), receivers) {
+                arriving.shade(map, receivers);
+            }
             if let Some(coat) = &mut self.coat {
                 coat.reflect(&arriving);
             }

@@ -7,7 +7,7 @@
 use super::inputs::Inputs;
 use super::normal::Facing;
 use super::seen::{Seen, cross, dot, lane_of};
-use super::{Draw, Shading};
+use super::{Draw, Role, Shading};
 use crate::color::linear_of;
 use crate::model::{AlphaMode, TextureUse};
 use raster::{Fragment, Surface};
@@ -95,7 +95,7 @@ impl Surface for Styled<'_> {
         let (draw, _) = self.shading.draws.of(fragment.id);
         let is_surface = draw.primitive.topology == crate::model::Topology::Triangles;
         let is_of_numbers = matches!(self.look, Look::Depth { .. } | Look::Ids);
-        if draw.backdrop.is_some() || !(is_surface || is_of_numbers) {
+        if draw.role != Role::Surface || !(is_surface || is_of_numbers) {
             return self.shading.shade(fragment);
         }
         let facing = self.shading.facing(draw, &draw.items(&[fragment.id], true), fragment);

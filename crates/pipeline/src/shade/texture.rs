@@ -4,6 +4,7 @@
 //! picture covers many texels, a level is read in which it covers about one, so that the texture neither shimmers nor
 //! costs more than a few fetches.
 
+mod footprint;
 mod sample;
 
 use crate::color::{linear_table, unit_table};
@@ -197,12 +198,15 @@ mod tests {
                 uvs[0][0][lane] = number * 0.37 - 20.0;
                 uvs[0][1][lane] = 9.0 - number * 0.19;
                 uvs[1][0][lane] = size;
-                uvs[2][1][lane] = size * 0.7;
+                uvs[2][1][lane] = size * [0.7, 0.05, 3.0][lane % 3];
             }
             let all = chain.sample(&uvs, true);
+            let along = chain.sample_along(&uvs, true, 8);
             for lane in 0..8 {
                 let one = uvs.map(|uv| uv.map(|axis| axis[lane]));
                 assert_eq!(sample(chain, one), all.map(|channel| channel[lane]));
+                let one = chain.sample_along(&one.map(|[u, v]| [[u], [v]]), true, 8);
+                assert_eq!(one.map(|[channel]| channel), along.map(|channel| channel[lane]));
             }
         }
     }

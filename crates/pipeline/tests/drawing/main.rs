@@ -7,5 +7,6 @@
 #![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
 
 mod edges;
+mod sections;
 mod solids;
 mod stage;

@@ -32,6 +32,8 @@ pub fn scene(model: Model, shot: Shot) -> Scene {
         models: vec![placed],
         shot,
         lights: Vec::new(),
+        ground: None,
+        occlusion_radius: None,
         environment: None,
         develop: pipeline::shade::Develop::default(),
         style: Style::Flat,
@@ -41,8 +43,10 @@ pub fn scene(model: Model, shot: Shot) -> Scene {
             background: [0.0; 4],
             backdrop: None,
             samples: raster::Samples::One,
+            anisotropy: 1,
         },
         overlays: Vec::new(),
+        sections: Vec::new(),
     }
 }
 

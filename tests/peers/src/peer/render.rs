@@ -44,14 +44,17 @@ impl Render {
                 view_to_clip: scene.view_to_clip(Convention::CHAPTER),
             },
             lights: vec![
-                Light::Sun { towards: TOWARDS_LIGHT, lux: lux(1.0 - AMBIENT) },
+                Light::Sun { towards: TOWARDS_LIGHT, lux: lux(1.0 - AMBIENT), shadow: None },
                 Light::Ambient { lux: lux(AMBIENT) },
             ],
-            environment: None,
+            ground: None,
+        occlusion_radius: None,
+        environment: None,
             develop: pipeline::shade::Develop::default(),
             style: Style::Shaded,
-            image: ImageSpec { width, height, background: [0.0; 4], backdrop: None, samples },
+            image: ImageSpec { width, height, background: [0.0; 4], backdrop: None, samples, anisotropy: 1 },
             overlays: Vec::new(),
+        sections: Vec::new(),
         };
         // As long as the process: there are few, and their textures refer to them.
         let models: &'static [Placed] = scene.models.clone().leak();

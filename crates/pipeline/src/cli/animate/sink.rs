@@ -1,6 +1,7 @@
 //! Where the pictures of a film go, one after the other.
 
 use crate::cli::Failure;
+use crate::cli::template::Template;
 use pipeline::film::Film;
 use pipeline::{Draft, OutputError, Picture};
 use std::cell::RefCell;
@@ -10,8 +11,8 @@ use std::rc::Rc;
 
 /// A taker of pictures. Files that hold several appear under their names once they are whole.
 pub(super) enum Sink {
-    /// A file for each picture.
-    Files(Template),
+    /// A file for each picture, with the word for `{stem}`.
+    Files(Template, String),
     /// One animated PNG.
     Png { writer: Box<png::Writer<Shared>>, file: Shared, opaque: bool, path: PathBuf },
     /// One animated GIF.
@@ -20,22 +21,27 @@ pub(super) enum Sink {
     Raw,
 }
 
-/// A file name with a place for the number of the picture.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) struct Template {
-    before: String,
-    after: String,
-    digits: usize,
-}
-
 impl Sink {
-    pub(super) fn open(output: &Path, film: &Film, fps: f64) -> Result<Self, Failure> {
+    pub(super) fn open(
+        input: &Path,
+        output: &Path,
+        film: &Film,
+        fps: f64,
+    ) -> Result<Self, Failure> {
         let name = output.to_string_lossy();
         if name == "-" {
             return Ok(Self::Raw);
         }
-        if let Some(template) = Template::of(&name).map_err(Failure::Usage)? {
-            return Ok(Self::Files(template));
+        let stem = input.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let template = Template::parse(&name, &["stem"], &["frame"]).map_err(Failure::Usage)?;
+        if template.has("frame") {
+            if !name.to_lowercase().ends_with(".png") {
+                let help = "pictures of a film are PNGs: name_{frame:04}.png";
+                return Err(Failure::Usage(format!(
+                    "{name} does not end in .png\n  = help: {help}"
+                )));
+            }
+            return Ok(Self::Files(template, stem));
         }
         match output.extension().map(|ending| ending.to_string_lossy().to_lowercase()).as_deref() {
             Some("png" | "apng") => Self::png(output, film, fps),
@@ -80,7 +86,9 @@ impl Sink {
 
     pub(super) fn take(&mut self, frame: usize, picture: &Picture) -> Result<(), Failure> {
         match self {
-            Self::Files(template) => Ok(picture.write_png(&template.path(frame))?),
+            Self::Files(template, stem) => {
+                Ok(picture.write_png(&template.fill(|_| stem.clone(), |_| frame))?)
+            }
             Self::Png { writer, opaque, path, .. } => {
                 let all = picture.pixels.as_flattened();
                 let rgb: Vec<u8>;
@@ -103,7 +111,7 @@ impl Sink {
     /// Puts a file of several pictures in its place.
     pub(super) fn finish(self) -> Result<(), Failure> {
         match self {
-            Self::Files(_) => Ok(()),
+            Self::Files(..) => Ok(()),
             Self::Png { writer, file, path, .. } => {
                 writer.finish().map_err(|error| png_fault(&path, error))?;
                 file.finish(path)
@@ -181,47 +189,9 @@ fn gif_fault(path: &Path, error: gif::EncodingError) -> Failure {
     OutputError { path: path.to_owned(), cause }.into()
 }
 
-impl Template {
-    /// The template in a name; `None` if there is none.
-    fn of(name: &str) -> Result<Option<Self>, String> {
-        let Some((before, rest)) = name.split_once("{frame") else { return Ok(None) };
-        let fault = || format!("`{name}` is no template: write {{frame}} or {{frame:04}}, once");
-        let (width, after) = rest.split_once('}').ok_or_else(fault)?;
-        let digits = match width.strip_prefix(":0") {
-            None if width.is_empty() => 1,
-            None => return Err(fault()),
-            Some(digits) => {
-                digits.parse().ok().filter(|n| (1..=9).contains(n)).ok_or_else(fault)?
-            }
-        };
-        if after.contains('{') || !after.to_lowercase().ends_with(".png") {
-            return Err(fault());
-        }
-        Ok(Some(Self { before: before.to_owned(), after: after.to_owned(), digits }))
-    }
-
-    fn path(&self, frame: usize) -> PathBuf {
-        let Self { before, after, digits } = self;
-        PathBuf::from(format!("{before}{frame:0digits$}{after}"))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn templates_have_a_number_in_its_place() {
-        let path = |name: &str| Template::of(name).map(|found| found.map(|found| found.path(7)));
-        assert_eq!(path("a_{frame:04}.png"), Ok(Some(PathBuf::from("a_0007.png"))));
-        assert_eq!(path("b/{frame}.PNG"), Ok(Some(PathBuf::from("b/7.PNG"))));
-        assert_eq!(path("a.png"), Ok(None));
-        for wrong in
-            ["{frame", "{frame:4}.png", "{frame}{frame}.png", "{frame}.gif", "{frame:00}.png"]
-        {
-            assert!(path(wrong).is_err(), "{wrong}");
-        }
-    }
 
     #[test]
     fn delays_of_a_gif_add_up() {

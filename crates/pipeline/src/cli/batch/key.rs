@@ -1,45 +1,53 @@
 //! What a picture depends on, as a short key: the content of the files, the settings, the version of the program.
 
+use crate::cli::render::is_scene;
+use pipeline::Origin;
+use pipeline::scene::file::EnvironmentFile;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The key of a model or a scene with the given settings. Files that cannot be read count as empty: the work itself will
 /// say what is wrong with them.
-pub(super) fn key(input: &Path, settings: &str) -> String {
+pub(super) fn key(input: &Path, settings: &str, allowed: &[PathBuf]) -> String {
     let mut hash = Sha256::new();
     put(&mut hash, env!("CARGO_PKG_VERSION").as_bytes());
     put(&mut hash, settings.as_bytes());
-    let bytes = std::fs::read(input).unwrap_or_default();
-    put(&mut hash, &bytes);
-    let folder = input.parent().unwrap_or(Path::new(""));
-    let others =
-        if super::super::render::is_scene(input) { models(&bytes) } else { resources(&bytes) };
-    for name in others {
-        let path = folder.join(&name);
-        let bytes = std::fs::read(&path).unwrap_or_default();
-        put(&mut hash, &bytes);
-        if super::super::render::is_scene(input) {
-            let folder = path.parent().unwrap_or(Path::new(""));
-            for name in resources(&bytes) {
-                put(&mut hash, &std::fs::read(folder.join(name)).unwrap_or_default());
-            }
-        }
+    if is_scene(input) {
+        put_scene(&mut hash, input, allowed)
+    } else {
+        put_model(&mut hash, input)
     }
     hash.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Adds a model and the files that it names.
+fn put_model(hash: &mut Sha256, path: &Path) {
+    let bytes = std::fs::read(path).unwrap_or_default();
+    put(hash, &bytes);
+    let folder = path.parent().unwrap_or(Path::new(""));
+    for name in resources(&bytes) {
+        put(hash, &std::fs::read(folder.join(name)).unwrap_or_default());
+    }
+}
+
+/// Adds a scene, what it includes, its models and its environment.
+fn put_scene(hash: &mut Sha256, path: &Path, allowed: &[PathBuf]) {
+    put(hash, &std::fs::read(path).unwrap_or_default());
+    let Ok((origin, file)) = Origin::read_below(path, allowed) else { return };
+    origin.included_texts().for_each(|text| put(hash, text.as_bytes()));
+    for model in &file.models {
+        put_model(hash, &origin.folder.join(&model.path));
+    }
+    if let Some(EnvironmentFile::File { path, .. }) = &file.environment {
+        put(hash, &std::fs::read(origin.folder.join(path)).unwrap_or_default());
+    }
 }
 
 /// Adds a part, with its length before it: no two lists of parts give the same bytes.
 fn put(hash: &mut Sha256, part: &[u8]) {
     hash.update((part.len() as u64).to_le_bytes());
     hash.update(part);
-}
-
-/// The models of a scene.
-fn models(scene: &[u8]) -> Vec<String> {
-    let text = String::from_utf8_lossy(scene);
-    let file = pipeline::scene::parse(&text, "scene").ok();
-    file.map(|file| file.models.into_iter().map(|model| model.path).collect()).unwrap_or_default()
 }
 
 /// The files that a glTF file names: its buffers and images.
@@ -101,11 +109,28 @@ mod tests {
     }
 
     #[test]
+    fn the_models_and_the_includes_of_a_scene_change_its_key() {
+        let folder = std::env::temp_dir().join(format!("alberti-key-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let write = |name: &str, content: &str| {
+            std::fs::write(folder.join(name), content).expect("a file");
+        };
+        write("scene.ron", "(include: \"style.ron\", models: [(path: \"a.gltf\")])");
+        let of = |name: &str, content: &str| {
+            write(name, content);
+            key(&folder.join("scene.ron"), "", &[])
+        };
+        let keys = [of("style.ron", "()"), of("style.ron", "(style: Flat)"), of("a.gltf", "{}")];
+        assert!(keys[0] != keys[1] && keys[1] != keys[2] && keys[2] == of("a.gltf", "{}"));
+        let _ = std::fs::remove_dir_all(&folder);
+    }
+
+    #[test]
     fn settings_and_content_change_the_key() {
         let file = std::env::temp_dir().join(format!("alberti-key-{}.gltf", std::process::id()));
         let of = |content: &str, settings: &str| {
             std::fs::write(&file, content).expect("a file");
-            key(&file, settings)
+            key(&file, settings, &[])
         };
         let keys = [of("{}", "a"), of("{}", "b"), of("{ }", "a")];
         assert!(keys[0] != keys[1] && keys[0] != keys[2] && keys[0] == of("{}", "a"));

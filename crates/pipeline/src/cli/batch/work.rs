@@ -7,7 +7,7 @@ use crate::cli::Failure;
 use crate::cli::progress::Counter;
 use crate::cli::render::open;
 use pipeline::scene::ResolveOptions;
-use pipeline::{Scene, render};
+use pipeline::{Scene, Timings, render_reported};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -57,7 +57,7 @@ impl Order<'_> {
     }
 
     fn one(&self, job: &Job, before: Option<&Record>) -> Record {
-        let key = key(&job.input, self.settings);
+        let key = key(&job.input, self.settings, &self.args.load.options().allow_outside);
         let output = self.args.out.join(&job.output);
         if let Some(before) = before.filter(|before| before.key == key && output.is_file()) {
             return Record { status: KEPT.to_owned(), ..before.clone() };
@@ -86,11 +86,15 @@ impl Order<'_> {
 
     /// Makes one picture; gives the warnings.
     fn picture(&self, input: &Path, output: &Path) -> Result<Vec<String>, Failure> {
-        let (origin, mut file) = open(input)?;
+        let (origin, mut file) = open(input, &self.args.look.import(&self.args.load))?;
         self.args.look.override_in(&mut file);
-        let scene =
-            Scene::resolve(&origin, &file, &ResolveOptions { import: self.args.load.options() })?;
-        let png = render(&scene, 1)?.to_png();
+        let scene = Scene::resolve(
+            &origin,
+            &file,
+            &ResolveOptions { import: self.args.look.import(&self.args.load) },
+        )?;
+        let (picture, drawing) = render_reported(&scene, 1, &Timings::default())?;
+        let png = picture.to_png();
         if let Some(folder) = output.parent() {
             let fault = |cause| {
                 Failure::Usage(format!("cannot make the folder {}: {cause}", folder.display()))
@@ -99,6 +103,7 @@ impl Order<'_> {
         }
         pipeline::write_file(output, &png)?;
         let warnings = scene.models.iter().flat_map(|placed| &placed.model.warnings);
-        Ok(warnings.map(|warning| format!("{}: {}", warning.pointer, warning.message)).collect())
+        let warnings = warnings.map(|warning| format!("{}: {}", warning.pointer, warning.message));
+        Ok(warnings.chain(drawing.iter().map(ToString::to_string)).collect())
     }
 }

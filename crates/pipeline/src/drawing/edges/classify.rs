@@ -30,6 +30,8 @@ impl Normals {
 
 pub(super) struct Classifier<'a> {
     faces: &'a [Face],
+    /// The edges that sections made, sorted.
+    cuts: &'a [[u32; 2]],
     normals: Normals,
     /// The cosine of the crease angle.
     bend: f64,
@@ -38,7 +40,7 @@ pub(super) struct Classifier<'a> {
 impl<'a> Classifier<'a> {
     pub(super) fn of(shape: &'a Shape, sight: &Sight, options: &Options) -> Self {
         let normals = Normals::of(shape, sight);
-        Self { faces: &shape.faces, normals, bend: libm::cos(options.crease) }
+        Self { faces: &shape.faces, cuts: &shape.cuts, normals, bend: libm::cos(options.crease) }
     }
 
     fn face(&self, side: Side) -> &Face {
@@ -50,7 +52,10 @@ impl<'a> Classifier<'a> {
         sides.iter().map(|&side| self.face(side).object).min().unwrap_or(0)
     }
 
-    pub(super) fn class(&self, sides: &[Side]) -> EdgeClass {
+    pub(super) fn class(&self, ends: [u32; 2], sides: &[Side]) -> EdgeClass {
+        if self.cuts.binary_search(&ends).is_ok() {
+            return EdgeClass::Section;
+        }
         let shape = self.shape(sides);
         let mark = |&side: &Side| Some(self.face(side).marks?[usize::from(side.number)]);
         match (sides.iter().filter_map(mark).max(), shape) {

@@ -10,6 +10,7 @@ use super::seams::{Border, Reach, surface};
 use crate::drawing::in_order::in_order;
 use crate::drawing::visibility::{Aabb, Bvh};
 use glam::DVec3;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Triangles nowhere farther than this from each other's planes are in one plane: in the distances that only touch.
 const FLAT: f64 = 512.0;
@@ -19,6 +20,13 @@ const LEAST_SINE: f64 = 1.0 / 64.0;
 
 /// A crossing: its ends, and the lesser number of the faces' objects.
 pub(super) type Crossing = ([DVec3; 2], u32);
+
+/// The crossings that were found.
+pub(super) struct Found {
+    pub(super) crossings: Vec<Crossing>,
+    /// Whether there were so many that the search was cut off.
+    pub(super) is_cut_off: bool,
+}
 
 /// About as many crossings are found at most.
 const MOST: usize = 1 << 22;
@@ -30,7 +38,7 @@ pub(super) fn crossings(
     (borders, reach): (&[Border], &Reach),
     touching: f64,
     threads: usize,
-) -> Vec<Crossing> {
+) -> Found {
     let mut triangles: Vec<Triangle> =
         shape.faces.iter().map(|face| Triangle::of(shape, face)).collect();
     for (ends, side) in borders {
@@ -44,10 +52,11 @@ pub(super) fn crossings(
     let size = |at: usize| (surface(boxes[at].max - boxes[at].min), at);
     let count = shape.faces.len();
     let (most, most_crossed) = (Bvh::fair_share(count), (MOST / count.max(1)).max(16));
-    in_order(count, threads, |range, open: &mut Vec<u32>, found| {
+    let is_cut_off = AtomicBool::new(false);
+    let crossings = in_order(count, threads, |range, open: &mut Vec<u32>, found| {
         for one in range {
             let before = found.len();
-            tree.for_each_near(&boxes[one], most, open, |other| {
+            let visited = tree.for_each_near(&boxes[one], most, open, |other| {
                 let other = other as usize;
                 let faces = [&shape.faces[one], &shape.faces[other]];
                 let is_asked = size(one) < size(other) && found.len() - before < most_crossed;
@@ -57,8 +66,12 @@ pub(super) fn crossings(
                 let crossing = triangles[one].crosses(&triangles[other], touching);
                 found.extend(crossing.map(|ends| (ends, faces[0].object.min(faces[1].object))));
             });
+            if !visited || found.len() - before >= most_crossed {
+                is_cut_off.store(true, Ordering::Relaxed);
+            }
         }
-    })
+    });
+    Found { crossings, is_cut_off: is_cut_off.into_inner() }
 }
 
 fn share_an_edge([one, other]: [&Face; 2]) -> bool {

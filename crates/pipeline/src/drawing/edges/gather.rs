@@ -14,6 +14,8 @@ pub(crate) struct Face {
     pub(crate) object: u32,
     /// A number that faces of the same material share.
     pub(crate) material: u32,
+    /// The section it closes, if it is a part of a cap.
+    pub(crate) cap: Option<u16>,
     /// What the file says of its sides, from the first corner to the second and so on; `None` if it says nothing.
     pub(crate) marks: Option<[EdgeVisibility; 3]>,
 }
@@ -33,6 +35,12 @@ pub(crate) struct Shape {
     pub(crate) points: Vec<DVec3>,
     pub(crate) faces: Vec<Face>,
     pub(crate) strokes: Vec<Stroke>,
+    /// The edges that sections made, each from the lesser number to the greater once they are welded.
+    pub(crate) cuts: Vec<[u32; 2]>,
+    /// The colours of the materials that faces name, in linear light.
+    pub(crate) colors: Vec<[f32; 3]>,
+    /// Whether faces of several objects may be the same: until cuts are made, for each body must be closed by itself.
+    pub(crate) keeps_copies: bool,
     /// The names of the objects.
     pub(crate) objects: Vec<String>,
 }
@@ -55,6 +63,9 @@ impl Shape {
                     shape.add(primitive, &positions, to_world, (object, material));
                 }
             }
+            let colors = model.materials.iter().map(|material| material.base_color);
+            shape.colors.push([1.0; 3]);
+            shape.colors.extend(colors.map(|[r, g, b, _]| [r, g, b]));
             first_material += model.materials.len() as u32 + 1;
         }
         shape
@@ -88,7 +99,7 @@ impl Shape {
                 let corners = primitive.indices.as_chunks::<3>().0.iter();
                 let faces = corners.enumerate().map(|(at, corners)| {
                     let corners = corners.map(|corner| corner + first);
-                    Face { corners, object, material, marks: marks(at).or(rest) }
+                    Face { corners, object, material, marks: marks(at).or(rest), cap: None }
                 });
                 self.faces.extend(faces.filter(|face| is_here(&face.corners)));
                 let lines = edges.into_iter().flat_map(|edges| &edges.lines);

@@ -6,7 +6,7 @@
 //! ```
 //! Only borders are looked at, so that closed surfaces stay as they are, however fine.
 
-use super::gather::Shape;
+use super::gather::{Face, Shape};
 use super::sides::{Side, Sides};
 use super::weld::renumber;
 use crate::drawing::visibility::{Aabb, Bvh};
@@ -86,11 +86,7 @@ pub(super) fn weld_near(shape: &mut Shape, borders: &[Border], reach: &Reach) ->
 
 /// Cuts borders at points of other borders that lie on them; and the triangles between each border and its parts, which have
 /// a width where the points lie on it but for rounding.
-pub(super) fn cut(
-    shape: &Shape,
-    borders: &[Border],
-    reach: &Reach,
-) -> (Vec<Border>, Vec<[u32; 3]>) {
+pub(super) fn cut(shape: &Shape, borders: &[Border], reach: &Reach) -> (Vec<Border>, Vec<Face>) {
     let points = points_of(borders);
     let place = |at: u32| shape.points[at as usize];
     let places: Vec<Aabb> = points.iter().map(|&at| Aabb::around([place(at)])).collect();
@@ -114,7 +110,9 @@ pub(super) fn cut(
         cuts.sort_unstable_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
         let turns =
             cuts.iter().map(|&(_, at)| at).zip(cuts.iter().skip(1).map(|&(_, at)| at).chain([b]));
-        fillings.extend(turns.map(|(from, to)| [a, from, to]));
+        let face = shape.faces[side.face as usize];
+        let filling = |(from, to)| Face { corners: [a, from, to], ..face };
+        fillings.extend(turns.map(filling));
         let stops = cuts.iter().map(|&(_, at)| at).chain([b]);
         parts.extend(stops.scan(a, |from, to| Some(part([std::mem::replace(from, to), to], side))));
     }

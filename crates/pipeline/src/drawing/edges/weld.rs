@@ -39,20 +39,27 @@ pub(super) fn renumber(shape: &mut Shape, same: &[u32]) {
     for stroke in &mut shape.strokes {
         stroke.ends = stroke.ends.map(|end| same[end as usize]);
     }
+    for cut in &mut shape.cuts {
+        let [a, b] = cut.map(|end| same[end as usize]);
+        *cut = [a.min(b), a.max(b)];
+    }
+    shape.cuts.sort_unstable();
+    shape.cuts.dedup();
     shape.faces.retain(|Face { corners: [a, b, c], .. }| a != b && b != c && c != a);
     shape.strokes.retain(|stroke| stroke.ends[0] != stroke.ends[1]);
-    drop_copies(&mut shape.faces);
+    drop_copies(&mut shape.faces, shape.keeps_copies);
 }
 
-/// Leaves one of faces with the same three corners, whichever way they run: two-sided surfaces are often made of two.
-fn drop_copies(faces: &mut Vec<Face>) {
-    let mut keyed: Vec<([u32; 3], u32)> = faces
+/// Leaves one of faces with the same three corners, whichever way they run: two-sided surfaces are often made of two. If it is
+/// wanted, each object is looked at by itself.
+fn drop_copies(faces: &mut Vec<Face>, by_object: bool) {
+    let mut keyed: Vec<(([u32; 3], u32), u32)> = faces
         .iter()
         .zip(0..)
         .map(|(face, at)| {
             let mut corners = face.corners;
             corners.sort_unstable();
-            (corners, at)
+            ((corners, if by_object { face.object } else { 0 }), at)
         })
         .collect();
     keyed.sort_unstable();

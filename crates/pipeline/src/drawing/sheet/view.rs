@@ -1,7 +1,7 @@
 //! One view of a sheet: a parallel projection whose picture has a known size in millimetres.
 
 use super::{Placement, SheetError};
-use crate::drawing::{LineDrawing, LineLook, draw};
+use crate::drawing::{LineDrawing, LineLook, Options, draw};
 use crate::render::Shot;
 use crate::scene::Scene;
 use camera::{Camera, FramingError, NamedView, frame_parallel};
@@ -13,6 +13,9 @@ use viewport::DrawingScale;
 /// The longer side of the picture the engine draws, in pixels. Only its proportion to the window counts.
 const PIXELS: f64 = 8192.0;
 
+/// How fine pictures of tones are: 300 dots to the inch.
+const TONE_DOTS_PER_MILLIMETRE: f64 = 300.0 / viewport::MILLIMETRES_PER_INCH;
+
 /// How much larger the window is than what is in it, so that nothing touches its border.
 const ROOM: f64 = 1.02;
 
@@ -20,13 +23,13 @@ const ROOM: f64 = 1.02;
 #[derive(Clone, Debug)]
 pub(super) struct View {
     pub(super) name: NamedView,
-    camera: Camera,
+    pub(super) camera: Camera,
     /// From where to where the object reaches ahead of the camera, in units of the scene.
     depths: [f64; 2],
     /// Width and height of the object in this view, in millimetres of the thing.
     pub(super) size: DVec2,
     /// Millimetres in a unit of the scene.
-    unit: f64,
+    pub(super) unit: f64,
 }
 
 impl View {
@@ -59,8 +62,9 @@ impl View {
     /// The lines of the view.
     pub(super) fn draw(
         &self,
-        scene: &Scene,
+        mut scene: Scene,
         look: &LineLook,
+        scale: DrawingScale,
         threads: usize,
     ) -> Result<LineDrawing, SheetError> {
         let window = self.window();
@@ -71,11 +75,17 @@ impl View {
         let volume = volume
             .map_err(|error| SheetError::View { view: self.name, reason: error.to_string() })?;
         let view_to_clip = volume.view_to_clip(Convention::CHAPTER);
-        let mut scene = scene.clone();
         scene.shot = Shot { camera: self.camera, view_to_clip };
         let pixels = (window * (PIXELS / window.max_element())).ceil().max(DVec2::ONE);
         (scene.image.width, scene.image.height) = (pixels.x as u32, pixels.y as u32);
-        Ok(draw(&scene, &look.options(), threads)?)
+        // Millimetres of the paper for a pixel.
+        let pixel = scale.to_paper(window.max_element() * self.unit) / PIXELS;
+        let options = Options {
+            hatch: look.hatch / pixel,
+            tone_scale: TONE_DOTS_PER_MILLIMETRE * pixel,
+            ..look.options()
+        };
+        Ok(draw(&scene, &options, threads)?)
     }
 
     /// Where the view's drawing goes on the sheet: at this scale, its middle at `centre`.

@@ -103,14 +103,14 @@ impl Bvh {
         }
     }
 
-    /// Calls `visit` with every item whose box may meet `area`, but with no more than `most`.
+    /// Calls `visit` with every item whose box may meet `area`, but with no more than `most`. False if there were more.
     pub(crate) fn for_each_near(
         &self,
         area: &Aabb,
         most: usize,
         open: &mut Vec<u32>,
         mut visit: impl FnMut(u32),
-    ) {
+    ) -> bool {
         open.clear();
         open.extend(self.root());
         let mut left = most;
@@ -124,9 +124,10 @@ impl Bvh {
                     left -= places.len();
                     self.order[places].iter().for_each(|&item| visit(item));
                 }
-                Below::Items(_) => return,
+                Below::Items(_) => return false,
             }
         }
+        true
     }
 
     /// How many items a query may visit if each of so many items asks, for an amount of work that has a bound, whatever the

@@ -9,7 +9,7 @@ use serde::Deserialize;
 #[derive(Clone, PartialEq, Debug, Default, Deserialize)]
 #[serde(rename = "Camera", deny_unknown_fields, default)]
 pub struct CameraFile {
-    /// Where the eye is and where it looks.
+    /// Where the eye is and where it looks. Default: framed from the side that suits the projection.
     pub view: ViewFile,
     /// The projection; a camera of the model's brings its own. Default: perspective.
     pub projection: Option<ProjectionFile>,

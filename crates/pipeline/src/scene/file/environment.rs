@@ -7,6 +7,8 @@ use serde::Deserialize;
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(rename = "Environment", deny_unknown_fields)]
 pub enum EnvironmentFile {
+    /// None at all, not even for a bare model.
+    Dark,
     /// A studio with soft boxes.
     Studio {
         /// What all light is multiplied by. Default: 1.
@@ -43,6 +45,19 @@ pub enum EnvironmentFile {
         /// A turn about the y axis. Default: 0.
         rotate_degrees: Option<Finite>,
     },
+}
+
+impl EnvironmentFile {
+    /// The studio with every default.
+    pub const STUDIO: Self = Self::Studio { strength: NonNegative::ONE, rotate_degrees: None };
+    /// The sky with every default.
+    pub const SKY: Self = Self::Sky { sun: Triple([1.0; 3]), strength: NonNegative::ONE };
+
+    /// The picture in a file, as it is.
+    #[must_use]
+    pub const fn of_file(path: String) -> Self {
+        Self::File { path, strength: NonNegative::ONE, rotate_degrees: None }
+    }
 }
 
 fn one() -> NonNegative {

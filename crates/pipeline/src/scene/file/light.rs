@@ -1,5 +1,6 @@
 //! The lights of a scene file.
 
+use super::shadow::ShadowsFile;
 use crate::scene::number::{Finite, NonNegative, Positive, Triple};
 use serde::Deserialize;
 
@@ -16,8 +17,10 @@ pub enum LightFile {
         /// Red, green and blue, linear. Default: white.
         #[serde(default = "Triple::ones")]
         color: Triple,
+        /// Its shadows. Default: the scene's `shadows`.
+        shadows: Option<ShadowsFile>,
     },
-    /// Light from a point, weaker with the square of the distance.
+    /// Light from a point, weaker with the square of the distance. It casts no shadows; a spot does.
     Point {
         /// Where it is.
         position: Triple,
@@ -46,6 +49,8 @@ pub enum LightFile {
         /// Red, green and blue, linear. Default: white.
         #[serde(default = "Triple::ones")]
         color: Triple,
+        /// Its shadows. Default: the scene's `shadows`.
+        shadows: Option<ShadowsFile>,
     },
     /// The lights that the models' files have (KHR_lights_punctual).
     FromModels,

@@ -1,6 +1,6 @@
 //! Line drawings in a scene file: which lines, how hidden ones show, how wide.
 
-use crate::scene::number::{Crease, Percent, Positive};
+use crate::scene::number::{Crease, Percent, Positive, Spacing};
 use serde::Deserialize;
 
 /// A line drawing.
@@ -23,6 +23,11 @@ pub struct LinesFile {
     pub cap: CapFile,
     /// How lines turn corners. Default: `Round`.
     pub join: JoinFile,
+    /// The distance between the lines of hatching, in millimetres of the paper, from 0.1 to 1000: on the cut faces of
+    /// `sections`, and the closest on faces with `tone: Hatching`. Default: 2.
+    pub hatch_mm: Spacing,
+    /// What is on the faces under the lines. Default: `Blank`.
+    pub tone: ToneFile,
 }
 
 impl Default for LinesFile {
@@ -36,6 +41,8 @@ impl Default for LinesFile {
             color: None,
             cap: CapFile::Round,
             join: JoinFile::Round,
+            hatch_mm: Spacing::USUAL,
+            tone: ToneFile::Blank,
         }
     }
 }
@@ -82,6 +89,20 @@ pub enum WidthFile {
 impl WidthFile {
     /// 0.5 mm and 0.25 mm.
     pub const USUAL_ISO: Self = Self::Iso(Positive::known(0.5));
+}
+
+/// What is on the faces under the lines.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Deserialize)]
+#[serde(rename = "Tone")]
+pub enum ToneFile {
+    /// Nothing: the paper.
+    #[default]
+    Blank,
+    /// Each face in one tone of its own colour, as light from above the viewer's left shoulder has it. A picture of 300 dots to
+    /// the inch under the lines.
+    Flat,
+    /// Lines, the closer the darker the face would be in that light. They are as exact as the edges.
+    Hatching,
 }
 
 /// How lines end.

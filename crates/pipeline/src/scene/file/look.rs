@@ -77,11 +77,11 @@ impl StyleFile {
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(rename = "Image", deny_unknown_fields, default)]
 pub struct ImageFile {
-    /// Width and height in pixels.
+    /// Width and height in pixels, each from 1 to 16384. Default: (960, 720).
     pub size: (u32, u32),
-    /// What is seen where no model is.
+    /// What is seen where no model is. Default: `Transparent`.
     pub background: BackgroundFile,
-    /// Coverage samples per pixel: 1, 4, 8 or 16.
+    /// Coverage samples per pixel: 1, 4, 8 or 16. Default: 4.
     pub samples: u32,
     /// The bits of each channel in a PNG: 8 or 16. Default: 8.
     pub bits: u32,
@@ -89,6 +89,9 @@ pub struct ImageFile {
     pub exposure_ev: Option<Finite>,
     /// The curve that brings bright light into the range of a picture. Default: none.
     pub tone_mapping: ToneMappingFile,
+    /// How many places textures are read at along the longer side of what a pixel covers of them, from 1 to 8: surfaces that are
+    /// seen from the side are blurred with 1, and sharp with more. Default: 4.
+    pub anisotropy: u32,
 }
 
 impl Default for ImageFile {
@@ -100,6 +103,7 @@ impl Default for ImageFile {
             bits: 8,
             exposure_ev: None,
             tone_mapping: ToneMappingFile::None,
+            anisotropy: 4,
         }
     }
 }

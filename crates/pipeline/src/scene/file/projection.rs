@@ -12,7 +12,7 @@ use serde::Deserialize;
 pub enum ProjectionFile {
     /// Perspective, the eye in front of the picture's centre.
     Perspective {
-        /// The vertical opening angle. Default: 35.
+        /// The vertical opening angle in degrees. Default: 35.
         #[serde(default)]
         fov_y_degrees: FieldOfView,
         /// The distance of the near plane. Default: as far out as the scene allows.
@@ -114,13 +114,13 @@ pub enum ProjectionFile {
     },
     /// Perspective with no axis parallel to the picture. Places as for `OnePoint`.
     ThreePoint {
-        /// Where lines along x meet.
+        /// Where lines along x meet. Default: at the left, above the middle.
         #[serde(default = "usual_three_point_x")]
         x: (Finite, Finite),
         /// Where uprights meet. Default: far below.
         #[serde(default = "usual_three_point_y")]
         y: (Finite, Finite),
-        /// Where lines along z meet.
+        /// Where lines along z meet. Default: at the right, above the middle.
         #[serde(default = "usual_three_point_z")]
         z: (Finite, Finite),
     },

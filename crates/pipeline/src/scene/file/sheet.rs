@@ -30,11 +30,11 @@ pub struct SheetFile {
     pub dimensions: bool,
     /// What the sheet shows. Default: the names of the models.
     pub title: String,
-    /// Who made it.
+    /// Who made it. Default: nobody is named.
     pub author: String,
-    /// When.
+    /// When, as it is to be written. Default: nothing is said.
     pub date: String,
-    /// Its number.
+    /// The number of the drawing. Default: none.
     pub number: String,
 }
 

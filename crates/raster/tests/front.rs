@@ -65,7 +65,7 @@ fn the_nearest_of_all_covers_is_found_for_any_number_of_threads() {
     let frame = frame(&given);
     for threads in 1..=3 {
         let mut found = vec![None; (SIZE[0] * SIZE[1]) as usize];
-        frame.nearest(&Holed, threads, &mut found, |fragment| {
+        frame.front(&Holed, threads, &mut found, |fragment| {
             let sum: f32 = fragment.weights.iter().sum();
             assert!((sum - 1.0).abs() < 1e-5, "{:?}", fragment.weights);
             Some(fragment.id)

@@ -1,0 +1,20 @@
+//! Why a pixel has its colour: the triangles seen in it, the place, every stage on the way there.
+//!
+//! Run it with `cargo run -p pipeline --example explain -- model.glb 480 360`.
+#![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
+
+use pipeline::explain::{Chain, Conventions, explain_pixel};
+use pipeline::{Origin, Scene};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let names: Vec<String> = std::env::args().skip(1).collect();
+    let [model, column, row] = names.as_slice() else {
+        return Err("name a model and a pixel".into());
+    };
+    let (origin, file) = Origin::bare_model(model.as_ref());
+    let scene = Scene::resolve(&origin, &file, &Default::default())?;
+    let chain = Chain::of(&scene.shot, file.image.size, Conventions::Alberti)?;
+    let told = explain_pixel(&chain, &scene, column.parse()?, row.parse()?)?;
+    println!("{told}\nas JSON it has {} bytes", told.to_json().to_string().len());
+    Ok(())
+}

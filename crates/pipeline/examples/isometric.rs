@@ -1,0 +1,17 @@
+//! An isometric line drawing of a model, hidden lines dashed, as an SVG.
+//!
+//! Run it with `cargo run -p pipeline --example isometric -- model.glb drawing.svg`.
+
+use pipeline::scene::file::{ProjectionFile, StyleFile};
+use pipeline::{Origin, Scene, Timings, draw, write_file};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut names = std::env::args().skip(1);
+    let (model, output) = names.next().zip(names.next()).ok_or("name a model and a drawing")?;
+    let (origin, mut file) = Origin::bare_model(model.as_ref());
+    file.camera.projection = Some(ProjectionFile::Isometric);
+    file.style = StyleFile::dashed();
+    let scene = Scene::resolve(&origin, &file, &Default::default())?;
+    let page = draw(&scene, 2, &Timings::default())?;
+    Ok(write_file(output.as_ref(), page.to_svg().as_bytes())?)
+}

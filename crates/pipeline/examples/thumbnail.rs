@@ -1,0 +1,17 @@
+//! A thumbnail of a model: framed and lit by itself, as pixels in memory and as a PNG.
+//!
+//! Run it with `cargo run -p pipeline --example thumbnail -- model.glb thumb.png`.
+#![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
+
+use pipeline::{Origin, Scene, render};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut names = std::env::args().skip(1);
+    let (model, output) = names.next().zip(names.next()).ok_or("name a model and a picture")?;
+    let (origin, mut file) = Origin::bare_model(model.as_ref());
+    file.image.size = (256, 256);
+    let scene = Scene::resolve(&origin, &file, &Default::default())?;
+    let picture = render(&scene, 2)?; // with two threads; the picture does not depend on it
+    println!("{} pixels, one in the middle {:?}", picture.pixels.len(), picture.pixel(128, 128));
+    Ok(picture.write_png(output.as_ref())?)
+}

@@ -1,0 +1,65 @@
+//! Sections of the reference from the commands and their flags, as the program itself parses them.
+
+use super::{Entry, Section};
+use clap::{Arg, Command};
+
+/// A section for each command, in the order of the help.
+pub(super) fn sections(program: Command) -> Vec<Section> {
+    let mut program = program.disable_help_subcommand(true);
+    program.build();
+    let mut sections = Vec::new();
+    collect(&program, &mut sections);
+    sections
+}
+
+fn collect(command: &Command, sections: &mut Vec<Section>) {
+    let about = command.get_long_about().or(command.get_about());
+    let arguments = command.get_arguments().filter(|arg| !arg.is_hide_set());
+    sections.push(Section {
+        title: command.get_bin_name().unwrap_or(command.get_name()).to_owned(),
+        about: about.map(ToString::to_string).unwrap_or_default(),
+        entries: arguments.map(argument).collect(),
+    });
+    for inner in command.get_subcommands().filter(|inner| !inner.is_hide_set()) {
+        collect(inner, sections);
+    }
+}
+
+fn argument(arg: &Arg) -> Entry {
+    let takes_value = arg.get_action().takes_values();
+    let names = arg.get_value_names().filter(|_| takes_value).unwrap_or_default();
+    let value = names.iter().map(|name| format!("<{name}>")).collect::<Vec<_>>().join(" ");
+    let short = arg.get_short().map(|letter| format!("-{letter}"));
+    let long = arg.get_long().map(|word| format!("--{word}"));
+    let flags: Vec<String> = short.into_iter().chain(long).collect();
+    let defaults = arg.get_default_values().iter().map(|value| value.to_string_lossy());
+    let defaults = defaults.collect::<Vec<_>>().join(" ");
+    let about = arg.get_long_help().or(arg.get_help()).map(ToString::to_string).unwrap_or_default();
+    let default = if defaults.is_empty() || !takes_value {
+        String::new()
+    } else {
+        format!(" [default: {defaults}]")
+    };
+    let mut words = if takes_value { arg.get_possible_values() } else { Vec::new() };
+    words.retain(|word| !word.is_hide_set());
+    // Words that speak for themselves need no line each.
+    let silent = words.iter().all(|word| word.get_help().is_none());
+    let choice = if silent && !words.is_empty() {
+        let names: Vec<String> = words.drain(..).map(|word| word.get_name().to_owned()).collect();
+        format!(": {}", names.join(", "))
+    } else {
+        String::new()
+    };
+    let word = |word: &clap::builder::PossibleValue| Entry {
+        term: word.get_name().to_owned(),
+        about: word.get_help().map(ToString::to_string).unwrap_or_default(),
+        ..Entry::default()
+    };
+    Entry {
+        term: if flags.is_empty() { value.clone() } else { flags.join(", ") },
+        value: if flags.is_empty() { String::new() } else { value },
+        note: if arg.is_required_set() { "needed".to_owned() } else { String::new() },
+        about: format!("{about}{choice}{default}"),
+        inner: words.iter().map(word).collect(),
+    }
+}

@@ -1,0 +1,54 @@
+//! The reference as text for a terminal.
+
+use super::{Entry, Section};
+
+/// The width of a line.
+const WIDTH: usize = 100;
+
+pub(super) fn page(sections: &[Section]) -> String {
+    let mut page = String::new();
+    for (number, section) in sections.iter().enumerate() {
+        if number > 0 {
+            page.push('\n');
+        }
+        page.push_str(&section.title);
+        page.push('\n');
+        wrap(&mut page, &section.about, 2);
+        section.entries.iter().for_each(|entry| write(&mut page, entry, 2));
+    }
+    page
+}
+
+fn write(page: &mut String, entry: &Entry, indent: usize) {
+    page.push_str(&" ".repeat(indent));
+    page.push_str(&entry.term);
+    if !entry.value.is_empty() {
+        page.push_str(if entry.term.starts_with('-') { " " } else { ": " });
+        page.push_str(&entry.value);
+    }
+    if !entry.note.is_empty() {
+        page.push_str(&format!(" ({})", entry.note));
+    }
+    page.push('\n');
+    wrap(page, &entry.about, indent + 4);
+    entry.inner.iter().for_each(|inner| write(page, inner, indent + 4));
+}
+
+/// Paragraphs, broken between words.
+fn wrap(page: &mut String, text: &str, indent: usize) {
+    for line in text.lines().filter(|line| !line.is_empty()) {
+        let mut column = 0;
+        for word in line.split_whitespace() {
+            let length = word.chars().count();
+            if column > 0 && column + 1 + length > WIDTH {
+                page.push('\n');
+                column = 0;
+            }
+            let gap = if column == 0 { indent } else { 1 };
+            page.push_str(&" ".repeat(gap));
+            page.push_str(word);
+            column += gap + length;
+        }
+        page.push('\n');
+    }
+}

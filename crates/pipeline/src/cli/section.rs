@@ -1,0 +1,57 @@
+//! Flags that cut models open.
+
+use pipeline::scene::file::{SceneFile, SectionFile};
+
+/// Section cuts.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub(crate) struct SectionArgs {
+    /// Cut the models open in line drawings: x=0.5 takes away what has a greater x, -x=0.5 what has a smaller one; or a point and
+    /// the direction that is taken away, such as 0,1,0,1,0,1; may be given several times
+    #[arg(long = "section", value_name = "PLANE", value_parser = section, allow_hyphen_values = true)]
+    pub(crate) sections: Vec<SectionFile>,
+}
+
+impl SectionArgs {
+    /// Cuts of the flags come after those of the scene.
+    pub(crate) fn add_to(&self, file: &mut SceneFile) {
+        file.sections.extend(self.sections.iter().cloned());
+    }
+}
+
+fn section(text: &str) -> Result<SectionFile, String> {
+    let fault = || {
+        "expected a plane such as x=0.5 or -z=0, or six numbers: a point and the direction that is taken away".to_owned()
+    };
+    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| fault());
+    let (point, normal) = if let Some((axis, at)) = text.split_once('=') {
+        let (sign, axis) =
+            axis.trim().strip_prefix('-').map_or((1.0, axis.trim()), |axis| (-1.0, axis));
+        let axis = ["x", "y", "z"].iter().position(|name| *name == axis).ok_or_else(fault)?;
+        let (mut point, mut normal) = ([0.0; 3], [0.0; 3]);
+        (point[axis], normal[axis]) = (number(at)?, sign);
+        (point, normal)
+    } else {
+        let numbers = text.split(',').map(number).collect::<Result<Vec<f64>, _>>()?;
+        let &[a, b, c, x, y, z] = numbers.as_slice() else { return Err(fault()) };
+        ([a, b, c], [x, y, z])
+    };
+    SectionFile::new(point, normal).ok_or_else(fault)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn planes_by_axes_and_by_six_numbers() {
+        let plane = |text| section(text).map(|s| (s.point.0, s.normal.0));
+        assert_eq!(plane("x=0.5"), Ok(([0.5, 0.0, 0.0], [1.0, 0.0, 0.0])));
+        assert_eq!(plane("-z=-2"), Ok(([0.0, 0.0, -2.0], [0.0, 0.0, -1.0])));
+        assert_eq!(plane("1, 2,3,0,-1,1"), Ok(([1.0, 2.0, 3.0], [0.0, -1.0, 1.0])));
+        for wrong in
+            ["", "x", "x=", "w=1", "x=nan", "1,2,3", "1,2,3,0,0,0", "1,2,3,4,5,6,7", "x=1e999"]
+        {
+            assert!(plane(wrong).is_err(), "{wrong}");
+        }
+    }
+}

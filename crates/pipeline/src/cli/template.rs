@@ -1,0 +1,161 @@
+//! Names of outputs with places for words and numbers, such as `{stem}_{view}.png` or `frames/{frame:04}.png`.
+
+use std::path::PathBuf;
+
+/// A name with places in it. `{{` and `}}` stand for braces.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) struct Template {
+    parts: Vec<Part>,
+}
+
+#[derive(Clone, PartialEq, Eq, Debug)]
+enum Part {
+    Text(String),
+    Word(&'static str),
+    /// A number with at least so many digits.
+    Number(&'static str, usize),
+}
+
+impl Template {
+    /// Reads a template with these fields for words and these for numbers.
+    ///
+    /// # Errors
+    /// If a brace has no partner, or there is no such field: what is wrong, and what there is.
+    pub(super) fn parse(
+        text: &str,
+        words: &[&'static str],
+        numbers: &[&'static str],
+    ) -> Result<Self, String> {
+        let mut parts = Vec::new();
+        let mut rest = text;
+        while let Some(at) = rest.find(['{', '}']) {
+            let (before, brace) = rest.split_at(at);
+            push(&mut parts, before);
+            if let Some(behind) = brace.strip_prefix("{{").or(brace.strip_prefix("}}")) {
+                push(&mut parts, &brace[..1]);
+                rest = behind;
+                continue;
+            }
+            let inside = brace.strip_prefix('{').and_then(|inside| inside.split_once('}'));
+            let (field, behind) = inside.ok_or_else(|| {
+                format!("a brace in the template {text} has no partner\n  = help: {{{{ and }}}} stand for braces")
+            })?;
+            parts.push(place(text, field, words, numbers)?);
+            rest = behind;
+        }
+        push(&mut parts, rest);
+        Ok(Self { parts })
+    }
+
+    /// Whether it has a place for this.
+    pub(super) fn has(&self, field: &str) -> bool {
+        self.parts.iter().any(|part| match part {
+            Part::Text(_) => false,
+            Part::Word(name) | Part::Number(name, _) => *name == field,
+        })
+    }
+
+    /// The name with words and numbers in their places.
+    pub(super) fn fill(
+        &self,
+        word: impl Fn(&str) -> String,
+        number: impl Fn(&str) -> usize,
+    ) -> PathBuf {
+        let fill = |part: &Part| match part {
+            Part::Text(text) => text.clone(),
+            Part::Word(name) => file_name(&word(name)),
+            Part::Number(name, digits) => format!("{:01$}", number(name), *digits),
+        };
+        PathBuf::from(self.parts.iter().map(fill).collect::<String>())
+    }
+}
+
+fn push(parts: &mut Vec<Part>, text: &str) {
+    match parts.last_mut() {
+        _ if text.is_empty() => {}
+        Some(Part::Text(last)) => last.push_str(text),
+        _ => parts.push(Part::Text(text.to_owned())),
+    }
+}
+
+/// What stands between two braces.
+fn place(
+    text: &str,
+    field: &str,
+    words: &[&'static str],
+    numbers: &[&'static str],
+) -> Result<Part, String> {
+    let (name, format) =
+        field.split_once(':').map_or((field, None), |(name, format)| (name, Some(format)));
+    let found = |names: &[&'static str]| names.iter().copied().find(|known| *known == name);
+    if let Some(number) = found(numbers) {
+        let digits = format.map_or(Some(1), |format| {
+            format.strip_prefix('0')?.parse().ok().filter(|digits| (1..=9).contains(digits))
+        });
+        return digits.map(|digits| Part::Number(number, digits)).ok_or_else(|| {
+            format!("`{{{field}}}` in the template {text} is no number\n  = help: write {{{name}}}, or {{{name}:04}} for four digits")
+        });
+    }
+    match (found(words), format) {
+        (Some(word), None) => Ok(Part::Word(word)),
+        (Some(_), Some(_)) => Err(format!(
+            "`{{{field}}}` in the template {text} is a word and has no digits\n  = help: write {{{name}}}"
+        )),
+        (None, _) => {
+            let known = words.iter().chain(numbers).map(|name| format!("{{{name}}}"));
+            let known = known.collect::<Vec<_>>().join(", ");
+            Err(format!(
+                "there is no `{{{name}}}` for the template {text}\n  = help: possible here: {known}; {{{{ and }}}} stand for braces"
+            ))
+        }
+    }
+}
+
+/// A word as a part of a file's name: what would lead to another folder, or is refused on some system, becomes `_`.
+fn file_name(word: &str) -> String {
+    let safe = |c: char| if c.is_control() || "/\\:*?\"<>|".contains(c) { '_' } else { c };
+    word.chars().map(safe).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn filled(text: &str) -> Result<String, String> {
+        let template = Template::parse(text, &["stem", "view"], &["frame"])?;
+        let path = template.fill(|name| format!("<{name}/a>"), |_| 7);
+        Ok(path.to_string_lossy().into_owned())
+    }
+
+    #[test]
+    fn places_are_filled() {
+        let all = [
+            ("a.png", "a.png"),
+            ("{stem}.png", "_stem_a_.png"),
+            ("x/{frame:04}_{frame}.png", "x/0007_7.png"),
+            ("{{{frame}}}.png", "{7}.png"),
+            ("", ""),
+        ];
+        for (text, expected) in all {
+            assert_eq!(filled(text).as_deref(), Ok(expected), "{text}");
+        }
+        let template = Template::parse("{stem}", &["stem"], &[]).expect("a template");
+        assert!(template.has("stem") && !template.has("view"));
+    }
+
+    #[test]
+    fn what_is_no_template_is_named() {
+        for (text, words) in [
+            ("{stem", "no partner"),
+            ("stem}", "no partner"),
+            ("{stm}", "{stem}, {view}, {frame}"),
+            ("{}", "possible here"),
+            ("{frame:4}", "{frame:04}"),
+            ("{frame:00}", "{frame:04}"),
+            ("{stem:04}", "no digits"),
+        ] {
+            let told = filled(text).expect_err(text);
+            assert!(told.contains(words), "{text}: {told}");
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! What casts shadows: the triangles of a scene that let no light through.
+
+use crate::model::{TextureSlot, TextureUse, Topology};
+use crate::render::RenderError;
+use crate::render::Textures;
+use crate::render::assemble::{DEFAULT_MATERIAL, triangle};
+use crate::render::images::Images;
+use crate::render::needs::cover_of;
+use crate::render::stage::Stage;
+use crate::render::vertices::{Parts, uv_set};
+use crate::scene::Scene;
+use crate::shade::{Draw, DrawList, Maps, Role, Tangents};
+use raster::{Cover, Cull, Fragment, Fragments, Frame, Instructions, Surface, WIDE};
+
+/// What of draws is there at all: their colours do not count.
+pub(in crate::render) struct Casters<'a, 'b>(pub(in crate::render) &'b DrawList<'a>);
+
+impl Surface for Casters<'_, '_> {
+    fn keeps(&self, fragment: &Fragment<'_>) -> bool {
+        self.0.keeps(fragment)
+    }
+
+    fn keeps_eight(&self, fragments: &Fragments<'_>) -> [bool; WIDE] {
+        self.0.keeps_eight(fragments, Instructions::best())
+    }
+
+    fn shade(&self, _: &Fragment<'_>) -> [f32; 4] {
+        [0.0; 4]
+    }
+}
+
+/// Adds a scene's casters to a light's frame, both sides of them, and what masks them to the draws.
+pub(super) fn add_casters<'a>(
+    scene: &'a Scene,
+    textures: &'a Textures<'a>,
+    stage: &Stage,
+    threads: usize,
+    images: &mut Images,
+    frame: &mut Frame,
+    draws: &mut DrawList<'a>,
+) -> Result<(), RenderError> {
+    let mut first_id = 0_u32;
+    for (number, placed) in scene.models.iter().enumerate() {
+        let model = &placed.model;
+        for (instance, primitive) in model.shown_primitives() {
+            let material = primitive.material.map_or(&*DEFAULT_MATERIAL, |m| &model.materials[m]);
+            let cover = cover_of(material);
+            if primitive.topology != Topology::Triangles || cover == Cover::Translucent {
+                continue;
+            }
+            let posed = model.posed(instance, primitive);
+            let model_to_world = posed.to_model.then(placed.model_to_world);
+            let model_to_clip = stage.model_to_clip(model_to_world);
+            let triangles = primitive.indices.as_chunks::<3>().0;
+            images.select(stage, model_to_clip, primitive, &posed, None);
+            images.project(stage, model_to_clip, &posed.positions, threads);
+            for (whole, cut) in images.runs() {
+                let screen = &images.screen;
+                frame.mesh_part(screen, triangles, whole, first_id, cover, Cull::Nothing);
+                let cut = cut.start.min(triangles.len())..cut.end.min(triangles.len());
+                for (number, corners) in (first_id..).zip(triangles).take(cut.end).skip(cut.start) {
+                    triangle(stage, images, frame, *corners, number, cover, Cull::Nothing);
+                }
+            }
+            if cover == Cover::Masked {
+                let texture = |slot: TextureSlot, used: TextureUse| {
+                    textures.chain(number, slot, used.texture)
+                };
+                let uv_set = uv_set(material, primitive);
+                let uvs = uv_set.and_then(|set| model.posed_uvs(instance, primitive, set));
+                let mut vertices = Vec::new();
+                let parts = Parts { positions: None, normals: None, uvs: uvs.as_deref() };
+                let selected = [&images.whole, &images.cut];
+                parts.vertices(
+                    posed.positions.len(),
+                    selected,
+                    model_to_world,
+                    threads,
+                    &mut vertices,
+                );
+                draws.draws.push(Draw {
+                    first_id,
+                    part: 0,
+                    primitive,
+                    material,
+                    maps: Maps::of(material, 1, texture),
+                    vertices,
+                    tangents: Tangents::None,
+                    smooth: false,
+                    uv_set,
+                    colors: model.posed_colors(instance, primitive),
+                    role: Role::Surface,
+                    mirrored: false,
+                });
+            }
+            let count = u32::try_from(triangles.len()).ok();
+            let next = count.and_then(|count| first_id.checked_add(count));
+            first_id = next.ok_or(RenderError::TooManyPrimitives)?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,61 @@
+//! The ground below the models: as much of it as their shadows may reach.
+
+use super::Placed;
+use super::bounds::world_points;
+use super::file::{GroundFile, SceneFile};
+use crate::shade::Light;
+use glam::DVec3;
+use homog::{Bounds, Point};
+
+/// A level rectangle that only shadows are seen on.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Ground {
+    /// Its corners in the world, counter-clockwise from above.
+    pub corners: [[f32; 3]; 4],
+}
+
+/// How many times the scene's diagonal shadows are followed: low suns cast longer ones, but who sees them?
+const LONGEST: f64 = 20.0;
+
+/// The ground of a scene, if it asks for one and there is something above it.
+pub(super) fn resolve_ground(
+    file: &SceneFile,
+    models: &[Placed],
+    lights: &[Light],
+) -> Option<Ground> {
+    let Some(GroundFile::Shadow { height }) = file.ground else { return None };
+    let bounds = Bounds::of(world_points(models))?;
+    let (least, greatest) = (bounds.corners()[0].raw(), bounds.corners()[7].raw());
+    let height = height.map_or(least.y, |height| height.value());
+    let reach = LONGEST * bounds.diagonal();
+    let (mut low, mut high) = (least.min(greatest), least.max(greatest));
+    for (light, corner) in lights.iter().flat_map(|light| bounds.corners().map(|c| (light, c))) {
+        if let Some(place) = shadow_of(light, corner.raw(), height, reach) {
+            (low, high) = (low.min(place), high.max(place));
+        }
+    }
+    let room = 0.05 * (high - low).max_element();
+    let (x0, x1) = ((low.x - room) as f32, (high.x + room) as f32);
+    let (z0, z1) = ((low.z - room) as f32, (high.z + room) as f32);
+    let y = height as f32;
+    Some(Ground { corners: [[x0, y, z0], [x0, y, z1], [x1, y, z1], [x1, y, z0]] })
+}
+
+/// Where the shadow of a place falls on a level plane, no farther away than `reach`; `None` if it casts none on it.
+fn shadow_of(light: &Light, place: DVec3, height: f64, reach: f64) -> Option<DVec3> {
+    light.shadow()?;
+    let travel = match light {
+        Light::Sun { towards, .. } => -DVec3::from(towards.map(f64::from)),
+        Light::Spot { position, .. } => place - DVec3::from(position.map(f64::from)),
+        Light::Point { .. } | Light::Ambient { .. } => return None,
+    };
+    let drop = (place.y - height).max(0.0);
+    let flat = DVec3::new(travel.x, 0.0, travel.z);
+    // Level light casts shadows without end.
+    let down = (-travel.y).max(1e-9 * travel.length());
+    let way = flat * (drop / down);
+    let far = way.length();
+    let way = if far > reach { way * (reach / far) } else { way };
+    let place = Point::<homog::World>::new(place.x + way.x, height, place.z + way.z).raw();
+    place.is_finite().then_some(place)
+}

@@ -1,0 +1,239 @@
+//! Scene files that include others: put together, with a note of which part is written where.
+//!
+//! ```text
+//!  studio.ron ─┐
+//!  paper.ron ──┴─► what lies below ─┐
+//!  scene.ron ───────────────────────┴─► one scene; errors point into the file that says it
+//! ```
+//! Lists are joined, what is included first; of every other field the including file's goes before the included ones', whole.
+
+use super::file::{EnvironmentFile, ModelFile};
+use super::locate::Step::{self, Field, Index};
+use super::locate::{locate, says};
+use super::origin::{plain, read_text};
+use super::{Origin, ResolveError, SceneError, SceneFile, parse};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// The most files that one scene includes, each counted as often as it is.
+const MOST_FILES: usize = 64;
+
+/// The fields of a scene that are taken whole.
+const SINGLE: [&str; 8] =
+    ["camera", "shadows", "ground", "environment", "ambient_occlusion", "style", "image", "sheet"];
+
+/// Which parts of a scene are written in which included file. What is not here is in the scene file itself.
+#[derive(Clone, PartialEq, Eq, Default, Debug)]
+pub(super) struct Written {
+    /// Name and text of each included file.
+    files: Vec<(String, String)>,
+    /// For each field that is taken whole the file it is in, by number.
+    fields: BTreeMap<&'static str, Option<usize>>,
+    /// For each element of a list the file it is in, and its number there.
+    lists: BTreeMap<&'static str, Vec<(Option<usize>, usize)>>,
+}
+
+impl Written {
+    /// Name and text of the included file that the value at the end of `path` is written in, and its path there.
+    pub(super) fn source_of<'a>(&self, path: &[Step<'a>]) -> (Option<(&str, &str)>, Vec<Step<'a>>) {
+        let (file, path) = match *path {
+            [Field(list), Index(at), ref rest @ ..] if self.lists.contains_key(list) => {
+                let place = self.lists.get(list).and_then(|list| list.get(at));
+                let (file, at) = place.copied().unwrap_or((None, at));
+                (file, [&[Field(list), Index(at)], rest].concat())
+            }
+            [Field(field), ..] => (self.fields.get(field).copied().flatten(), path.to_vec()),
+            _ => (None, path.to_vec()),
+        };
+        let source = file.and_then(|file| self.files.get(file));
+        (source.map(|(name, text)| (name.as_str(), text.as_str())), path)
+    }
+
+    pub(super) fn texts(&self) -> impl Iterator<Item = &str> {
+        self.files.iter().map(|(_, text)| text.as_str())
+    }
+}
+
+/// The scene of a file and all that it includes.
+pub(super) fn gather(
+    origin: &Origin,
+    allowed: &[PathBuf],
+) -> Result<(SceneFile, Written), ResolveError> {
+    let own = parse(&origin.file, &origin.text)?;
+    if own.include.0.is_empty() {
+        return Ok((own, Written::default()));
+    }
+    let mut gatherer = Gatherer { origin, allowed, written: Written::default() };
+    let page = Page { file: None, name: &origin.file, text: &origin.text, folder: Path::new("") };
+    let own_path = origin.folder.join(Path::new(&origin.file).file_name().unwrap_or_default());
+    let mut open = vec![(plain(Path::new(""), &own_path), origin.file.clone())];
+    let layer = gatherer.layer(own, &page, &mut open)?;
+    let Layer { file, fields, lists } = layer;
+    Ok((file, Written { fields, lists, ..gatherer.written }))
+}
+
+/// A file that is being read.
+struct Page<'a> {
+    /// Its number, if it is included.
+    file: Option<usize>,
+    name: &'a str,
+    text: &'a str,
+    /// Its folder, from that of the scene on.
+    folder: &'a Path,
+}
+
+/// What one file says together with all that it includes.
+#[derive(Default)]
+struct Layer {
+    file: SceneFile,
+    fields: BTreeMap<&'static str, Option<usize>>,
+    lists: BTreeMap<&'static str, Vec<(Option<usize>, usize)>>,
+}
+
+struct Gatherer<'a> {
+    origin: &'a Origin,
+    allowed: &'a [PathBuf],
+    written: Written,
+}
+
+impl Gatherer<'_> {
+    /// A file with what it includes below it. `open` are the files that are being read, each with its name.
+    fn layer(
+        &mut self,
+        mut file: SceneFile,
+        page: &Page<'_>,
+        open: &mut Vec<(PathBuf, String)>,
+    ) -> Result<Layer, ResolveError> {
+        let mut below = Layer::default();
+        for (number, include) in std::mem::take(&mut file.include).0.iter().enumerate() {
+            let fault = |message: String, help: Option<String>| SceneError {
+                file: page.name.to_owned(),
+                source: page.text.to_owned(),
+                span: locate(page.text, &[Field("include"), Index(number)]),
+                message,
+                help,
+            };
+            let inner = self.included(&page.folder.join(include), open, fault)?;
+            below = laid_over(below, inner);
+        }
+        rebase(&mut file, page.folder);
+        let said = SINGLE.into_iter().filter(|field| says(page.text, field));
+        let elements = |count: usize| (0..count).map(|at| (page.file, at)).collect::<Vec<_>>();
+        let lists = [
+            ("models", elements(file.models.len())),
+            ("lights", elements(file.lights.as_ref().map_or(0, Vec::len))),
+            ("overlays", elements(file.overlays.len())),
+            ("sections", elements(file.sections.len())),
+        ];
+        let fields = said.map(|field| (field, page.file)).collect();
+        Ok(laid_over(below, Layer { file, fields, lists: lists.into() }))
+    }
+
+    /// An included file; `path` is its place from the scene's folder on.
+    fn included(
+        &mut self,
+        path: &Path,
+        open: &mut Vec<(PathBuf, String)>,
+        fault: impl Fn(String, Option<String>) -> SceneError,
+    ) -> Result<Layer, ResolveError> {
+        let shown = path.display();
+        if !self.origin.may_read(path, self.allowed) {
+            let help = "keep included files below the scene's folder, or allow another with --allow-outside DIR";
+            let message = format!("the path \"{shown}\" leads out of the scene's folder");
+            return Err(fault(message, Some(help.to_owned())).into());
+        }
+        if self.written.files.len() == MOST_FILES {
+            let message = format!("the scene includes more than {MOST_FILES} files");
+            return Err(fault(message, None).into());
+        }
+        let whole = self.origin.folder.join(path);
+        let place = plain(Path::new(""), &whole);
+        let name = whole.display().to_string();
+        if let Some(first) = open.iter().position(|(other, _)| *other == place) {
+            let names = open[first..].iter().map(|(_, name)| name.as_str()).chain([name.as_str()]);
+            let circle = names.collect::<Vec<_>>().join(" → ");
+            let help = Some("remove one of these includes".to_owned());
+            return Err(fault(format!("the file includes itself: {circle}"), help).into());
+        }
+        let help = "check the path: it begins at the folder of this file".to_owned();
+        let text = read_text(&whole).map_err(|error| fault(error.to_string(), Some(help)))?;
+        let file = parse(&name, &text)?;
+        let number = self.written.files.len();
+        self.written.files.push((name.clone(), text.clone()));
+        let folder = path.parent().unwrap_or(Path::new(""));
+        open.push((place, name.clone()));
+        let layer =
+            self.layer(file, &Page { file: Some(number), name: &name, text: &text, folder }, open)?;
+        open.pop();
+        Ok(layer)
+    }
+}
+
+/// Makes the paths of a file in `folder` paths from the scene's own folder on. Every field that holds a path belongs here.
+fn rebase(file: &mut SceneFile, folder: &Path) {
+    if folder.as_os_str().is_empty() {
+        return;
+    }
+    let rebased =
+        |path: &mut String| *path = folder.join(&*path).to_string_lossy().replace('\\', "/");
+    file.models.iter_mut().for_each(|ModelFile { path, .. }| rebased(path));
+    if let Some(EnvironmentFile::File { path, .. }) = &mut file.environment {
+        rebased(path);
+    }
+}
+
+/// Two layers as one.
+fn laid_over(below: Layer, above: Layer) -> Layer {
+    // All fields by name: who adds one to the scene decides here whether it is joined or replaced.
+    let SceneFile {
+        include,
+        models,
+        camera,
+        lights,
+        shadows,
+        ground,
+        environment,
+        ambient_occlusion,
+        style,
+        image,
+        overlays,
+        passes,
+        sections,
+        sheet,
+    } = above.file;
+    let old = below.file;
+    let has = |field: &str| above.fields.contains_key(field);
+    let file = SceneFile {
+        include,
+        models: joined(old.models, models),
+        camera: if has("camera") { camera } else { old.camera },
+        lights: match (old.lights, lights) {
+            (Some(old), Some(new)) => Some(joined(old, new)),
+            (old, new) => new.or(old),
+        },
+        shadows: if has("shadows") { shadows } else { old.shadows },
+        ground: if has("ground") { ground } else { old.ground },
+        environment: if has("environment") { environment } else { old.environment },
+        ambient_occlusion: if has("ambient_occlusion") {
+            ambient_occlusion
+        } else {
+            old.ambient_occlusion
+        },
+        style: if has("style") { style } else { old.style },
+        image: if has("image") { image } else { old.image },
+        overlays: joined(old.overlays, overlays),
+        passes: if has("passes") { passes } else { old.passes },
+        sections: joined(old.sections, sections),
+        sheet: if has("sheet") { sheet } else { old.sheet },
+    };
+    let fields = below.fields.into_iter().chain(above.fields).collect();
+    let mut lists = below.lists;
+    for (list, elements) in above.lists {
+        lists.entry(list).or_default().extend(elements);
+    }
+    Layer { file, fields, lists }
+}
+
+fn joined<T>(below: Vec<T>, above: Vec<T>) -> Vec<T> {
+    below.into_iter().chain(above).collect()
+}

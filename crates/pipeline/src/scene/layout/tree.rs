@@ -1,0 +1,158 @@
+//! Tokens put together: brackets with their items, each with its comment.
+
+use super::tokens::{Kind, Token};
+
+/// An element, a comment, or an element with a comment behind it on its line.
+#[derive(Debug, Default)]
+pub(super) struct Item {
+    pub(super) element: Option<Element>,
+    pub(super) comment: Option<String>,
+    pub(super) blank_before: bool,
+}
+
+/// A value, perhaps with the name of its field.
+#[derive(Debug, Default)]
+pub(super) struct Element {
+    pub(super) parts: Vec<Part>,
+}
+
+#[derive(Debug)]
+pub(super) enum Part {
+    /// Words with the blanks between them.
+    Text(String),
+    Group(Group),
+}
+
+/// A pair of brackets.
+#[derive(Debug)]
+pub(super) struct Group {
+    pub(super) open: char,
+    pub(super) close: char,
+    /// Whether a line break follows the opening bracket.
+    pub(super) broken: bool,
+    pub(super) items: Vec<Item>,
+}
+
+/// The items of the whole text.
+pub(super) fn of(tokens: &[Token<'_>]) -> Vec<Item> {
+    Reader { tokens, at: 0 }.items()
+}
+
+struct Reader<'a> {
+    tokens: &'a [Token<'a>],
+    at: usize,
+}
+
+impl<'a> Reader<'a> {
+    fn next(&mut self) -> Option<Token<'a>> {
+        let token = self.tokens.get(self.at).copied()?;
+        self.at += 1;
+        Some(token)
+    }
+
+    fn peek(&self) -> Option<Token<'a>> {
+        self.tokens.get(self.at).copied()
+    }
+
+    /// The items up to the closing bracket, or to the end.
+    fn items(&mut self) -> Vec<Item> {
+        let mut items: Vec<Item> = Vec::new();
+        while let Some(token) = self.peek() {
+            match token.kind {
+                Kind::Close => return items,
+                Kind::Comma => self.at += 1,
+                Kind::Line => {
+                    self.at += 1;
+                    self.comment(&mut items, token);
+                }
+                Kind::Block if self.stands_alone() => {
+                    self.at += 1;
+                    self.comment(&mut items, token);
+                }
+                _ => {
+                    let blank_before = token.breaks > 1;
+                    let (element, comments) = self.element();
+                    let own = |(number, text): (usize, &str)| Item {
+                        comment: Some(text.to_owned()),
+                        blank_before: blank_before && number == 0,
+                        ..Item::default()
+                    };
+                    let blank_before = blank_before && comments.is_empty();
+                    items.extend(comments.into_iter().enumerate().map(own));
+                    items.push(Item { element: Some(element), comment: None, blank_before });
+                }
+            }
+        }
+        items
+    }
+
+    /// A comment on the line of the item before it belongs to that; any other is an item.
+    fn comment(&self, items: &mut Vec<Item>, token: Token<'_>) {
+        let text = token.text.to_owned();
+        match items.last_mut() {
+            Some(last) if token.breaks == 0 && last.comment.is_none() => last.comment = Some(text),
+            _ => {
+                let blank_before = token.breaks > 1;
+                items.push(Item { element: None, comment: Some(text), blank_before });
+            }
+        }
+    }
+
+    /// Whether the block comment that comes now ends its line.
+    fn stands_alone(&self) -> bool {
+        let next = self.tokens.get(self.at + 1);
+        next.is_none_or(|next| next.breaks > 0 || next.kind == Kind::Close)
+    }
+
+    /// An element, and the line comments inside of it.
+    fn element(&mut self) -> (Element, Vec<&'a str>) {
+        let (mut parts, mut comments) = (Vec::new(), Vec::new());
+        let mut text = String::new();
+        while let Some(token) = self.peek() {
+            match token.kind {
+                Kind::Comma | Kind::Close => break,
+                // Behind the element, before its comma or instead of it.
+                Kind::Line if self.is_over() => break,
+                Kind::Line => comments.push(token.text),
+                Kind::Colon => text.push_str(": "),
+                Kind::Word | Kind::Block => {
+                    let glued = text.is_empty() || text.ends_with(' ');
+                    text.push_str(if glued { "" } else { " " });
+                    text.push_str(token.text);
+                }
+                Kind::Open => {
+                    self.at += 1;
+                    parts.push(Part::Text(std::mem::take(&mut text)));
+                    parts.push(Part::Group(self.group(token)));
+                    continue;
+                }
+            }
+            self.at += 1;
+        }
+        if !text.is_empty() {
+            parts.push(Part::Text(text));
+        }
+        (Element { parts }, comments)
+    }
+
+    /// Whether the line comments from here on are followed by the end of the element.
+    fn is_over(&self) -> bool {
+        let rest = self.tokens[self.at..].iter().find(|token| token.kind != Kind::Line);
+        rest.is_none_or(|token| matches!(token.kind, Kind::Comma | Kind::Close))
+    }
+
+    /// The group behind an opening bracket.
+    fn group(&mut self, open: Token<'_>) -> Group {
+        let broken = self.peek().is_some_and(|first| first.breaks > 0);
+        let items = self.items();
+        let close = self.next().and_then(|token| token.text.chars().next());
+        let open = open.text.chars().next().unwrap_or('(');
+        let usual = match open {
+            '[' => ']',
+            '{' => '}',
+            _ => ')',
+        };
+        let broken = broken && !items.is_empty();
+        Group { open, close: close.unwrap_or(usual), broken, items }
+    }
+}

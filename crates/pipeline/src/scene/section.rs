@@ -1,0 +1,40 @@
+//! What the sections of a scene file mean.
+
+use super::file::SectionFile;
+use super::locate::Step::{Field, Index};
+use super::{Origin, SceneError};
+use homog::{Normal, Plane, Point, World};
+
+/// More cuts than this are a slip, and each costs another pass over the models.
+const MOST: usize = 16;
+
+/// The planes of the sections. Their normals have length 1 and point to what is kept.
+pub(super) fn resolve_sections(
+    origin: &Origin,
+    sections: &[SectionFile],
+) -> Result<Vec<Plane<World>>, SceneError> {
+    if sections.len() > MOST {
+        let message = format!("{} sections are more than {MOST}", sections.len());
+        return Err(origin.fault(&[Field("sections")], message, None));
+    }
+    let numbered = sections.iter().enumerate();
+    numbered.map(|(at, section)| resolve_section(origin, at, section)).collect()
+}
+
+fn resolve_section(
+    origin: &Origin,
+    at: usize,
+    section: &SectionFile,
+) -> Result<Plane<World>, SceneError> {
+    let [x, y, z] = section.normal.0;
+    // Scaled first, so that no square leaves the range of numbers.
+    let largest = x.abs().max(y.abs()).max(z.abs());
+    let unit = Normal::<World>::new(-x / largest, -y / largest, -z / largest).normalized();
+    let fault = || {
+        let path = [Field("sections"), Index(at), Field("normal")];
+        let help = "say which way to take away, such as normal: (0, 0, 1)".to_owned();
+        origin.fault(&path, "a section needs a direction: its normal has no length", Some(help))
+    };
+    let unit = unit.filter(|_| largest > 0.0).ok_or_else(fault)?;
+    Ok(Plane::through(Point::from(section.point.0), unit))
+}

@@ -1,0 +1,29 @@
+//! What the shadows of a scene file mean.
+
+use super::file::ShadowsFile;
+use super::locate::Step::{self, Field};
+use super::{Origin, SceneError};
+use crate::shade::Shadow;
+
+/// The texels of a shadow map's longer side, unless told otherwise.
+const USUAL_SIZE: u32 = 2048;
+/// How large the sun looks from the earth, in degrees.
+const USUAL_SOFTNESS: f64 = 0.53;
+
+/// The shadows that the settings at the end of `path` ask for.
+pub(super) fn resolve_shadow(
+    origin: &Origin,
+    file: Option<&ShadowsFile>,
+    path: &[Step<'_>],
+) -> Result<Option<Shadow>, SceneError> {
+    let Some(&ShadowsFile::On { size, softness_degrees }) = file else { return Ok(None) };
+    let size = size.unwrap_or(USUAL_SIZE);
+    if !(64..=8192).contains(&size) {
+        let message = format!("a shadow map cannot have {size} texels on a side");
+        let path: Vec<Step<'_>> = path.iter().copied().chain([Field("size")]).collect();
+        let help = Some("from 64 to 8192 are possible, such as 2048".to_owned());
+        return Err(origin.fault(&path, message, help));
+    }
+    let degrees = softness_degrees.map_or(USUAL_SOFTNESS, |degrees| degrees.value());
+    Ok(Some(Shadow { size, softness: degrees.to_radians() as f32 }))
+}

@@ -1,0 +1,346 @@
+//! Shadows: tight where things stand, none of a surface on itself, no light through walls.
+
+use homog::Affine;
+use pipeline::model::{AlphaMode, Material, Mesh, Model, Node, Primitive};
+use pipeline::scene::{Placed, parse};
+use pipeline::{Origin, Picture, Scene, render};
+use std::sync::Arc;
+
+type Place = [f32; 3];
+
+/// A model of parts, each with its material.
+fn model(parts: Vec<(Primitive, Material)>) -> Model {
+    let (primitives, materials): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
+    let primitives = primitives.into_iter().enumerate();
+    let primitives =
+        primitives.map(|(n, primitive)| Primitive { material: Some(n), ..primitive }).collect();
+    Model {
+        nodes: vec![Node { mesh: Some(0), ..Node::default() }],
+        roots: vec![0],
+        meshes: vec![Mesh { primitives, ..Mesh::default() }],
+        materials,
+        ..Model::default()
+    }
+}
+
+fn matt(red: f32, green: f32, blue: f32) -> Material {
+    let base_color = [red, green, blue, 1.0];
+    Material { base_color, metallic: 0.0, roughness: 1.0, ..Material::default() }
+}
+
+/// Black in any light but for what it gives off.
+fn marked(emissive: [f32; 3]) -> Material {
+    Material { emissive, double_sided: true, ..matt(0.0, 0.0, 0.0) }
+}
+
+fn quads(quads: &[[Place; 4]]) -> Primitive {
+    let positions: Vec<Place> = quads.concat();
+    let indices = (0..quads.len() as u32).flat_map(|n| [0, 1, 2, 0, 2, 3].map(|k| 4 * n + k));
+    Primitive { indices: indices.collect(), positions, ..Primitive::default() }
+}
+
+/// The square floor at y = 0 from −side to side.
+fn floor(side: f32) -> Primitive {
+    quads(&[[[-side, 0.0, -side], [-side, 0.0, side], [side, 0.0, side], [side, 0.0, -side]]])
+}
+
+/// The sides of a box, and its top unless it is open.
+fn sides([x0, y0, z0]: Place, [x1, y1, z1]: Place, top: bool) -> Primitive {
+    let mut faces = vec![
+        [[x0, y0, z1], [x1, y0, z1], [x1, y1, z1], [x0, y1, z1]],
+        [[x1, y0, z0], [x0, y0, z0], [x0, y1, z0], [x1, y1, z0]],
+        [[x0, y0, z0], [x0, y0, z1], [x0, y1, z1], [x0, y1, z0]],
+        [[x1, y0, z1], [x1, y0, z0], [x1, y1, z0], [x1, y1, z1]],
+    ];
+    if top {
+        faces.push([[x0, y1, z1], [x1, y1, z1], [x1, y1, z0], [x0, y1, z0]]);
+    }
+    quads(&faces)
+}
+
+/// A coarse ball with smooth normals.
+fn ball(center: Place, radius: f32, rows: u32) -> Primitive {
+    let columns = 2 * rows;
+    let mut primitive = Primitive::default();
+    let mut normals = Vec::new();
+    for (row, column) in (0..=rows).flat_map(|row| (0..=columns).map(move |c| (row, c))) {
+        let pi = std::f64::consts::PI;
+        let (a, b) =
+            (pi * f64::from(row) / f64::from(rows), pi * f64::from(column) / f64::from(rows));
+        let normal = [libm::sin(a) * libm::sin(b), libm::cos(a), libm::sin(a) * libm::cos(b)];
+        let normal = normal.map(|c| c as f32);
+        normals.push(normal);
+        primitive.positions.push([0, 1, 2].map(|k: usize| center[k] + radius * normal[k]));
+        if row < rows && column < columns {
+            let at = row * (columns + 1) + column;
+            let below = at + columns + 1;
+            primitive.indices.extend([at, below, below + 1, at, below + 1, at + 1]);
+        }
+    }
+    Primitive { normals: Some(normals), ..primitive }
+}
+
+fn scene(parts: Vec<(Primitive, Material)>, rest: &str) -> Scene {
+    let text = format!(r#"Scene(models: [(path: "made")], {rest})"#);
+    let file = parse("made.ron", &text).expect("a scene");
+    let placed = Placed { model: Arc::new(model(parts)), model_to_world: Affine::IDENTITY };
+    let origin = Origin::of_text("made.ron", text, ".".into());
+    Scene::of_models(&origin, &file, vec![placed]).expect("a scene that makes sense")
+}
+
+fn draw(parts: Vec<(Primitive, Material)>, rest: &str) -> Picture {
+    render(&scene(parts, rest), 2).expect("a picture")
+}
+
+fn pixel(picture: &Picture, x: u32, y: u32) -> [u8; 4] {
+    picture.pixels[(y * picture.width + x) as usize]
+}
+
+/// A box on a floor in 1080 lines, seen from one side.
+fn box_on_floor(eye: &str, lights: &str) -> Picture {
+    let parts = vec![
+        (floor(4.0), matt(0.8, 0.8, 0.8)),
+        (sides([-0.5, 0.0, -0.5], [0.5, 1.0, 0.5], true), marked([0.0, 0.0, 1.0])),
+    ];
+    let camera = format!(
+        "camera: (view: LookAt(eye: {eye}, target: (0, 0.3, 0)), projection: Perspective(fov_y_degrees: 40))"
+    );
+    draw(parts, &format!("{camera}, lights: [{lights}], image: (size: (1920, 1080), samples: 1)"))
+}
+
+/// For each column through the middle of the box: the codes of the floor below it, from the first pixel that is not the box's.
+fn below_the_box(picture: &Picture) -> Vec<Vec<u8>> {
+    let is_box = |x: u32, y: u32| pixel(picture, x, y)[2] > 250 && pixel(picture, x, y)[0] < 250;
+    let middle = 860..1060;
+    let column = |x: u32| {
+        let last = (0..1080).rev().find(|&y| is_box(x, y)).expect("the box");
+        (last + 1..1080).map(|y| pixel(picture, x, y)[0]).collect()
+    };
+    middle.map(column).collect()
+}
+
+#[test]
+fn a_box_and_its_shadow_touch_and_its_lit_side_stays_lit() {
+    for lights in [
+        "Sun(direction: (1, -1, 0.1), lux: 3, shadows: On())",
+        "Sun(direction: (1, -1, 0.1), lux: 3, shadows: On(softness_degrees: 0))",
+        "Sun(direction: (1, -0.8, 0.1), lux: 3, shadows: On(softness_degrees: 4))",
+        "Spot(position: (-4, 4, -0.4), direction: (1, -1, 0.1), candela: 90, shadows: On())",
+    ] {
+        for column in below_the_box(&box_on_floor("(5, 3, 0)", lights)) {
+            // Black from the second pixel on, and light again where the shadow ends.
+            assert!(column[1..40].iter().all(|&code| code == 0), "{lights}: {:?}", &column[..40]);
+            assert!(column.iter().any(|&code| code > 100), "{lights}");
+        }
+        for column in below_the_box(&box_on_floor("(-5, 3, 0)", lights)) {
+            let due = column[6];
+            let near = |code: u8| code.abs_diff(due) <= 4;
+            assert!(
+                due > 100 && column[1..8].iter().all(|&c| near(c)),
+                "{lights}: {:?}",
+                &column[..8]
+            );
+        }
+    }
+}
+
+/// The greatest difference of codes between a scene with shadows and without.
+fn greatest_difference(parts: &[(Primitive, Material)], rest: &str, shadows: &str) -> u8 {
+    let without = draw(parts.to_vec(), &format!("{rest}, shadows: Off"));
+    let with = draw(parts.to_vec(), &format!("{rest}, shadows: {shadows}"));
+    assert!(without.pixels.iter().any(|pixel| pixel[0] > 60), "there is light");
+    let pairs = with.pixels.iter().zip(&without.pixels);
+    pairs.map(|(a, b)| a[0].abs_diff(b[0])).max().expect("a pixel")
+}
+
+#[test]
+fn balls_do_not_shade_themselves_in_grazing_light() {
+    // A row of balls across the light, from coarse to fine: none is in another's shadow.
+    let balls: Vec<_> = [(-4.0, 12), (-2.0, 24), (0.0, 48), (2.0, 96), (4.0, 192)]
+        .map(|(x, rows)| (ball([x, 0.0, 0.0], 0.9, rows), matt(0.8, 0.8, 0.8)))
+        .into();
+    let camera = "camera: (view: LookAt(eye: (0, 0, 10), target: (0, 0, 0)), projection: Orthographic(height: 3))";
+    for direction in ["(0, -1, -0.02)", "(0, -1, -0.3)", "(0, -0.2, -1)", "(0, -1, 0.4)"] {
+        let rest = format!(
+            "{camera}, lights: [Sun(direction: {direction}, lux: 3)], image: (size: (1000, 300))"
+        );
+        for shadows in ["On()", "On(softness_degrees: 0)", "On(size: 512)"] {
+            let difference = greatest_difference(&balls, &rest, shadows);
+            assert!(difference <= 5, "{direction} {shadows}: {difference}");
+        }
+    }
+}
+
+#[test]
+fn a_floor_and_a_bowl_do_not_shade_themselves() {
+    let camera = "camera: (view: LookAt(eye: (0, 4, 8), target: (0, 0, 0)))";
+    for direction in ["(1, -0.03, 0.2)", "(1, -0.2, 0.2)", "(0.1, -1, 0)"] {
+        let rest = format!(
+            "{camera}, lights: [Sun(direction: {direction}, lux: 60)], image: (size: (480, 270))"
+        );
+        let difference = greatest_difference(&[(floor(30.0), matt(0.8, 0.8, 0.8))], &rest, "On()");
+        assert_eq!(difference, 0, "{direction}");
+    }
+    // The inside of a ball, of which nothing is cut off: lit by a spot in its middle.
+    let mut bowl = ball([0.0; 3], 5.0, 40);
+    bowl.indices =
+        bowl.indices.as_chunks::<3>().0.iter().flat_map(|&[a, b, c]| [a, c, b]).collect();
+    bowl.normals = bowl.normals.map(|list| list.iter().map(|n| n.map(|c| -c)).collect());
+    let rest = "camera: (view: LookAt(eye: (0, 0, 4), target: (0, 0, 0))),
+        lights: [Spot(position: (1, 1, 1), direction: (-1, -1, -2), candela: 40)], image: (size: (480, 270))";
+    let difference = greatest_difference(&[(bowl, matt(0.8, 0.8, 0.8))], rest, "On()");
+    assert!(difference <= 1, "{difference}");
+}
+
+#[test]
+fn no_light_comes_through_walls_without_thickness() {
+    let wall = Material { double_sided: true, ..matt(0.8, 0.8, 0.8) };
+    for (direction, shadows) in [
+        ("(1, -1, 0.3)", "On()"),
+        ("(1, -0.2, 0.3)", "On(softness_degrees: 0)"),
+        ("(0.3, -1, -1)", "On(softness_degrees: 2)"),
+    ] {
+        let room = vec![
+            (floor(3.0), matt(0.8, 0.8, 0.8)),
+            (sides([-2.0, 0.0, -2.0], [2.0, 2.0, 2.0], true), wall.clone()),
+        ];
+        let rest = format!(
+            "camera: (view: LookAt(eye: (1.5, 1.5, 1.7), target: (-1, 0, -1)), projection: Perspective(fov_y_degrees: 90, near: 0.01)),
+            lights: [Sun(direction: {direction}, lux: 3)], shadows: {shadows}, image: (size: (960, 540), samples: 1)"
+        );
+        let picture = draw(room, &rest);
+        // Where a wall without thickness meets another, light and shade meet too: single pixels on the edges may be lit.
+        let lit = |x: u32, y: u32| u32::from(pixel(&picture, x, y)[0] > 0);
+        let all = (0..540).flat_map(|y| (0..960).map(move |x| (x, y)));
+        let (mut count, mut clump) = (0, 0);
+        for (x, y) in all {
+            count += lit(x, y);
+            let block =
+                (y..(y + 3).min(540)).flat_map(|y| (x..(x + 3).min(960)).map(move |x| (x, y)));
+            clump = clump.max(block.map(|(x, y)| lit(x, y)).sum());
+        }
+        assert!(count < 600 && clump <= 6, "{direction}: {count} {clump}");
+    }
+}
+
+#[test]
+fn masked_parts_cast_what_is_left_of_them_and_blended_ones_nothing() {
+    let roof =
+        || quads(&[[[-1.0, 1.0, -1.0], [-1.0, 1.0, 1.0], [1.0, 1.0, 1.0], [1.0, 1.0, -1.0]]]);
+    let shade_of = |alpha: f32, alpha_mode: AlphaMode| {
+        let base_color = [0.5, 0.5, 0.5, alpha];
+        let material =
+            Material { base_color, alpha_mode, double_sided: true, ..Material::default() };
+        let parts = vec![(floor(3.0), matt(0.8, 0.8, 0.8)), (roof(), material)];
+        let picture = draw(
+            parts,
+            "camera: (view: LookAt(eye: (0, 0.5, 5), target: (0, 0, 0))),
+            lights: [Sun(direction: (0, -1, 0), lux: 3)], shadows: On(), image: (size: (100, 100), samples: 1)",
+        );
+        pixel(&picture, 50, 50)[0]
+    };
+    let masked = |alpha| shade_of(alpha, AlphaMode::Mask { cutoff: 0.5 });
+    assert_eq!((masked(0.6), shade_of(1.0, AlphaMode::Opaque)), (0, 0));
+    let lit = masked(0.4);
+    assert!(lit > 100);
+    assert_eq!(shade_of(0.9, AlphaMode::Blend), lit);
+}
+
+#[test]
+fn shadows_are_the_same_for_any_number_of_threads() {
+    let parts = vec![
+        (floor(3.0), matt(0.8, 0.8, 0.8)),
+        (ball([0.0, 1.0, 0.0], 0.7, 60), matt(0.8, 0.8, 0.8)),
+    ];
+    let scene = scene(
+        parts,
+        "lights: [Sun(direction: (1, -1, 0.3), lux: 2, shadows: On(softness_degrees: 3)),
+            Spot(position: (2, 3, 2), direction: (-2, -3, -2), candela: 20, shadows: On())],
+        image: (size: (320, 200))",
+    );
+    let one = render(&scene, 1).expect("a picture");
+    assert!(one == render(&scene, 3).expect("a picture"));
+}
+
+/// A ball over the ground that only shows shadows, under a sun straight above.
+fn over_ground(background: &str, rest: &str) -> Picture {
+    let ball = (ball([0.0, 1.0, 0.0], 0.5, 60), matt(0.8, 0.8, 0.8));
+    draw(
+        vec![ball],
+        &format!(
+            "camera: (view: LookAt(eye: (0, 4, 6), target: (0, 0.5, 0))), ground: Shadow(height: 0),
+            image: (size: (300, 200), samples: 1, background: {background}), {rest}"
+        ),
+    )
+}
+
+/// Where a place of the ground is in that picture.
+fn place_of(x: f64, z: f64) -> (u32, u32) {
+    let scene = scene(
+        vec![(ball([0.0, 1.0, 0.0], 0.5, 60), matt(0.8, 0.8, 0.8))],
+        "camera: (view: LookAt(eye: (0, 4, 6), target: (0, 0.5, 0))), image: (size: (300, 200))",
+    );
+    let seen =
+        scene.shot.world_to_clip().point(homog::Point::new(x, 0.0, z)).divide().expect("a place");
+    ((150.0 * (1.0 + seen.x())) as u32, (100.0 * (1.0 - seen.y())) as u32)
+}
+
+#[test]
+fn the_ground_shows_the_share_of_light_that_shadows_take() {
+    // 3 lux from the sun, 1 from everywhere: where the sun is hidden, three quarters are missing.
+    let lights = "lights: [Sun(direction: (0, -1, 0), lux: 3), Ambient(lux: 1)]";
+    let clear = over_ground("Transparent", lights);
+    let at = |picture: &Picture, x, z| {
+        let (x, y) = place_of(x, z);
+        pixel(picture, x, y)
+    };
+    assert_eq!(at(&clear, 0.0, 0.3), [0, 0, 0, 191]);
+    assert_eq!(at(&clear, 0.0, 0.8), [0; 4]);
+    assert_eq!(at(&clear, -0.8, 0.0), [0; 4]);
+    // Over white, in linear light: a quarter is left.
+    let white = over_ground("Color(\"#ffffff\")", lights);
+    assert_eq!(at(&white, 0.0, 0.3), [137, 137, 137, 255]);
+    assert_eq!(at(&white, 0.0, 0.8), [255; 4]);
+    let none = over_ground("Transparent", &format!("{lights}, shadows: Off"));
+    assert_eq!(at(&none, 0.0, 0.3), [0; 4]);
+}
+
+#[test]
+fn occlusion_darkens_corners_and_nothing_that_is_open() {
+    let draw_both = |parts: Vec<(Primitive, Material)>, lights: &str| {
+        let rest = format!(
+            "camera: (view: LookAt(eye: (0, 3, 3), target: (0, 0, 0))), lights: [{lights}], image: (size: (300, 200), samples: 1)"
+        );
+        let without = draw(parts.clone(), &rest);
+        (without, draw(parts, &format!("{rest}, ambient_occlusion: (radius: 1)")))
+    };
+    let floor = || (floor(6.0), matt(0.8, 0.8, 0.8));
+    let (without, with) = draw_both(vec![floor()], "Ambient(lux: 3)");
+    assert!(without == with, "a plane is open");
+    let (without, with) =
+        draw_both(vec![(ball([0.0; 3], 1.0, 60), matt(0.8, 0.8, 0.8))], "Ambient(lux: 3)");
+    let pairs = with.pixels.iter().zip(&without.pixels);
+    assert!(
+        pairs.map(|(a, b)| a[0].abs_diff(b[0])).max() <= Some(8),
+        "a ball is open but for its facets"
+    );
+    // A wall on the floor: at its foot half of the light is missing, and far away nothing.
+    let wall = (sides([-6.0, 0.0, -4.0], [6.0, 4.0, -0.5], false), matt(0.8, 0.8, 0.8));
+    let parts = vec![floor(), wall];
+    let (without, with) = draw_both(parts.clone(), "Ambient(lux: 3)");
+    let linear = |code: u8| {
+        let srgb = f64::from(code) / 255.0;
+        if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
+    };
+    let foot = (0..200)
+        .find(|&y| pixel(&with, 150, y)[0] != pixel(&without, 150, y)[0])
+        .expect("a corner");
+    let least =
+        (foot..200).map(|y| linear(pixel(&with, 150, y)[0]) / linear(pixel(&without, 150, y)[0]));
+    let least = least.fold(1.0, f64::min);
+    assert!((0.35..0.62).contains(&least), "{least}");
+    assert_eq!(pixel(&with, 150, 199), pixel(&without, 150, 199));
+    // What a sun gives stays.
+    let (without, with) = draw_both(parts, "Sun(direction: (0, -1, -1), lux: 3)");
+    assert!(without == with);
+}

@@ -1,0 +1,58 @@
+//! The examples of the library, built and run.
+
+use crate::bench::Bench;
+use std::path::PathBuf;
+use std::process::Command;
+
+/// Runs an example of the crate `pipeline` in the folder of a test, and gives what it prints.
+fn run(bench: &Bench, name: &str, arguments: &[&str]) -> String {
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.args(["build", "--quiet", "--package", "pipeline", "--example", name]);
+    let test = std::env::current_exe().expect("this test");
+    let folder = test.ancestors().nth(2).expect("the folder of the profile");
+    cargo.arg("--target-dir").arg(folder.parent().expect("the target folder"));
+    if folder.ends_with("release") {
+        cargo.arg("--release");
+    }
+    let built = cargo.current_dir(alberti_tests::root()).status().expect("cargo starts");
+    assert!(built.success(), "{name} does not build");
+    let program: PathBuf =
+        folder.join("examples").join(format!("{name}{}", std::env::consts::EXE_SUFFIX));
+    let output = Command::new(program).args(arguments).current_dir(bench.path("")).output();
+    let output = output.expect("the example starts");
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{name}: {told}");
+    String::from_utf8(output.stdout).expect("UTF-8")
+}
+
+#[test]
+fn the_examples_do_what_the_program_does() {
+    let bench = Bench::new("examples");
+    bench.bring("crate.glb");
+    let program = |flags: &[&str]| {
+        let told = bench.run(&[&["render", "crate.glb"], flags].concat());
+        assert_eq!((told.code, told.stderr.as_str()), (0, ""), "{flags:?}");
+    };
+    let told = run(&bench, "thumbnail", &["crate.glb", "thumb.png"]);
+    program(&["--size", "256x256", "-o", "program.png"]);
+    assert!(
+        told.starts_with("65536 pixels")
+            && bench.picture("thumb.png") == bench.picture("program.png")
+    );
+    run(&bench, "isometric", &["crate.glb", "drawing.svg"]);
+    program(&["--projection", "isometric", "--style", "dashed", "-o", "program.svg"]);
+    let read = |name: &str| std::fs::read_to_string(bench.path(name)).expect(name);
+    assert_eq!(read("drawing.svg"), read("program.svg"));
+    let told = run(&bench, "explain", &["crate.glb", "480", "360"]);
+    let by_program = bench.run(&["explain", "crate.glb", "--pixel", "480,360"]).stdout;
+    assert!(told.starts_with(by_program.trim_end()), "{told}");
+    std::fs::create_dir(bench.path("frames")).expect("a folder");
+    run(&bench, "turntable", &["crate.glb", "frames"]);
+    let animate = ["animate", "crate.glb", "--turntable", "--frames", "12", "--size", "320x240"];
+    assert_eq!(bench.run(&[&animate[..], &["-o", "{frame:02}.png"]].concat()).code, 0);
+    for frame in 0..12 {
+        let [one, other] =
+            ["frames/", ""].map(|folder| bench.picture(&format!("{folder}{frame:02}.png")));
+        assert!(one == other, "frame {frame}");
+    }
+}

@@ -1,0 +1,84 @@
+//! `alberti reference` and `alberti scene doc`: every flag and every field.
+
+use crate::bench::Bench;
+
+/// The long flags in a help text.
+fn flags(help: &str) -> Vec<&str> {
+    let words = help.split(|c: char| c.is_whitespace() || c == ',' || c == '[' || c == '=');
+    words.filter(|word| word.starts_with("--") && word.len() > 2).collect()
+}
+
+#[test]
+fn every_flag_of_every_command_is_in_the_reference() {
+    let bench = Bench::new("reference_flags");
+    let reference = bench.run(&["reference"]);
+    assert_eq!((reference.code, reference.stderr.as_str()), (0, ""));
+    let commands = [
+        "render",
+        "sheet",
+        "info",
+        "check",
+        "matrix",
+        "explain",
+        "animate",
+        "batch",
+        "reference",
+        "scene check",
+        "scene init",
+        "scene fmt",
+        "scene doc",
+    ];
+    for command in commands {
+        let begin = format!("alberti {command}\n");
+        let section = reference.stdout.split(&begin).nth(1).expect(command);
+        let section = section.split("\n\n").next().expect("a section");
+        let mut arguments: Vec<&str> = command.split(' ').collect();
+        arguments.push("-h");
+        let help = bench.run(&arguments).stdout;
+        let options: Vec<&str> =
+            help.lines().filter(|line| line.trim_start().starts_with('-')).collect();
+        let options = options.join("\n");
+        let wanted = flags(&options).into_iter().filter(|flag| *flag != "--");
+        for flag in wanted.map(|flag| flag.trim_end_matches(':')) {
+            assert!(section.contains(flag), "{command} {flag}\n{section}");
+        }
+    }
+}
+
+#[test]
+fn fields_are_found_by_name_by_type_and_by_path() {
+    let bench = Bench::new("reference_fields");
+    let doc = |word: &str| {
+        let run = bench.run(&["scene", "doc", word]);
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{word}");
+        run.stdout
+    };
+    let up = doc("camera.view.up");
+    assert!(up.starts_with("View\n") && up.contains("  up: Triple\n"), "{up}");
+    assert_eq!(doc("camera.view.LookAt.up").matches("up: Triple").count(), 1);
+    assert!(doc("fov_y_degrees").contains("FieldOfView"));
+    assert!(doc("lines").contains("crease_degrees: Crease"));
+    assert!(bench.run(&["reference", "--size"]).stdout.contains("--size <WxH>"));
+    assert!(bench.run(&["reference", "scene fmt"]).stdout.contains("--check"));
+    let run = bench.run(&["scene", "doc", "fov_degrees"]);
+    assert!(
+        run.code == 1 && run.stderr.contains("did you mean `fov_y_degrees`?"),
+        "{}",
+        run.stderr
+    );
+}
+
+#[test]
+fn the_reference_can_be_read_elsewhere() {
+    let bench = Bench::new("reference_formats");
+    let markdown = bench.run(&["reference", "--format", "markdown"]).stdout;
+    assert!(markdown.starts_with("# Reference of Alberti\n\n## alberti\n"), "{markdown}");
+    assert!(markdown.contains("\n## Camera\n") && markdown.contains("\n- `view`: View — "));
+    let html = bench.run(&["scene", "doc", "--format", "html"]).stdout;
+    assert!(html.starts_with("<!DOCTYPE html>") && html.trim_end().ends_with("</html>"));
+    assert!(html.contains("<h2 id=\"View\">") && html.contains("<a href=\"#Triple\">Triple</a>"));
+    for tag in ["dl", "dt", "dd", "code", "p"] {
+        let count = |what: String| html.matches(&what).count();
+        assert_eq!(count(format!("<{tag}>")), count(format!("</{tag}>")), "{tag}");
+    }
+}

@@ -1,0 +1,269 @@
+//! `alberti scene`: files to begin with, checks, layout.
+
+use crate::bench::Bench;
+use serde_json::{Value, json};
+
+#[test]
+fn a_starter_is_drawn_checked_and_laid_out_and_each_of_its_comments_is_a_choice() {
+    let bench = Bench::new("scene_init");
+    for model in ["room.glb", "crate.glb", "lamp.glb"] {
+        bench.bring(model);
+        let scene = model.replace(".glb", ".ron");
+        let run = bench.run(&["scene", "init", model]);
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{model}");
+        let run = bench.run(&["render", &scene, "--size", "32x24", "--samples", "1"]);
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{model}");
+        let run = bench.run(&["scene", "check", &scene]);
+        let clean = run.stdout.contains(&format!("{scene}: no mistakes\n"));
+        assert!(run.code == 0 && clean, "{}", run.stdout);
+        assert_eq!(bench.run(&["scene", "fmt", "--check", &scene]).code, 0, "{scene}");
+        let text = std::fs::read_to_string(bench.path(&scene)).expect("the scene");
+        let choices = text.lines().filter(|line| {
+            let comment = line.trim_start().strip_prefix("// ");
+            comment.is_some_and(|comment| comment.contains(": ") && comment.ends_with(','))
+        });
+        let mut seen = 0;
+        for choice in choices {
+            // The field that the comment offers, instead of the one that is there.
+            let field = choice.trim_start().trim_start_matches("// ");
+            let name = field.split(':').next().expect("a name");
+            let there = |line: &&str| !line.trim_start().starts_with(&format!("{name}: "));
+            let lines: Vec<&str> = text.lines().filter(there).collect();
+            bench.write("chosen.ron", lines.join("\n").replace(choice, field));
+            let run = bench.run(&["scene", "check", "chosen.ron"]);
+            assert!(run.stdout.contains("chosen.ron: no mistakes"), "{field}\n{}", run.stdout);
+            seen += 1;
+        }
+        assert!(seen >= 4, "{model}: {seen} choices");
+    }
+}
+
+#[test]
+fn a_starter_replaces_nothing_unless_it_must_and_finds_its_model_from_elsewhere() {
+    let bench = Bench::new("scene_init_places");
+    bench.bring("crate.glb");
+    bench.write("crate.ron", "mine");
+    let run = bench.run(&["scene", "init", "crate.glb"]);
+    assert!(run.code == 1 && run.stderr.contains("crate.ron is there already"), "{}", run.stderr);
+    assert_eq!(std::fs::read_to_string(bench.path("crate.ron")).expect("mine"), "mine");
+    assert_eq!(bench.run(&["scene", "init", "crate.glb", "--force"]).code, 0);
+    std::fs::create_dir(bench.path("scenes")).expect("a folder");
+    let run = bench.run(&["scene", "init", "crate.glb", "-o", "scenes/crate.ron"]);
+    assert!(run.code == 0 && run.stderr.contains("--allow-outside"), "{}", run.stderr);
+    let draw = ["render", "scenes/crate.ron", "--size", "16x16", "-o", "out.png"];
+    assert_eq!(bench.run(&draw).code, 1);
+    assert_eq!(bench.run(&[&draw[..], &["--allow-outside", "."]].concat()).code, 0);
+    let run = bench.run(&["scene", "init", "crate.glb", "-o", "-"]);
+    assert!(run.code == 0 && run.stdout.contains("path: \"crate.glb\""), "{}", run.stdout);
+    assert_eq!(bench.run(&["scene", "init", "missing.glb"]).code, 1);
+}
+
+#[test]
+fn layout_is_written_or_only_checked() {
+    let bench = Bench::new("scene_fmt");
+    let wild = "Scene( models:[ (path:\"a.glb\") ],// the crate\nstyle:Flat)";
+    let tidy = "Scene(\n    models: [(path: \"a.glb\")], // the crate\n    style: Flat,\n)\n";
+    bench.write("wild.ron", wild);
+    bench.write("tidy.ron", tidy);
+    let run = bench.run(&["scene", "fmt", "--check", "wild.ron", "tidy.ron"]);
+    assert_eq!((run.code, run.stdout.as_str()), (1, "wild.ron\n"));
+    assert_eq!(std::fs::read_to_string(bench.path("wild.ron")).expect("the file"), wild);
+    let run = bench.run(&["scene", "fmt", "wild.ron", "tidy.ron"]);
+    assert_eq!((run.code, run.stdout.as_str()), (0, ""));
+    assert_eq!(std::fs::read_to_string(bench.path("wild.ron")).expect("the file"), tidy);
+    bench.write("slip.ron", "Scene(modles: [])");
+    let run = bench.run(&["scene", "fmt", "slip.ron"]);
+    assert!(run.code == 1 && run.stderr.contains("did you mean `models`?"), "{}", run.stderr);
+}
+
+#[test]
+fn the_committed_scenes_are_laid_out_and_nothing_in_them_is_unmeant() {
+    let bench = Bench::new("scene_committed");
+    let folder = alberti_tests::root().join("scenes");
+    let entries = std::fs::read_dir(&folder).expect("the scenes");
+    let paths = entries.map(|entry| entry.expect("an entry").path().display().to_string());
+    let mut scenes: Vec<String> = paths.filter(|path| path.ends_with(".ron")).collect();
+    scenes.sort();
+    let scenes: Vec<&str> = scenes.iter().map(String::as_str).collect();
+    let run = bench.run(&[&["scene", "fmt", "--check"], &scenes[..]].concat());
+    assert_eq!((run.code, run.stdout.as_str()), (0, ""), "run `alberti scene fmt scenes/*.ron`");
+    let run = bench.run(&[&["scene", "check", "--json"], &scenes[..]].concat());
+    let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
+    assert_eq!((&report["errors"], &report["warnings"]), (&json!(0), &json!(0)), "{report:#}");
+    assert_eq!(report["files"].as_array().map(Vec::len), Some(scenes.len()));
+}
+
+/// A scene of a crate, one unit wide about the origin, and what is said of it.
+fn advised(bench: &Bench, rest: &str) -> (i32, String) {
+    bench.write("scene.ron", format!("Scene(\n  models: [(path: \"crate.glb\")],\n  {rest}\n)"));
+    let run = bench.run(&["scene", "check", "scene.ron"]);
+    (run.code, run.stdout)
+}
+
+#[test]
+fn what_is_probably_not_meant_is_a_warning_with_its_place() {
+    let bench = Bench::new("scene_advice");
+    bench.bring("crate.glb");
+    let away = "camera: (view: LookTo(eye: (0, 0.5, 6), gaze: (0, 0, 1)), projection: Perspective(near: 0.1, far: 100))";
+    let cases = [
+        (away, "nothing-visible", "3:11", "all of it is behind the eye"),
+        (
+            "camera: (view: LookTo(eye: (0, 0.5, 90), gaze: (0, 0, -1)), projection: Perspective(near: 1, far: 9))",
+            "nothing-visible",
+            "3:11",
+            "all of it is outside of the far plane",
+        ),
+        (
+            "camera: (view: LookAt(eye: (0.1, 0.3, 0.1), target: (0, 0.2, -5)), projection: Perspective(near: 0.01, far: 9))",
+            "camera-inside",
+            "3:18",
+            "is inside of crate",
+        ),
+        (
+            "camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0)), projection: Perspective(near: 0.001, far: 50))",
+            "wasteful-depth-range",
+            "",
+            "times nearer than the nearest thing",
+        ),
+        (
+            "camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0)), projection: Perspective(near: 1, far: 7))",
+            "cut-by-far",
+            "",
+            "the far plane cuts off",
+        ),
+        (
+            "camera: (projection: Frustum(left: -0.3, right: 0.3, bottom: -0.3, top: 0.3, near: 0.5))",
+            "aspect-mismatch",
+            "3:24",
+            "stretched",
+        ),
+        ("lights: []", "no-light", "3:11", "black"),
+    ];
+    for (rest, code, place, words) in cases {
+        let (exit, told) = advised(&bench, rest);
+        let head = format!("warning[{code}]: ");
+        let pointed = place.is_empty() || told.contains(&format!("scene.ron:{place}\n"));
+        assert!(exit == 0 && told.contains(&head), "{code}:\n{told}");
+        assert!(pointed && told.contains(words) && told.contains("= help: "), "{code}:\n{told}");
+        assert_eq!(told.matches("warning[").count(), 1, "{code}:\n{told}");
+    }
+    for good in ["", "camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0)))", "style: Lines()"]
+    {
+        assert!(!advised(&bench, good).1.contains("warning["), "{good}");
+    }
+}
+
+#[test]
+fn a_model_beside_the_picture_is_named() {
+    let bench = Bench::new("scene_advice_model");
+    bench.bring("crate.glb");
+    bench.write(
+        "scene.ron",
+        "Scene(\n  models: [(path: \"crate.glb\"), (path: \"crate.glb\", translate: (30, 0, -16))],\n  \
+         camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0))),\n)",
+    );
+    let run = bench.run(&["scene", "check", "scene.ron"]);
+    let told = run.stdout;
+    assert!(
+        told.contains("warning[model-not-visible]") && told.contains("scene.ron:2:33"),
+        "{told}"
+    );
+    assert!(told.contains("all of it is outside of the right"), "{told}");
+    let run = bench.run(&["scene", "check", "scene.ron", "--json"]);
+    let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
+    let advice = &report["files"][0]["advice"][0];
+    assert_eq!((&advice["code"], &advice["line"]), (&json!("model-not-visible"), &json!(2)));
+}
+
+#[test]
+fn included_files_are_joined_and_mistakes_point_into_the_right_one() {
+    let bench = Bench::new("scene_include");
+    bench.bring("crate.glb");
+    std::fs::create_dir(bench.path("lib")).expect("a folder");
+    std::fs::copy(bench.path("crate.glb"), bench.path("lib/other.glb")).expect("a copy");
+    let view = "camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0)))";
+    let image = "image: (size: (24, 16), background: Color(\"#fff\"))";
+    bench.write(
+        "lib/studio.ron",
+        format!(
+            "Scene(\n  include: \"paper.ron\",\n  models: [(path: \"other.glb\")],\n  {view},\n)"
+        ),
+    );
+    bench.write("lib/paper.ron", format!("Scene({image}, style: Flat)"));
+    let main = |rest: &str| {
+        format!(
+            "Scene(\n  include: [\"lib/studio.ron\"],\n  models: [(path: \"crate.glb\", translate: (1, 0, 0))],\n  {rest}\n)"
+        )
+    };
+    bench.write("scene.ron", main("style: Shaded"));
+    let run = bench.run(&["render", "scene.ron", "-o", "out.png"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    let one = "models: [(path: \"lib/other.glb\"), (path: \"crate.glb\", translate: (1, 0, 0))]";
+    bench.write("one.ron", format!("Scene({one}, {view}, {image}, style: Shaded)"));
+    assert_eq!(bench.run(&["render", "one.ron", "-o", "one.png"]).code, 0);
+    assert!(bench.picture("out.png") == bench.picture("one.png"));
+    // A mistake in each of the three.
+    let cases = [
+        (
+            "lib/studio.ron",
+            format!("Scene(models: [\n  (path: \"no.glb\")],\n {view})"),
+            "lib/studio.ron:2:10",
+        ),
+        ("lib/paper.ron", "Scene(image: (samples: 3))".to_owned(), "lib/paper.ron:1:24"),
+        ("scene.ron", main("image: (samples: 3)"), "scene.ron:4:20"),
+        ("lib/paper.ron", "Scene(imag: ())".to_owned(), "lib/paper.ron:1:7"),
+    ];
+    for (name, text, place) in cases {
+        bench.write("lib/studio.ron", format!("Scene(include: \"paper.ron\", {view})"));
+        bench.write("lib/paper.ron", format!("Scene({image})"));
+        bench.write("scene.ron", main(""));
+        bench.write(name, text);
+        for command in [&["render", "scene.ron"][..], &["scene", "check", "scene.ron"]] {
+            let run = bench.run(command);
+            let told = run.stdout + &run.stderr;
+            assert!(run.code == 1 && told.contains(&format!("--> {place}\n")), "{place}\n{told}");
+        }
+    }
+}
+
+#[test]
+fn includes_go_neither_in_circles_nor_astray() {
+    let bench = Bench::new("scene_include_refused");
+    bench.bring("crate.glb");
+    std::fs::create_dir(bench.path("in")).expect("a folder");
+    bench.write("outside.ron", "Scene(style: Flat)");
+    bench.write("in/a.ron", "Scene(\n  include: \"b.ron\",\n)");
+    bench.write("in/b.ron", "Scene(include: [\n  \"./a.ron\",\n])");
+    let run = bench.run(&["scene", "check", "in/a.ron"]);
+    assert_eq!(run.code, 1);
+    for words in ["in/b.ron:2:3", "the file includes itself: in/a.ron → in/b.ron → in/./a.ron"]
+    {
+        assert!(run.stdout.contains(words), "{words}\n{}", run.stdout);
+    }
+    for (path, words) in [
+        ("../outside.ron", "leads out of the scene's folder"),
+        ("no.ron", "cannot read"),
+        ("/etc/hostname", "leads out of the scene's folder"),
+    ] {
+        bench.write("in/c.ron", format!("Scene(\n  include: \"{path}\",\n)"));
+        let run = bench.run(&["render", "in/c.ron"]);
+        let pointed = run.stderr.contains("in/c.ron:2:12") && run.stderr.contains(words);
+        assert!(run.code == 1 && pointed, "{path}\n{}", run.stderr);
+    }
+    bench.write(
+        "in/d.ron",
+        "Scene(include: \"../outside.ron\", models: [(path: \"../crate.glb\")])",
+    );
+    let draw = ["render", "in/d.ron", "--size", "16x16", "-o", "out.png", "--allow-outside", "."];
+    let run = bench.run(&draw);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+}
+
+#[test]
+fn a_misspelt_model_is_answered_with_the_one_beside_it() {
+    let bench = Bench::new("scene_namesake");
+    bench.bring("crate.glb");
+    bench.write("scene.ron", "Scene(models: [(path: \"crato.glb\")])");
+    let run = bench.run(&["render", "scene.ron"]);
+    assert!(run.code == 1 && run.stderr.contains("did you mean `crate.glb`?"), "{}", run.stderr);
+}

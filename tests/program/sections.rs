@@ -1,0 +1,135 @@
+//! Cuts through models and tones under lines, as the program writes them.
+
+use crate::bench::Bench;
+use crate::drawings::{assert_near, read_svg, succeed, write_box};
+use crate::vectors::{Layers, Place, bounds, svg};
+
+/// The layers of a cut box of 100 × 50 × 30 mm.
+#[test]
+fn sections_cut_drawings_open() {
+    let bench = Bench::new("sections");
+    write_box(&bench, "box", [0.1, 0.05, 0.03]);
+    let layers = |flags: &[&str]| {
+        succeed(
+            &bench,
+            &[&["render", "box.gltf", "-o", "out.svg", "--style", "lines"], flags].concat(),
+        );
+        read_svg(&bench, "out.svg").1
+    };
+    assert!(layers(&[]).keys().all(|id| !id.contains("section") && !id.contains("hatching")));
+    for flags in [
+        &["--section", "x=0.05"][..],
+        &["--section", "-z=0.01", "--view", "back"],
+        &["--section", "0.05,0,0,1,0.2,0.1", "--projection", "cavalier", "--view", "isometric"],
+        &["--section=x=0.05", "--section=z=0.01", "--projection", "isometric"],
+    ] {
+        let layers = layers(flags);
+        let [low, high] = bounds(&layers, |id| id == "visible-section");
+        let [inner_low, inner_high] = bounds(&layers, |id| id == "visible-hatching");
+        for axis in 0..2 {
+            assert!(low[axis] - 0.001 <= inner_low[axis], "{flags:?}");
+            assert!(inner_high[axis] <= high[axis] + 0.001, "{flags:?}");
+        }
+        assert!(layers["visible-hatching"].len() > 3, "{flags:?}");
+    }
+    // A plane beside the box takes nothing, or everything.
+    assert!(layers(&["--section", "x=1"]).keys().all(|id| !id.contains("section")));
+    assert!(layers(&["--section", "-x=1"]).is_empty());
+}
+
+#[test]
+fn sections_that_make_no_sense_are_told() {
+    let bench = Bench::new("bad_sections");
+    write_box(&bench, "box", [0.1, 0.05, 0.03]);
+    for wrong in ["x", "w=0", "x=nan", "1,2,3", "0,0,0,0,0,0"] {
+        let run = bench.run(&["render", "box.gltf", "-o", "out.svg", "--section", wrong]);
+        assert!(
+            run.code == 2 && run.stderr.contains("expected a plane"),
+            "{wrong}: {}",
+            run.stderr
+        );
+    }
+    let run = bench.run(&["render", "box.gltf", "-o", "out.png", "--section", "x=0.05"]);
+    assert!(run.code == 0 && run.stderr.contains("warning: sections cut line drawings only"));
+    for (more, message) in [
+        ("sections: [Section(normal: (0, 0, 0))]", "wrong.ron:2:28"),
+        ("sections: [Section(point: (1, 0, 0))]", "normal"),
+        ("style: Lines(hatch_mm: 0.01)", "a distance from 0.1 to 1000 millimetres"),
+        ("style: Lines(tone: Grey)", "Grey"),
+    ] {
+        bench.write("wrong.ron", format!("Scene(models: [(path: \"box.gltf\")],\n{more})"));
+        let run = bench.run(&["render", "wrong.ron", "-o", "out.svg"]);
+        assert!(run.code == 1 && run.stderr.contains(message), "{more}: {}", run.stderr);
+    }
+}
+
+#[test]
+fn open_surfaces_are_cut_without_a_cap_and_named() {
+    let bench = Bench::new("open_section");
+    bench.bring("teapot.glb");
+    let run = bench.run(&["render", "teapot.glb", "-o", "out.svg", "--section", "z=0"]);
+    assert_eq!(run.code, 0);
+    assert!(
+        run.stderr.contains("warning: the cut through `body` does not close"),
+        "{}",
+        run.stderr
+    );
+    assert!(read_svg(&bench, "out.svg").1.contains_key("visible-section"));
+}
+
+/// The front view of a sheet is cut and named, the others show the whole thing and where the cut is.
+#[test]
+fn sheets_show_cuts_in_the_view_that_looks_onto_them() {
+    let bench = Bench::new("cut_sheet");
+    write_box(&bench, "box", [0.1, 0.05, 0.03]);
+    let flags = ["--section", "z=0.01", "--scale", "1:1"];
+    succeed(&bench, &[&["sheet", "box.gltf", "-o", "out.svg"][..], &flags].concat());
+    let (_, layers) = read_svg(&bench, "out.svg");
+    assert!(layers.contains_key("front-visible-hatching"));
+    assert!(layers.contains_key("isometric-visible-hatching"));
+    assert!(!layers.contains_key("top-visible-hatching"));
+    // Whole from above: 30 mm deep; the cut 10 mm before the rear edge, from beyond one side to beyond the other.
+    let [low, high] = bounds(&layers, |id| id.starts_with("top-"));
+    assert_near(high[1] - low[1], 30.0);
+    let along = layers["cut-lines"].iter().find(|line| line[0][1] == line[1][1]).expect("a line");
+    assert_near(along[0][1] - low[1], 10.0);
+    assert_near((along[1][0] - along[0][0]).abs(), 108.0);
+    // Spaced as the style says, whatever the scale: 2 mm at right angles to the lines.
+    let mut at: Vec<f64> =
+        layers["front-visible-hatching"].iter().map(|line| line[0][0] + line[0][1]).collect();
+    at.sort_by(f64::total_cmp);
+    let step = (at[at.len() - 1] - at[0]) / (at.len() - 1) as f64;
+    assert!((step - 2.0 * std::f64::consts::SQRT_2).abs() < 0.01, "{step}");
+}
+
+#[test]
+fn tones_lie_under_the_lines_in_all_formats() {
+    let bench = Bench::new("tones");
+    bench.bring("house.glb");
+    let scene = |tone: &str| {
+        let style = format!("style: Lines(tone: {tone}), image: (size: (320, 240))");
+        bench.write("scene.ron", format!("Scene(models: [(path: \"house.glb\")], {style})"));
+    };
+    let drawn = |name: &str| {
+        succeed(&bench, &["render", "scene.ron", "-o", name, "--threads", "1"]);
+        let first = std::fs::read(bench.path(name)).expect("a drawing");
+        succeed(&bench, &["render", "scene.ron", "-o", name, "--threads", "3"]);
+        assert!(first == std::fs::read(bench.path(name)).expect("a drawing"), "{name}");
+        first
+    };
+    scene("Flat");
+    let svg = String::from_utf8(drawn("out.svg")).expect("text");
+    assert!(svg.contains("<image id=\"tone\"") && svg.contains("href=\"data:image/png;base64,"));
+    assert!(svg.find("<image") < svg.find("<g "), "the picture is under the lines");
+    let pdf = String::from_utf8_lossy(&drawn("out.pdf")).into_owned();
+    assert!(pdf.contains("/XObject") && pdf.contains("/SMask"));
+    let flat = drawn("out.png");
+    scene("Hatching");
+    let (_, layers) = svg_of(&drawn("out.svg"));
+    assert!(layers["visible-hatching"].len() > 20);
+    assert!(drawn("out.png") != flat);
+}
+
+fn svg_of(bytes: &[u8]) -> (Place, Layers) {
+    svg(std::str::from_utf8(bytes).expect("text"))
+}

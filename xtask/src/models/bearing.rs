@@ -1,0 +1,64 @@
+//! A shaft in a plain bearing: parts that fit, and are closed, for cuts to show what is inside.
+
+use super::document::Document;
+use super::mesh::{Mesh, corners};
+use super::palette::{CLAY, OCHRE, SAND, SLATE, TEAL};
+use glam::{DVec3, dvec3};
+use serde_json::json;
+
+/// Sides of the round parts.
+const SEGMENTS: u32 = 48;
+
+/// Outlines by radius and height, once around, so that what they sweep has a bore.
+type Profile<'a> = &'a [(f64, f64)];
+
+const HOUSING: Profile<'_> = &[
+    (0.6, 0.0),
+    (1.6, 0.0),
+    (1.6, 0.3),
+    (1.0, 0.3),
+    (1.0, 1.5),
+    (0.75, 1.5),
+    (0.75, 1.3),
+    (0.6, 1.3),
+    (0.6, 0.0),
+];
+const BUSH: Profile<'_> = &[(0.45, -0.1), (0.6, -0.1), (0.6, 1.3), (0.45, 1.3), (0.45, -0.1)];
+const RING: Profile<'_> = &[(0.45, 1.3), (0.75, 1.3), (0.75, 1.5), (0.45, 1.5), (0.45, 1.3)];
+/// The shaft reaches its axis, and needs no way back.
+const SHAFT: Profile<'_> = &[
+    (0.0, -0.5),
+    (0.4, -0.5),
+    (0.45, -0.45),
+    (0.45, 1.6),
+    (0.7, 1.6),
+    (0.7, 1.8),
+    (0.3, 1.8),
+    (0.3, 2.3),
+    (0.0, 2.3),
+];
+/// The head alone.
+const BOLT: Profile<'_> = &[(0.0, 0.3), (0.2, 0.3), (0.2, 0.45), (0.0, 0.45)];
+
+pub fn bearing() -> Document {
+    let mut document = Document::default();
+    for (name, profile, color) in [
+        ("housing", HOUSING, SLATE),
+        ("bush", BUSH, OCHRE),
+        ("ring", RING, CLAY),
+        ("shaft", SHAFT, SAND),
+    ] {
+        let material = document.material(name, color);
+        let part = document.mesh(name, &[(&Mesh::lathe(&corners(profile), SEGMENTS), material)]);
+        document.root(name, Some(part), json!({}));
+    }
+    let steel = document.material("steel", TEAL);
+    let bolt = document.mesh("bolt", &[(&Mesh::lathe(&corners(BOLT), 12), steel)]);
+    let places: [DVec3; 4] =
+        [dvec3(1.3, 0.0, 0.0), dvec3(-1.3, 0.0, 0.0), dvec3(0.0, 0.0, 1.3), dvec3(0.0, 0.0, -1.3)];
+    for (number, DVec3 { x, y, z }) in (1..).zip(places) {
+        let place = json!({ "translation": [x, y, z] });
+        document.root(&format!("bolt {number}"), Some(bolt), place);
+    }
+    document
+}
