@@ -192,7 +192,7 @@ mod tests {
 
     fn image(width: u32, height: u32) -> ImageSpec {
         let (background, backdrop, samples) = ([0.0; 4], None, Samples::One);
-        ImageSpec { width, height, background, backdrop, samples }
+        ImageSpec { width, height, background, backdrop, samples, anisotropy: 1 }
     }
 
     #[test]

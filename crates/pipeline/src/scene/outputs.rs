@@ -68,7 +68,7 @@ mod tests {
     fn outputs(text: &str) -> Result<Outputs, SceneError> {
         let text = format!("Scene(models: [(path: \"a.glb\")],\n  {text})");
         let file = parse("scene.ron", &text)?;
-        let origin = Origin { file: "scene.ron".into(), text, folder: ".".into() };
+        let origin = Origin::of_text("scene.ron", text, ".".into());
         Outputs::of(&origin, &file)
     }
 

@@ -46,7 +46,7 @@ fn scene(width: u32, height: u32) -> Scene {
     let file = parse("made.ron", &text).expect("a scene");
     let loaded = load_bytes("made.gltf", &plane(), &ImportOptions::default()).expect("a model");
     let placed = Placed { model: Arc::new(loaded), model_to_world: homog::Affine::IDENTITY };
-    let origin = Origin { file: "made.ron".into(), text, folder: ".".into() };
+    let origin = Origin::of_text("made.ron", text, ".".into());
     Scene::of_models(&origin, &file, vec![placed]).expect("a scene that makes sense")
 }
 
