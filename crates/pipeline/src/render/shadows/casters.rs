@@ -3,8 +3,9 @@
 use crate::model::{Instance, Model, Primitive, TextureSlot, TextureUse, Topology};
 use crate::render::RenderError;
 use crate::render::Textures;
-use crate::render::assemble::{DEFAULT_MATERIAL, cover_of, triangle};
+use crate::render::assemble::{DEFAULT_MATERIAL, triangle};
 use crate::render::images::Images;
+use crate::render::needs::cover_of;
 use crate::render::stage::Stage;
 use crate::render::vertices::{Parts, uv_set};
 use crate::scene::Scene;
@@ -96,6 +97,7 @@ fn masked<'a>(
     parts.vertices(count, selected, Affine::IDENTITY, 1, &mut vertices);
     Draw {
         first_id: 0,
+        part: 0,
         primitive,
         material,
         maps,
