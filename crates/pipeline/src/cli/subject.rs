@@ -17,10 +17,10 @@ use std::path::PathBuf;
 pub(super) struct SubjectArgs {
     /// A scene (.ron) or a model (.gltf, .glb); `-` reads one from the standard input
     pub(super) input: PathBuf,
-    /// Width and height of each picture in pixels, 96 to the inch
-    #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "320x240")]
+    /// Width and height of each picture in pixels, 96 to the inch, up to 4096 each
+    #[arg(long, value_name = "WxH", value_parser = parse_panel, default_value = "320x240")]
     size: (u32, u32),
-    /// How surfaces are drawn; `shaded` and `flat` paste pictures into the page
+    /// How surfaces are drawn; styles that show surfaces paste pictures into the page
     #[arg(long, default_value = "lines")]
     style: StyleArg,
     /// What is drawn over the pictures to explain them; may be given several times
@@ -35,6 +35,16 @@ pub(super) struct SubjectArgs {
     pub(super) threads: Option<u16>,
     #[command(flatten)]
     pub(super) load: LoadArgs,
+}
+
+/// The most pixels of a side of one of many pictures on a page.
+const MOST: u32 = 4096;
+
+fn parse_panel(text: &str) -> Result<(u32, u32), String> {
+    let size = parse_size(text)?;
+    let fits = size.0.max(size.1) <= MOST;
+    fits.then_some(size)
+        .ok_or_else(|| format!("a picture on a page has up to {MOST} pixels a side"))
 }
 
 impl SubjectArgs {

@@ -6,6 +6,7 @@ use crate::drawing::{
     Align, Axis, Chart, Curve, Group, Ink, Label, Layer, Mark, Page, Pen, Spacing,
 };
 use glam::DVec2;
+use projection::DepthFormat;
 
 const INK: Ink = [26, 31, 38];
 const NORMAL: Ink = [26, 86, 176];
@@ -60,7 +61,7 @@ impl DepthTable {
         let ends = samples.iter().flat_map(|row| row.depths);
         let (low, high) = ends.fold((0.0_f64, 1.0_f64), |(l, h), d| (l.min(d), h.max(d)));
         let half = self.curves()[0].half_range_distance();
-        let [finest, coarsest] = span_of_steps(&samples);
+        let [finest, coarsest] = span_of_steps(&samples, self.format());
         [
             Chart {
                 id: "depth".to_owned(),
@@ -107,12 +108,13 @@ impl DepthTable {
 
 /// From the finest step to the coarsest. Beside the plane that has depth 0 floating-point steps fall to nothing: the finest
 /// fiftieth is left out, else nothing else could be seen.
-fn span_of_steps(samples: &[DepthRow]) -> [f64; 2] {
+fn span_of_steps(samples: &[DepthRow], format: DepthFormat) -> [f64; 2] {
+    let left_out = if format == DepthFormat::Float32 { 50 } else { usize::MAX };
     let before_last = samples.len().saturating_sub(1);
     let before_last = samples[..before_last].iter();
     let mut steps: Vec<f64> = before_last.flat_map(|row| row.steps).collect();
     steps.sort_by(f64::total_cmp);
-    let (Some(&finest), Some(&coarsest)) = (steps.get(steps.len() / 50), steps.last()) else {
+    let (Some(&finest), Some(&coarsest)) = (steps.get(steps.len() / left_out), steps.last()) else {
         return [0.5, 2.0];
     };
     // Some room where all steps are alike.
@@ -156,7 +158,7 @@ fn table(cells: &[[String; 5]]) -> Layer {
 mod tests {
     use super::*;
     use crate::drawing::millimetres;
-    use projection::{Convention, DepthFormat};
+    use projection::Convention;
 
     /// The drawn curve is the formula, F(D − N)/((F − N)D), to the micrometre of the page.
     #[test]

@@ -15,7 +15,7 @@ use super::label::Label;
 use super::page::{Group, Ink, Layer, MILLIMETRES_PER_PIXEL, Page, Pasted, Pen, Polyline};
 use super::page::{Place, micrometres};
 use crate::render::{RenderError, draw, render_reported};
-use crate::scene::{Scene, Style};
+use crate::scene::Scene;
 use crate::{Picture, Timings};
 use glam::DVec2;
 
@@ -71,9 +71,10 @@ impl Panel {
         title: impl Into<String>,
         threads: usize,
     ) -> Result<Self, RenderError> {
-        let page = match scene.style {
-            Style::Shaded | Style::Flat => painted(scene, threads)?,
-            Style::Wireframe | Style::Lines(_) => draw(scene, threads, &Timings::default())?,
+        let page = if scene.style.shows_surfaces() {
+            painted(scene, threads)?
+        } else {
+            draw(scene, threads, &Timings::default())?
         };
         Ok(Self { id: id.into(), title: title.into(), notes: Vec::new(), page })
     }

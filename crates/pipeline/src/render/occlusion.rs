@@ -1,12 +1,12 @@
 //! What of a frame occlusion in screen space is told from.
 
+use super::region::{Region, sheets};
 use super::shadows::Casters;
 use super::stage::Stage;
 use super::{RenderError, Renderer, Textures};
 use crate::render::assemble::assemble;
 use crate::scene::Scene;
 use crate::shade::{DrawList, ScreenSpace};
-use glam::DMat4;
 use raster::{Frame, Nearest};
 
 /// The nearest surfaces of a frame that holds a scene, if its scene asks for occlusion; in memory that was used before.
@@ -18,11 +18,14 @@ pub(super) fn screen_space(
     mut nearest: Vec<Nearest>,
 ) -> Result<Option<ScreenSpace>, RenderError> {
     let Some(radius) = scene.occlusion_radius else { return Ok(None) };
+    if scene.image.width > raster::MAX_SIDE || scene.image.height > raster::MAX_SIDE {
+        return Err(RenderError::OcclusionTooLarge);
+    }
     let (width, height) = (scene.image.width, scene.image.height);
     nearest.resize(width as usize * height as usize, Nearest::NOTHING);
     frame.nearest(&Casters(draws), threads, &mut nearest);
     let stage = Stage::new(&scene.shot, width, height)?;
-    let world_to_screen = DMat4::from(stage.ndc_to_screen.raw()) * scene.shot.world_to_clip().raw();
+    let world_to_screen = stage.ndc_to_screen.raw() * scene.shot.world_to_clip().raw();
     // The middle of the view volume is near everything that is seen.
     let middle = scene.shot.world_to_clip().raw().inverse() * glam::DVec4::new(0.0, 0.0, 0.0, 1.0);
     let middle = middle.truncate() / middle.w;
@@ -36,10 +39,15 @@ pub(super) fn screen_space(
 pub(super) fn whole_screen_space(
     scene: &Scene,
     textures: &Textures<'_>,
+    threads: usize,
 ) -> Result<Option<ScreenSpace>, RenderError> {
     if scene.occlusion_radius.is_none() {
         return Ok(None);
     }
-    let memory = assemble(scene, textures, 1, Renderer::default().lend(scene, 1)?)?;
-    screen_space(scene, &memory.frame, &memory.draws, 1, Vec::new())
+    let [whole] = sheets(scene.image, Region::whole(scene.image))[..] else {
+        return Err(RenderError::OcclusionTooLarge);
+    };
+    let memory = Renderer::default().lend(scene, whole, threads)?;
+    let memory = assemble(scene, textures, threads, memory)?;
+    screen_space(scene, &memory.frame, &memory.draws, threads, Vec::new())
 }

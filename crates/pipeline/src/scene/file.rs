@@ -12,6 +12,7 @@ mod lines;
 mod look;
 mod occlusion;
 mod overlay;
+mod passes;
 mod projection;
 mod section;
 mod shadow;
@@ -26,6 +27,7 @@ pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, ToneF
 pub use self::look::{BackgroundFile, ImageFile, StyleFile, ToneMappingFile};
 pub use self::occlusion::AmbientOcclusionFile;
 pub use self::overlay::OverlayFile;
+pub use self::passes::{PassEncodingFile, PassFile, PassesFile};
 pub use self::projection::{PrincipalFile, ProjectionFile};
 pub use self::section::SectionFile;
 pub use self::shadow::ShadowsFile;
@@ -72,6 +74,9 @@ pub struct SceneFile {
     /// What is drawn over the picture. Default: nothing.
     #[serde(default)]
     pub overlays: Vec<OverlayFile>,
+    /// What is written of each pixel besides its colour. Default: nothing.
+    #[serde(default)]
+    pub passes: PassesFile,
     /// Planes that cut the models open, one after the other, in line drawings and on sheets; at most 16. Default: none.
     #[serde(default)]
     pub sections: Vec<SectionFile>,
@@ -147,6 +152,7 @@ impl SceneFile {
             style: StyleFile::default(),
             image: ImageFile::default(),
             overlays: Vec::new(),
+            passes: PassesFile::default(),
             sections: Vec::new(),
             sheet: None,
         }

@@ -53,7 +53,7 @@ impl Axis {
         let power = libm::floor(libm::log10(span)) as i32;
         let steps = [power - 1, power].into_iter().flat_map(|n| [1.0, 2.0, 5.0].map(|d| (d, n)));
         for (digit, power) in steps {
-            let step = digit * power_of_ten(power);
+            let step = decimal(digit, power);
             // Half a thousandth of a step beside the ends is at the ends.
             let first = libm::ceil(self.from / step - 5e-4) as i64;
             let last = libm::floor(self.to / step + 5e-4) as i64;
@@ -88,9 +88,14 @@ impl Axis {
     }
 }
 
+/// The number nearest to a digit times a power of ten: the one that is written so.
+fn decimal(digit: f64, power: i32) -> f64 {
+    format!("{digit}e{power}").parse().unwrap_or(1.0)
+}
+
 /// The number nearest to a power of ten.
 fn power_of_ten(power: i32) -> f64 {
-    format!("1e{power}").parse().unwrap_or(1.0)
+    decimal(1.0, power)
 }
 
 /// A round number as short as it can be written.
@@ -134,6 +139,10 @@ mod tests {
                     let found = ticks(from, from * ratio, spacing);
                     assert!((2..=MOST_TICKS).contains(&found.len()), "{from} {ratio} {found:?}");
                     assert!(found.windows(2).all(|pair| pair[0] < pair[1]), "{found:?}");
+                    if (-9..9).contains(&power) && ratio > 1.4 {
+                        let long = found.iter().map(|tick| tick_text(*tick)).find(|t| t.len() > 7);
+                        assert_eq!(long, None, "{from} {ratio} {spacing:?}");
+                    }
                     let room = from * (ratio - 1.0) * 1e-3;
                     let on_axis = from - room..=from * ratio + room;
                     assert!(found.iter().all(|tick| on_axis.contains(tick)), "{from} {found:?}");
