@@ -73,8 +73,7 @@ impl Axis {
         let [low, high] = [self.from, self.to].map(|end| libm::floor(libm::log10(end)) as i32);
         let fitting = |digits: &[f64], every: i32| -> Vec<f64> {
             let powers = (low..=high).filter(|power| power.rem_euclid(every) == 0);
-            let values =
-                powers.flat_map(|power| digits.iter().map(move |d| d * power_of_ten(power)));
+            let values = powers.flat_map(|power| digits.iter().map(move |&d| decimal(d, power)));
             let range = self.from * (1.0 - 1e-9)..=self.to * (1.0 + 1e-9);
             values.filter(|value| range.contains(value)).collect()
         };
