@@ -134,7 +134,7 @@ fn divided(boards: &[Board], map: Projective<World, Clip>) -> Panel {
     let outline = |board: &Board| -> Vec<Polyline> {
         let images = board.corners.map(|corner| map.point(corner).divide());
         let sides = (0..4).filter_map(|n| Some([images[n]?, images[(n + 1) % 4]?]));
-        sides.filter_map(|side| within(side)).collect()
+        sides.filter_map(within).collect()
     };
     let image = |x: f64, z: f64| told(map, Point::new(x, 0.0, z));
     let notes = vec![
@@ -155,8 +155,7 @@ fn clipped(boards: &[Board], map: Projective<World, Clip>) -> Panel {
         let places: Vec<DVec2> = images.into_iter().map(place).collect();
         Polyline::through(&places, true).into_iter().collect()
     };
-    let least =
-        boards.iter().flat_map(|board| ring(board).points().to_vec()).map(|point| point.w());
+    let least = boards.iter().flat_map(|board| ring(board).points().to_vec()).map(HPoint::w);
     let least = least.fold(f64::INFINITY, f64::min);
     let count = |kind: usize| {
         let of_kind = boards.iter().filter(|board| board.kind == kind);
