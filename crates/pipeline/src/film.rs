@@ -210,8 +210,12 @@ impl<'a> Camera<'a> {
     fn of(film: &'a Film) -> Self {
         let mut scene = film.scene.clone();
         if matches!(film.motion, Motion::Clip { .. }) {
+            let copies = copies(&film.scene.models);
             for placed in &mut scene.models {
                 placed.model = Arc::new(without_images(&placed.model));
+            }
+            for (at, first) in copies {
+                scene.models[at].model = Arc::clone(&scene.models[first].model);
             }
         }
         Self { film, scene, renderer: Renderer::default() }
@@ -244,14 +248,37 @@ impl Motion {
             }
             Self::Clip { animations, from, to } => {
                 let time = from + (to - from) * part;
+                let copies = copies(start);
+                // Copies let go of the model that they share, so that it is not copied before it is posed.
+                let nothing = Arc::new(Model::default());
+                for &(at, _) in &copies {
+                    models[at].model = Arc::clone(&nothing);
+                }
                 for (placed, animation) in models.iter_mut().zip(animations) {
                     if let Some(animation) = animation {
                         Arc::make_mut(&mut placed.model).pose(*animation, time);
                     }
                 }
+                for (at, first) in copies {
+                    models[at].model = Arc::clone(&models[first].model);
+                }
             }
         }
     }
+}
+
+/// Models that are the same as the one before them, with the first of their row.
+fn copies(models: &[Placed]) -> Vec<(usize, usize)> {
+    let mut first = 0;
+    let mut copies = Vec::new();
+    for (at, pair) in (1..).zip(models.windows(2)) {
+        if Arc::ptr_eq(&pair[0].model, &pair[1].model) {
+            copies.push((at, first));
+        } else {
+            first = at;
+        }
+    }
+    copies
 }
 
 /// A copy that can be posed: the textures are kept elsewhere.

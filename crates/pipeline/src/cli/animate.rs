@@ -105,7 +105,10 @@ fn animations(models: &[Placed], file: &SceneFile) -> Result<Vec<Option<usize>>,
             Failure::Usage(format!("{}: {problem}{help}", placed.model.name))
         })
     };
-    let choices = file.models.iter().map(|model| model.animation.as_ref());
+    let choices = file
+        .models
+        .iter()
+        .flat_map(|model| std::iter::repeat_n(model.animation.as_ref(), model.copies()));
     models.iter().zip(choices).map(chosen).collect()
 }
 

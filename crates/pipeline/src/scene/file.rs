@@ -7,9 +7,11 @@ mod camera;
 mod environment;
 mod ground;
 mod include;
+mod instances;
 mod light;
 mod lines;
 mod look;
+mod material;
 mod occlusion;
 mod overlay;
 mod projection;
@@ -21,9 +23,11 @@ pub use self::camera::{CameraChoice, CameraFile, FromFile, USUAL_PADDING, ViewFi
 pub use self::environment::EnvironmentFile;
 pub use self::ground::GroundFile;
 pub use self::include::Paths;
+pub use self::instances::{InstanceFile, InstancesFile};
 pub use self::light::LightFile;
 pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, ToneFile, WidthFile};
 pub use self::look::{BackgroundFile, ImageFile, StyleFile, ToneMappingFile};
+pub use self::material::{AlphaModeFile, MaterialFile, MaterialsFile};
 pub use self::occlusion::AmbientOcclusionFile;
 pub use self::overlay::OverlayFile;
 pub use self::projection::{PrincipalFile, ProjectionFile};
@@ -102,6 +106,11 @@ pub struct ModelFile {
     pub animation: Option<Choice>,
     /// The time of the animation in seconds. Default: 0, if there is an `animation`.
     pub time: Option<Finite>,
+    /// The model many times. Default: once.
+    pub instances: Option<InstancesFile>,
+    /// What its materials look like, other than the model has it. Default: as it has it.
+    #[serde(default)]
+    pub materials: Vec<MaterialFile>,
 }
 
 /// Which scene, variant or animation of a model.
@@ -134,6 +143,8 @@ impl SceneFile {
             variant: None,
             animation: None,
             time: None,
+            instances: None,
+            materials: Vec::new(),
         };
         Self {
             include: Paths::default(),

@@ -2,13 +2,16 @@
 
 use super::bounds::world_points;
 use super::file::{
-    BackgroundFile, Choice, EnvironmentFile, Finite, ModelFile, OverlayFile, ToneMappingFile,
+    BackgroundFile, Choice, EnvironmentFile, Finite, MaterialFile, ModelFile, OverlayFile,
+    ToneMappingFile,
 };
 use super::ground::resolve_ground;
+use super::instances;
 use super::lights::resolve_lights;
 use super::locate::Step::{Field, Index};
 use super::look::resolve_style;
 use super::number::Positive;
+use super::overrides::override_materials;
 use super::section::resolve_sections;
 use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
@@ -19,7 +22,7 @@ use crate::drawing::Overlay;
 use crate::import::{FaultKind, ImportError, ImportOptions, load, load_bytes};
 use crate::model::Model;
 use crate::shade::{Develop, ToneMapping};
-use homog::{Affine, Bounds, Model as ModelSpace, Vector, World};
+use homog::Bounds;
 use raster::Samples;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -167,25 +170,28 @@ fn load_models(
     if file.models.is_empty() {
         return Err(no_model(origin).into());
     }
-    // Models in one pose are shared; a model in two poses is two models.
+    instances::check_counts(origin, file)?;
+    // Models in one pose are shared; a model in two poses, or with other materials, is two models.
     type Pose = (PathBuf, [Option<Choice>; 3], Option<u64>);
-    let mut loaded: BTreeMap<Pose, Arc<Model>> = BTreeMap::new();
+    let mut loaded: BTreeMap<Pose, Vec<(&[MaterialFile], Arc<Model>)>> = BTreeMap::new();
     let mut models = Vec::new();
     for (number, entry) in file.models.iter().enumerate() {
         let path = origin.folder.join(&entry.path);
         let time = entry.time.map(|time| time.value().to_bits());
         let choices = [&entry.scene, &entry.variant, &entry.animation].map(Clone::clone);
         let pose = (path, choices, time);
-        let model = if let Some(model) = loaded.get(&pose) {
+        let alike = loaded.entry(pose).or_default();
+        let known = alike.iter().find(|(materials, _)| **materials == *entry.materials);
+        let model = if let Some((_, model)) = known {
             Arc::clone(model)
         } else {
             let model = load_model(origin, number, entry, options);
             let model = model.map_err(|fault| fault.in_scene(origin, number, entry))?;
             let model = Arc::new(model);
-            loaded.insert(pose, Arc::clone(&model));
+            alike.push((&entry.materials, Arc::clone(&model)));
             model
         };
-        models.push(Placed { model, model_to_world: placement(entry) });
+        models.extend(instances::placed(origin, number, entry, &model)?);
     }
     Ok(models)
 }
@@ -261,6 +267,7 @@ pub(super) fn load_model(
         let animation = chosen_animation(&model, entry.animation.as_ref()).map_err(fault)?;
         model.pose(animation, entry.time.map_or(0.0, Finite::value));
     }
+    override_materials(origin, number, &entry.materials, &mut model)?;
     Ok(model)
 }
 
@@ -308,17 +315,6 @@ pub fn chosen_animation(
         let message = format!("the model {} has no animation `{wanted}`", model.name);
         (message, suggestion(&wanted, &names))
     })
-}
-
-/// Scale, then turns about x, y and z, then translation.
-pub(super) fn placement(entry: &ModelFile) -> Affine<ModelSpace, World> {
-    let [sx, sy, sz] = entry.scale.0;
-    let [rx, ry, rz] = entry.rotate_degrees.0.map(f64::to_radians);
-    Affine::<ModelSpace, ModelSpace>::scale(sx, sy, sz)
-        .then(Affine::<ModelSpace, ModelSpace>::rotation_x(rx))
-        .then(Affine::<ModelSpace, ModelSpace>::rotation_y(ry))
-        .then(Affine::<ModelSpace, ModelSpace>::rotation_z(rz))
-        .then(Affine::translation(Vector::from(entry.translate.0)))
 }
 
 pub(super) fn resolve_overlays(
