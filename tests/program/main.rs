@@ -20,6 +20,7 @@ mod messages;
 mod mistakes;
 mod outputs;
 mod overlays;
+mod parts;
 mod pictures;
 mod real;
 mod reference;

@@ -3,56 +3,151 @@
 //! Surfaces never come here. Filling neighbouring triangles with anti-aliased paths would let the background shine
 //! through their seams, and tiny-skia breaks ties the other way round (RA-3).
 
-use crate::Picture;
 use crate::drawing::{
     Cap, Ink, Join, Layer, MILLIMETRES_PER_PIXEL, Page, Pasted, Pen, Polyline, millimetres,
 };
+use crate::render::Region;
+use crate::{Channel, Picture};
 use tiny_skia::{
-    Color, ColorU8, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke,
-    StrokeDash, Transform,
+    Color, ColorU8, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap,
+    PremultipliedColorU8, Stroke, StrokeDash, Transform,
 };
 
 /// How many points a path may have before another is begun: long ones are slow to fill, and short ones cost a call each.
 const POINTS: usize = 256;
+
+/// The largest piece of a picture that is drawn on at once. Coordinates are rounded from its corner on, so pixels depend on which piece
+/// they are in; as pieces are counted from the corner of the whole picture, they do not depend on the region that is wanted.
+const PIECE: [u32; 2] = [4096, 2048];
 
 impl Page {
     /// The page as a picture of this size in pixels, stretched to fill it; transparent where there is no paper. `None` if it
     /// would have no pixels, or more than memory holds.
     #[must_use]
     pub fn to_picture(&self, width: u32, height: u32) -> Option<Picture> {
-        let mut pixmap = Pixmap::new(width, height)?;
-        if let Some(paper) = self.paper {
-            pixmap.fill(color(paper));
+        let whole = Region { x: 0, y: 0, width, height };
+        if !(1..=raster::MAX_SIDE).contains(&width) || !(1..=raster::MAX_SIDE).contains(&height) {
+            return None;
         }
-        let mut canvas = Canvas { pixmap };
-        let scale = [f64::from(width) / self.size.x, f64::from(height) / self.size.y];
-        for pasted in &self.pictures {
-            canvas.paste(pasted, scale);
-        }
-        for layer in &self.layers {
-            canvas.layer(layer, scale);
-        }
-        Some(canvas.into_picture())
+        Some(self.to_region([width, height], whole))
+    }
+
+    /// A region of the picture of this size in pixels.
+    pub(crate) fn to_region<C: Channel>(&self, size: [u32; 2], region: Region) -> Picture<C> {
+        let [width, height] = size.map(f64::from);
+        let mut picture = Picture::default();
+        picture.resize(region.width, region.height);
+        let [r, g, b] = self.paper.unwrap_or_default();
+        let alpha = if self.paper.is_some() { 255 } else { 0 };
+        picture.pixels.fill([r, g, b, alpha].map(C::of_byte));
+        let scale = [width / self.size.x, height / self.size.y];
+        picture.draw(size, region, &self.pictures, &self.layers, scale);
+        picture
     }
 }
 
-impl Picture {
-    /// The picture with layers of a page of 96 pixels to the inch drawn over it.
-    pub(crate) fn under(self, layers: &[Layer]) -> Self {
-        let pixmap = Pixmap::new(self.width, self.height);
-        let Some(mut pixmap) = pixmap.filter(|_| !layers.is_empty()) else { return self };
-        for (place, [r, g, b, alpha]) in pixmap.pixels_mut().iter_mut().zip(&self.pixels) {
-            *place = ColorU8::from_rgba(*r, *g, *b, *alpha).premultiply();
+impl<C: Channel> Picture<C> {
+    /// Draws layers of a page of 96 pixels to the inch over what is a region of a picture of this size.
+    pub(crate) fn draw_over(&mut self, size: [u32; 2], region: Region, layers: &[Layer]) {
+        self.draw(size, region, &[], layers, [1.0 / MILLIMETRES_PER_PIXEL; 2]);
+    }
+
+    /// Draws layers over a region, with this many pixels for a millimetre.
+    fn draw(
+        &mut self,
+        size: [u32; 2],
+        region: Region,
+        pictures: &[Pasted],
+        layers: &[Layer],
+        scale: [f64; 2],
+    ) {
+        if layers.is_empty() && pictures.is_empty() {
+            return;
         }
-        let mut canvas = Canvas { pixmap };
-        layers.iter().for_each(|layer| canvas.layer(layer, [1.0 / MILLIMETRES_PER_PIXEL; 2]));
-        canvas.into_picture()
+        let first = [region.x / PIECE[0], region.y / PIECE[1]];
+        let last = [region.x + region.width - 1, region.y + region.height - 1];
+        let last = [last[0] / PIECE[0], last[1] / PIECE[1]];
+        for row in first[1]..=last[1] {
+            for column in first[0]..=last[0] {
+                let (x, y) = (column * PIECE[0], row * PIECE[1]);
+                let width = PIECE[0].min(size[0] - x);
+                let height = PIECE[1].min(size[1] - y);
+                let piece = Region { x, y, width, height };
+                self.draw_piece(region, piece, |canvas| {
+                    pictures.iter().for_each(|pasted| canvas.paste(pasted, scale));
+                    layers.iter().for_each(|layer| canvas.layer(layer, scale));
+                });
+            }
+        }
+    }
+
+    /// Draws layers over what a region has of a piece. Also what is not wanted of the piece is drawn: lines are cut at its borders, and
+    /// cut elsewhere they could be rounded to other pixels.
+    fn draw_piece(&mut self, region: Region, piece: Region, draw: impl FnOnce(&mut Canvas)) {
+        let Some(shown) = piece.and(region) else { return };
+        let Some(pixmap) = Pixmap::new(piece.width, piece.height) else { return };
+        let mut canvas = Canvas { pixmap, corner: [piece.x, piece.y] };
+        self.copy(region, shown, &mut canvas, |pixel, place| *place = C::laid_down(*pixel));
+        draw(&mut canvas);
+        self.copy(region, shown, &mut canvas, |pixel, place| {
+            *pixel = C::taken_up(*pixel, *place);
+        });
+    }
+
+    /// Goes through the pixels of a region that are on a canvas.
+    fn copy(
+        &mut self,
+        region: Region,
+        shown: Region,
+        canvas: &mut Canvas,
+        each: impl Fn(&mut [C; 4], &mut PremultipliedColorU8),
+    ) {
+        let (across, width) = (region.width as usize, canvas.pixmap.width() as usize);
+        let within = |from: [u32; 2]| [(shown.x - from[0]) as usize, (shown.y - from[1]) as usize];
+        let ([left, top], [first, skipped]) = (within([region.x, region.y]), within(canvas.corner));
+        let (count, high) = (shown.width as usize, shown.height as usize);
+        let rows = self.pixels.chunks_exact_mut(across).skip(top).take(high);
+        let places = canvas.pixmap.pixels_mut().chunks_exact_mut(width).skip(skipped);
+        for (row, places) in rows.zip(places) {
+            let places = &mut places[first..first + count];
+            for (pixel, place) in row[left..left + count].iter_mut().zip(places) {
+                each(pixel, place);
+            }
+        }
+    }
+}
+
+/// How pixels come onto a canvas and off it. Those of 8 bits are drawn on; those of 16 stay where they are, and the drawing is laid
+/// over them.
+trait OnCanvas: Channel {
+    fn laid_down(pixel: [Self; 4]) -> PremultipliedColorU8;
+    fn taken_up(pixel: [Self; 4], place: PremultipliedColorU8) -> [Self; 4];
+}
+
+impl<C: Channel> OnCanvas for C {
+    fn laid_down(pixel: [C; 4]) -> PremultipliedColorU8 {
+        if C::BITS > 8 {
+            return PremultipliedColorU8::TRANSPARENT;
+        }
+        let [r, g, b, alpha] = pixel.map(C::to_byte);
+        ColorU8::from_rgba(r, g, b, alpha).premultiply()
+    }
+
+    fn taken_up(pixel: [C; 4], place: PremultipliedColorU8) -> [C; 4] {
+        if C::BITS > 8 {
+            let over = [place.red(), place.green(), place.blue(), place.alpha()];
+            return C::under(pixel, over);
+        }
+        let straight = place.demultiply();
+        [straight.red(), straight.green(), straight.blue(), straight.alpha()].map(C::of_byte)
     }
 }
 
 /// A picture to draw pages on.
 struct Canvas {
     pixmap: Pixmap,
+    /// Where its corner is in the picture.
+    corner: [u32; 2],
 }
 
 impl Canvas {
@@ -68,17 +163,18 @@ impl Canvas {
                 .iter()
                 .map(|line| (line, layer.pen.fitted_dashes(line)))
                 .partition(|(_, dashes)| !dashes.is_empty());
-            for path in paths(lines.into_iter().map(|(line, _)| line), scale, POINTS) {
+            let (corner, lines) = (self.corner, lines.into_iter().map(|(line, _)| line));
+            for path in paths(lines, scale, corner, POINTS) {
                 self.pixmap.stroke_path(&path, &paint, &whole, Transform::identity(), None);
             }
             for (line, dashes) in dashed {
                 let stroke = stroke(&layer.pen, &dashes, pixels);
-                for path in paths([line], scale, POINTS) {
+                for path in paths([line], scale, corner, POINTS) {
                     self.pixmap.stroke_path(&path, &paint, &stroke, Transform::identity(), None);
                 }
             }
             // Holes must be in the path of what they are holes of.
-            for path in paths(&group.fills, scale, usize::MAX) {
+            for path in paths(&group.fills, scale, self.corner, usize::MAX) {
                 let rule = FillRule::EvenOdd;
                 self.pixmap.fill_path(&path, &paint, rule, Transform::identity(), None);
             }
@@ -89,11 +185,12 @@ impl Canvas {
     fn paste(&mut self, pasted: &Pasted, scale: [f64; 2]) {
         let Pasted { corner, size, picture, .. } = pasted;
         let (width, height) = (self.pixmap.width(), self.pixmap.height());
+        let first = self.corner;
         let span = |axis: usize, side: u32, sides: u32| {
             // Pixels of the pasted picture for one of the canvas, and where the canvas begins in it.
             let pixels = f64::from(side) / (f64::from(size[axis]) / 1000.0 * scale[axis]);
             let start = -f64::from(corner[axis]) / 1000.0 * scale[axis] * pixels;
-            (0..sides).map(move |at| {
+            (first[axis]..first[axis] + sides).map(move |at| {
                 let from = start + f64::from(at) * pixels;
                 [from, from + pixels].map(|edge| edge.clamp(0.0, f64::from(side)))
             })
@@ -108,19 +205,6 @@ impl Canvas {
                 let [r, g, b, alpha] = over(mean(picture, *column, row), below);
                 *place = ColorU8::from_rgba(r, g, b, alpha).premultiply();
             }
-        }
-    }
-
-    /// The canvas as a picture, its alpha no longer multiplied in.
-    fn into_picture(self) -> Picture {
-        let pixels = self.pixmap.pixels().iter().map(|pixel| {
-            let straight = pixel.demultiply();
-            [straight.red(), straight.green(), straight.blue(), straight.alpha()]
-        });
-        Picture {
-            width: self.pixmap.width(),
-            height: self.pixmap.height(),
-            pixels: pixels.collect(),
         }
     }
 }
@@ -191,6 +275,7 @@ fn over([r, g, b, alpha]: [f64; 4], below: [u8; 4]) -> [u8; 4] {
 fn paths<'a>(
     lines: impl IntoIterator<Item = &'a Polyline>,
     scale: [f64; 2],
+    corner: [u32; 2],
     most: usize,
 ) -> Vec<Path> {
     let mut paths = Vec::new();
@@ -200,7 +285,9 @@ fn paths<'a>(
             paths.extend(std::mem::take(&mut path).finish());
         }
         for (at, point) in line.points.iter().enumerate() {
-            let [x, y] = [0, 1].map(|axis| (millimetres(*point)[axis] * scale[axis]) as f32);
+            let [x, y] = [0, 1].map(|axis| {
+                (millimetres(*point)[axis] * scale[axis] - f64::from(corner[axis])) as f32
+            });
             if at == 0 { path.move_to(x, y) } else { path.line_to(x, y) }
         }
         if line.closed {

@@ -2,11 +2,15 @@
 //!
 //! Both directions go by tables that are computed once with `libm`, so the bits are the same everywhere.
 
+mod deep;
+
+pub(crate) use deep::DeepEncoder;
+
 use raster::{Eight, Encode, WIDE};
 use std::sync::OnceLock;
 
 /// Linear light of an sRGB value between 0 and 1.
-fn linear_of(srgb: f64) -> f64 {
+pub(crate) fn linear_of(srgb: f64) -> f64 {
     if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
 }
 

@@ -9,7 +9,7 @@
 use crate::model::Model;
 use crate::render::{RenderError, Renderer, Textures};
 use crate::scene::file::EnvironmentFile;
-use crate::scene::{Origin, Placed, ResolveError, Scene, SceneFile, Style, bounds};
+use crate::scene::{Origin, Placed, ResolveError, Scene, SceneFile, bounds};
 use crate::{Picture, Timings, render};
 use homog::{Affine, Point, World};
 use std::collections::BTreeMap;
@@ -225,7 +225,8 @@ impl<'a> Camera<'a> {
         let Film { scene, motion, frames, middle } = self.film;
         let part = frame as f64 / (*frames).max(1) as f64;
         motion.apply(&mut self.scene.models, &scene.models, *middle, part);
-        if !matches!(scene.style, Style::Shaded | Style::Flat) {
+        if !scene.style.shows_surfaces() || scene.style.has_outlines() || !scene.overlays.is_empty()
+        {
             return render(&self.scene, 1);
         }
         let mut picture = Picture::default();

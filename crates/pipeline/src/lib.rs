@@ -45,9 +45,12 @@ pub mod shade;
 mod timings;
 
 pub use cancel::Cancel;
-pub use output::{Draft, OutputError, write_file};
-pub use picture::Picture;
-pub use render::{RenderError, Renderer, Textures, draw, render, render_reported, render_timed};
+pub use output::{Draft, OutputError, PngRows, encode_png, write_file};
+pub use picture::{Channel, Picture};
+pub use render::{
+    MAX_SIDE, Paint, PaintError, Region, RenderError, Renderer, Textures, draw, render,
+    render_reported, render_timed,
+};
 pub use scene::{Origin, ResolveError, Scene, SceneError, SceneFile};
 pub use timings::Timings;
 

@@ -1,6 +1,10 @@
 //! Output files: written beside their place and renamed into it, so that a failed run leaves the old file as it was.
 
-use crate::Picture;
+mod png_rows;
+
+pub use png_rows::{PngRows, encode_png};
+
+use crate::{Channel, Picture};
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -15,23 +19,14 @@ pub struct OutputError {
     pub cause: std::io::Error,
 }
 
-impl Picture {
-    /// The picture as a PNG file: RGB if it is opaque, RGBA with straight alpha otherwise.
+impl<C: Channel> Picture<C> {
+    /// The picture as a PNG file: RGB if it is opaque, RGBA with straight alpha otherwise, of as many bits as the picture has.
     #[must_use]
     pub fn to_png(&self) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(self.pixels.len());
-        let opaque = self.is_opaque();
-        let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
-        encoder.set_color(if opaque { png::ColorType::Rgb } else { png::ColorType::Rgba });
-        encoder.set_depth(png::BitDepth::Eight);
-        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-        encoder.set_compression(png::Compression::Fast);
-        let data = if opaque {
-            self.pixels.iter().flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect::<Vec<u8>>()
-        } else {
-            self.pixels.as_flattened().to_vec()
-        };
-        let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&data));
+        let (size, opaque) = ([self.width, self.height], self.is_opaque());
+        let written =
+            encode_png(&mut bytes, size, opaque, C::BITS, |rows| rows.write(&self.pixels));
         debug_assert!(written.is_ok(), "a picture always has width x height pixels: {written:?}");
         bytes
     }

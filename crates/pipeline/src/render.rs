@@ -10,8 +10,12 @@ mod assemble;
 mod ground;
 mod images;
 mod lines;
+mod needs;
 mod occlusion;
+mod paint;
+pub mod passes;
 mod pixel;
+mod region;
 mod renderer;
 mod shadows;
 mod shot;
@@ -22,13 +26,16 @@ mod textures;
 mod vertices;
 
 pub use lines::draw;
+pub use paint::{Paint, PaintError, band_rows};
+pub use passes::{Pass, PassBuffer, passes};
 pub use pixel::{Owner, PixelMakeup, SeenFragment, pixel};
+pub use region::{MAX_SIDE, Region};
 pub use renderer::Renderer;
 pub use shot::Shot;
 pub use textures::Textures;
 
-use crate::drawing::{Warning, overlays};
-use crate::scene::{Scene, Style};
+use crate::drawing::Warning;
+use crate::scene::Scene;
 use crate::{Picture, Timings};
 
 /// A scene that cannot be rendered.
@@ -44,6 +51,9 @@ pub enum RenderError {
     /// Somebody asked for its end by a [`Cancel`](crate::Cancel).
     #[error("the picture was cancelled")]
     Cancelled,
+    /// Ambient occlusion reads the whole picture, which has more pixels than can be held.
+    #[error("ambient occlusion is for pictures of {} pixels a side at most", raster::MAX_SIDE)]
+    OcclusionTooLarge,
     /// There are more points, lines and triangles than can be told apart.
     #[error("the scene has more than {} points, lines and triangles", u32::MAX)]
     TooManyPrimitives,
@@ -78,20 +88,8 @@ pub fn render_reported(
     threads: usize,
     timings: &Timings,
 ) -> Result<(Picture, Vec<Warning>), RenderError> {
-    match scene.style {
-        Style::Shaded | Style::Flat => {
-            let picture = surfaces(scene, threads, timings)?;
-            let is_cut = !scene.sections.is_empty();
-            let warnings = is_cut.then_some(Warning::SectionsUnseen).into_iter().collect();
-            Ok((picture.under(&overlays(scene)), warnings))
-        }
-        Style::Wireframe | Style::Lines(_) => lines::picture(scene, threads, timings),
-    }
-}
-
-fn surfaces(scene: &Scene, threads: usize, timings: &Timings) -> Result<Picture, RenderError> {
-    let textures = timings.measure("mip chains", || Textures::of(&scene.models));
-    let mut picture = Picture::default();
-    Renderer::default().render(scene, &textures, threads, timings, &mut picture)?;
-    Ok(picture)
+    let whole = Region::whole(scene.image);
+    whole.check(scene.image)?;
+    let mut paint = Paint::new(scene, threads, timings)?;
+    Ok((paint.region(whole)?, paint.into_warnings()))
 }

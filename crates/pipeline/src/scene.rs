@@ -19,6 +19,7 @@ mod look;
 mod mistakes;
 mod number;
 mod origin;
+mod outputs;
 mod overrides;
 mod parse;
 mod radiance;
@@ -38,6 +39,7 @@ pub use file::SceneFile;
 pub use ground::Ground;
 pub use layout::laid_out;
 pub use origin::Origin;
+pub use outputs::Outputs;
 pub use parse::parse;
 pub use resolve::{ResolveOptions, chosen_animation};
 pub use review::review;
@@ -115,10 +117,48 @@ pub enum Style {
     Shaded,
     /// Lit, one normal for each triangle.
     Flat,
+    /// Lit at the corners of triangles.
+    Gouraud,
+    /// Matt clay.
+    Clay,
+    /// A ball of glazed clay.
+    Matcap,
+    /// Normals as colours.
+    Normals,
+    /// The nearer, the brighter.
+    Depth,
+    /// A checkerboard by texture coordinates.
+    UvChecker,
+    /// A colour for each part.
+    Ids,
+    /// Three steps of light, with outlines.
+    Toon,
+    /// As if of glass.
+    XRay,
     /// The edges of all triangles.
     Wireframe,
     /// A line drawing.
     Lines(LineLook),
+}
+
+impl Style {
+    /// Whether surfaces are drawn, and not only lines.
+    #[must_use]
+    pub const fn shows_surfaces(self) -> bool {
+        !matches!(self, Self::Wireframe | Self::Lines(_))
+    }
+
+    /// Whether surfaces look otherwise than their materials have it.
+    #[must_use]
+    pub const fn look_is_own(self) -> bool {
+        self.shows_surfaces() && !matches!(self, Self::Shaded | Self::Flat)
+    }
+
+    /// Whether lines are drawn over the surfaces.
+    #[must_use]
+    pub const fn has_outlines(self) -> bool {
+        matches!(self, Self::Toon)
+    }
 }
 
 /// The picture to make.

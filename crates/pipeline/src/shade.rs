@@ -23,6 +23,7 @@ mod receiver;
 mod reflection;
 mod seen;
 mod shadow;
+mod styled;
 mod substance;
 mod surroundings;
 mod texture;
@@ -36,6 +37,7 @@ pub use light::Light;
 pub use maps::{Map, Maps};
 pub use occlusion::ScreenSpace;
 pub use shadow::{Shadow, ShadowMap};
+pub use styled::{Look, Styled};
 pub use surroundings::{Sky, studio};
 pub use texture::{MipChain, Texels};
 

@@ -50,6 +50,7 @@ mod fill;
 mod fragment;
 mod fragments;
 mod frame;
+mod front;
 mod grid;
 mod instructions;
 mod memory;

@@ -164,16 +164,19 @@ impl<S: Surface> Resolve<'_, S> {
     /// Shades eight pixels from (x, y) to the right, not all of which show the same; those that show nothing get any colour.
     #[inline(always)]
     fn shade_several(&self, pieces: [u32; WIDE], x: u32, y: u32) -> [Eight; 4] {
-        // Nothing is the largest number: the least is a piece.
-        let mut any = NOTHING;
-        for piece in pieces {
-            any = any.min(piece);
+        // Nothing is the largest number: the least is a piece. Pixels that show nothing repeat the one that shows it, so that no
+        // surface is asked for a place where it is not.
+        let (mut any, mut place) = (NOTHING, 0);
+        for (lane, &piece) in pieces.iter().enumerate() {
+            if piece < any {
+                (any, place) = (piece, lane as u32);
+            }
         }
         let mut seen = [self.piece(any); WIDE];
-        let mut columns = [0; WIDE];
+        let mut columns = [x + place; WIDE];
         for lane in 0..WIDE {
-            columns[lane] = x + lane as u32;
             if pieces[lane] != NOTHING {
+                columns[lane] = x + lane as u32;
                 seen[lane] = self.piece(pieces[lane]);
             }
         }

@@ -3,12 +3,15 @@
 use super::animate::AnimateArgs;
 use super::batch::BatchArgs;
 use super::color::ColorArg;
+use super::compare::CompareArgs;
 use super::explain::ExplainArgs;
 use super::format::Format;
 use super::loading::LoadArgs;
 use super::look::{LookArgs, named_view};
 use super::manual::{CompletionArgs, ManArgs};
 use super::matrix::MatrixArgs;
+use super::part::PartArgs;
+use super::passes::PassArgs;
 use super::pick::PickArgs;
 use super::reference::ReferenceArgs;
 use super::scene::SceneArgs;
@@ -47,7 +50,8 @@ Examples:
   alberti reference camera                        what a field or a flag means
 
 Exit codes: 0 done, 1 the input or the work failed (no output file is touched), 2 wrong usage.
-`check` ends with 1 if there are errors, and with 0 if there are only warnings and notes.";
+`check` ends with 1 if there are errors, and with 0 if there are only warnings and notes; `render --compare` ends with 1 if the
+pictures differ, and all files are written.";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
@@ -96,6 +100,12 @@ pub(crate) struct RenderArgs {
     pub(crate) views: Vec<NamedView>,
     #[command(flatten)]
     pub(crate) look: LookArgs,
+    #[command(flatten)]
+    pub(crate) part: PartArgs,
+    #[command(flatten)]
+    pub(crate) passes: PassArgs,
+    #[command(flatten)]
+    pub(crate) compare: CompareArgs,
     /// Threads to use; the picture does not depend on it [default: as many as there are cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) threads: Option<u16>,
@@ -105,6 +115,12 @@ pub(crate) struct RenderArgs {
     /// Compare the line drawing with a z-buffer image, and tell how much of what is drawn as visible that hides
     #[arg(long)]
     pub(crate) verify: bool,
+    /// Tell what was rendered, for programs: size, camera, models, times, warnings, files with their SHA-256
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Show the picture in the terminal: by kitty's graphics where it has them, else in half blocks
+    #[arg(long, conflicts_with = "json")]
+    pub(crate) show: bool,
     #[command(flatten)]
     pub(crate) load: LoadArgs,
 }
@@ -139,6 +155,24 @@ pub(crate) enum StyleArg {
     Shaded,
     /// Lit, each triangle with one normal
     Flat,
+    /// Lit at the corners of triangles and blended over them
+    Gouraud,
+    /// Matt clay in the light of the scene
+    Clay,
+    /// A ball of glazed clay that faces the viewer alike
+    Matcap,
+    /// Normals in the world as colours: (n + 1) / 2
+    Normals,
+    /// The nearer, the brighter
+    Depth,
+    /// A checkerboard by texture coordinates
+    Uv,
+    /// A colour for each part
+    Ids,
+    /// The colours of materials in three steps of light, with outlines
+    Toon,
+    /// As if of glass: denser along the line of sight
+    XRay,
     /// The edges of all triangles
     Wireframe,
     /// The edges of all triangles, paler the farther away they are
@@ -163,6 +197,8 @@ pub(crate) enum OverlayArg {
     Horizon,
     /// Where the axes vanish
     VanishingPoints,
+    /// The edges of the surfaces, where they can be seen
+    Edges,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -3,7 +3,7 @@
 use super::color;
 use pipeline::drawing::SheetError;
 use pipeline::import::ImportError;
-use pipeline::{OutputError, RenderError, ResolveError};
+use pipeline::{OutputError, RenderError, ResolveError, SceneError};
 
 /// A failed run; its message is what the person sees.
 #[derive(Debug, thiserror::Error)]
@@ -14,6 +14,8 @@ pub(crate) enum Failure {
     Import(#[from] ImportError),
     #[error(transparent)]
     Render(#[from] RenderError),
+    #[error(transparent)]
+    Scene(#[from] SceneError),
     #[error(transparent)]
     Sheet(#[from] SheetError),
     #[error(transparent)]

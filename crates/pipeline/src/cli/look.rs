@@ -117,6 +117,15 @@ impl From<StyleArg> for StyleFile {
         match style {
             StyleArg::Shaded => Self::Shaded,
             StyleArg::Flat => Self::Flat,
+            StyleArg::Gouraud => Self::Gouraud,
+            StyleArg::Clay => Self::Clay,
+            StyleArg::Matcap => Self::Matcap,
+            StyleArg::Normals => Self::Normals,
+            StyleArg::Depth => Self::Depth,
+            StyleArg::Uv => Self::UvChecker,
+            StyleArg::Ids => Self::Ids,
+            StyleArg::Toon => Self::Toon,
+            StyleArg::XRay => Self::XRay,
             StyleArg::Wireframe => Self::Wireframe,
             StyleArg::DepthCued => Self::depth_cued(),
             StyleArg::Lines => Self::removed(),
@@ -153,6 +162,7 @@ impl From<OverlayArg> for OverlayFile {
             OverlayArg::Grid => Self::Grid { step: None },
             OverlayArg::Horizon => Self::Horizon,
             OverlayArg::VanishingPoints => Self::VanishingPoints,
+            OverlayArg::Edges => Self::Edges,
         }
     }
 }
@@ -187,12 +197,13 @@ fn parse_samples(text: &str) -> Result<u32, String> {
 }
 
 fn parse_size(text: &str) -> Result<(u32, u32), String> {
-    let fault =
-        || format!("expected WIDTHxHEIGHT, such as 1920x1080, each from 1 to {}", raster::MAX_SIDE);
+    let fault = || {
+        format!("expected WIDTHxHEIGHT, such as 1920x1080, each from 1 to {}", pipeline::MAX_SIDE)
+    };
     let (width, height) = text.split_once(['x', 'X']).ok_or_else(fault)?;
     let side = |digits: &str| {
         let side: u32 = digits.parse().map_err(|_| fault())?;
-        (1..=raster::MAX_SIDE).contains(&side).then_some(side).ok_or_else(fault)
+        (1..=pipeline::MAX_SIDE).contains(&side).then_some(side).ok_or_else(fault)
     };
     Ok((side(width)?, side(height)?))
 }

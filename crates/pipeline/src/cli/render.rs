@@ -1,17 +1,17 @@
 //! `alberti render`: scenes and bare models become PNGs, or as line drawings SVGs or PDFs.
 
-mod jobs;
+pub(super) mod jobs;
 
 use super::args::RenderArgs;
-use super::format::Format;
+use super::paint::Painting;
 use super::progress::Progress;
-use super::{Failure, complain, say};
+use super::{Failure, complain, report, show};
 use jobs::Job;
 use pipeline::drawing::{self, Agreement, Hidden, Options};
 use pipeline::import::ImportOptions;
-use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::SceneFile;
-use pipeline::{Origin, Scene, Timings, draw, render_reported};
+use pipeline::scene::{Outputs, ResolveOptions};
+use pipeline::{Origin, Scene, Timings};
 use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -20,7 +20,7 @@ use std::time::Duration;
 /// The most warnings of one model that are told; the rest is counted.
 const MOST_WARNINGS: usize = 8;
 
-/// Makes the pictures; one that cannot be made does not stop the others.
+/// Makes the pictures; one that cannot be made, or is not what it should be, does not stop the others.
 pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
     let jobs = jobs::of(args)?;
     let mut code = ExitCode::SUCCESS;
@@ -30,46 +30,48 @@ pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
                 complain("error", &format!("{}: {}", job.input.display(), failure.told()));
                 code = ExitCode::FAILURE;
             }
-            made => made?,
+            Ok(false) => code = ExitCode::FAILURE,
+            made => {
+                made?;
+            }
         }
     }
     Ok(code)
 }
 
-/// Makes one picture.
-fn one(args: &RenderArgs, job: &Job) -> Result<(), Failure> {
+/// Makes one picture. Whether it is what it was compared with.
+fn one(args: &RenderArgs, job: &Job) -> Result<bool, Failure> {
     let progress = Progress::start("loading");
-    let timings = if args.timings { Timings::measuring() } else { Timings::default() };
+    let timings = if args.timings || args.json { Timings::measuring() } else { Timings::default() };
     let import = ImportOptions { timings: timings.clone(), ..job.look.import(&args.load) };
     let (origin, mut file) = open(&job.input, &import)?;
     job.look.override_in(&mut file);
+    args.part.override_in(&mut file);
+    args.passes.override_in(&mut file);
+    let outputs = Outputs::of(&origin, &file)?;
     let scene = Scene::resolve(&origin, &file, &ResolveOptions { import })?;
     progress.stage("rendering");
-    let (bytes, warnings) = match job.format {
-        Format::Png => {
-            let (picture, warnings) = render_reported(&scene, threads(args.threads), &timings)?;
-            (timings.measure("encode", || picture.to_png()), warnings)
-        }
-        Format::Svg | Format::Pdf => {
-            let mut page = draw(&scene, threads(args.threads), &timings)?;
-            let warnings = std::mem::take(&mut page.warnings);
-            (timings.measure("encode", || job.format.vectors(&[page])), warnings)
-        }
-    };
-    progress.stage("writing");
-    timings.measure("write", || match &job.output {
-        Some(output) => pipeline::write_file(output, &bytes).map_err(Failure::from),
-        None => say(&bytes),
-    })?;
-    let agreement = args.verify.then(|| compared(&scene, threads(args.threads))).transpose()?;
+    let threads = threads(args.threads);
+    let painting = Painting { args, job, scene: &scene, outputs, threads, timings: &timings };
+    let painted = painting.write(&progress)?;
+    let agreement = args.verify.then(|| compared(&scene, threads)).transpose()?;
     drop(progress);
     if let Some(agreement) = agreement {
         // Nothing else can be done where nobody listens.
         let _ = writeln!(std::io::stderr(), "{}", told(&agreement));
     }
-    tell(&timings);
-    warn(&scene, &warnings);
-    Ok(())
+    if args.timings {
+        tell(&timings);
+    }
+    if args.show {
+        show::show(&painted)?;
+    }
+    if args.json {
+        report::tell(&painting, &painted)?;
+    } else {
+        warn(&scene, &painted.warnings);
+    }
+    Ok(painted.agrees(args.json))
 }
 
 /// The scene's line drawing against its z-buffer image. Lines that show hidden parts as visible are left out of it.

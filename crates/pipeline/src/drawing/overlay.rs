@@ -38,6 +38,8 @@ pub enum Overlay {
     VanishingPoints,
     /// What another camera sees: its view volume, and the eye.
     Volume(Box<Shot>),
+    /// The edges of the surfaces, where they can be seen; line drawings have them anyway.
+    Edges,
 }
 
 const RED: Ink = [179, 38, 30];
@@ -72,6 +74,8 @@ pub fn overlays(scene: &Scene) -> Vec<Layer> {
             Overlay::Horizon => glass.horizon(),
             Overlay::VanishingPoints => glass.vanishing_points(),
             Overlay::Volume(shot) => glass.volume(shot),
+            // They are of the surfaces, and are drawn with them.
+            Overlay::Edges => Vec::new(),
         };
         layers
             .into_iter()

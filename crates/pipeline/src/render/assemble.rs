@@ -2,14 +2,13 @@
 
 use super::RenderError;
 use super::images::Images;
+use super::needs::Needs;
 use super::renderer::Memory;
 use super::stage::{Stage, all};
 use super::textures::Textures;
-use super::vertices::{Parts, tangents, uv_set};
-use crate::model::{
-    AlphaMode, Instance, Material, Posed, Primitive, TextureSlot, TextureUse, Topology,
-};
-use crate::scene::{Placed, Scene, Style};
+use super::vertices::{Parts, tangents};
+use crate::model::{Instance, Material, Posed, Primitive, TextureSlot, TextureUse, Topology};
+use crate::scene::{Placed, Scene};
 use crate::shade::{Draw, Maps, MipChain, PLACE, Role, Tangents};
 use clip::{Outcode, clip_triangle};
 use glam::DVec3;
@@ -29,16 +28,26 @@ pub(super) fn assemble<'a>(
     threads: usize,
     memory: Memory<'a>,
 ) -> Result<Memory<'a>, RenderError> {
-    let stage = Stage::of(scene)?;
-    let is_flat = scene.style == Style::Flat;
+    assemble_as(scene, textures, threads, memory, None)
+}
+
+/// The same, with all primitives covering what is behind them in this way, whatever their materials say.
+pub(super) fn assemble_as<'a>(
+    scene: &'a Scene,
+    textures: &'a Textures<'a>,
+    threads: usize,
+    memory: Memory<'a>,
+    cover: Option<Cover>,
+) -> Result<Memory<'a>, RenderError> {
     let mut assembler = Assembler {
-        stage,
+        stage: Stage::of(scene, memory.sheet)?,
         viewer: scene.shot.viewer(),
-        is_flat,
+        needs: Needs::of(scene.style, cover),
         anisotropy: scene.image.anisotropy,
         threads,
         memory,
         next_id: 0,
+        next_part: 0,
     };
     for (number, placed) in scene.models.iter().enumerate() {
         for (instance, primitive) in placed.model.shown_primitives() {
@@ -50,7 +59,7 @@ pub(super) fn assemble<'a>(
         assembler.ground(ground)?;
     }
     if let Some(blur) = scene.image.backdrop {
-        assembler.backdrop(scene, blur)?;
+        assembler.backdrop(blur)?;
     }
     Ok(assembler.memory)
 }
@@ -58,11 +67,12 @@ pub(super) fn assemble<'a>(
 pub(super) struct Assembler<'a> {
     pub(super) stage: Stage,
     viewer: HPoint<World>,
-    is_flat: bool,
+    needs: Needs,
     anisotropy: u32,
     threads: usize,
     pub(super) memory: Memory<'a>,
     pub(super) next_id: u32,
+    pub(super) next_part: u32,
 }
 
 /// The material of primitives that name none.
@@ -84,15 +94,14 @@ impl<'a> Assembler<'a> {
         texture: impl Fn(TextureSlot, TextureUse) -> Option<&'a MipChain<'a>>,
     ) -> Result<(), RenderError> {
         let model = &placed.model;
-        let first_id = self.next_id;
-        let count = u32::try_from(primitive.count()).map_err(|_| RenderError::TooManyPrimitives)?;
-        self.next_id = first_id.checked_add(count).ok_or(RenderError::TooManyPrimitives)?;
+        let (first_id, part) = self.numbers(primitive)?;
         let posed = model.posed(instance, primitive);
         let Posed { positions, normals, to_model } = &posed;
         let model_to_world = to_model.then(placed.model_to_world);
         let model_to_clip = self.stage.model_to_clip(model_to_world);
         let material = primitive.material.map_or(&*DEFAULT_MATERIAL, |m| &model.materials[m]);
-        let viewer = (!material.double_sided).then_some(self.viewer);
+        let one_sided = !material.double_sided && !self.needs.backs;
+        let viewer = one_sided.then_some(self.viewer);
         let viewer = viewer.and_then(|viewer| seen_from(model_to_world, viewer));
         let images = &mut self.memory.images;
         images.select(&self.stage, model_to_clip, primitive, &posed, viewer);
@@ -102,22 +111,24 @@ impl<'a> Assembler<'a> {
         images.project(&self.stage, model_to_clip, positions, self.threads);
         let mut draw = Draw {
             first_id,
+            part,
             primitive,
             material,
             maps: Maps::of(material, self.anisotropy, texture),
             vertices: self.memory.spare.pop().unwrap_or_default(),
             tangents: tangents(model, instance, primitive, material, &posed, model_to_world),
-            smooth: normals.is_some() && !self.is_flat,
-            uv_set: uv_set(material, primitive),
+            smooth: normals.is_some() && !self.needs.is_flat,
+            uv_set: self.needs.uv_set(material, primitive),
             colors: model.posed_colors(instance, primitive),
             role: Role::Surface,
             mirrored: model_to_world.determinant() < 0.0,
         };
         self.submit(&draw);
         let uvs = draw.uv_set.and_then(|set| model.posed_uvs(instance, primitive, set));
+        let is_lit = self.needs.all || draw.is_lit();
         let parts = Parts {
-            positions: draw.is_lit().then_some(&**positions),
-            normals: normals.as_deref().filter(|_| draw.is_lit() && draw.smooth),
+            positions: is_lit.then_some(&**positions),
+            normals: normals.as_deref().filter(|_| is_lit && draw.smooth),
             uvs: uvs.as_deref(),
         };
         let Images { whole, cut, .. } = &self.memory.images;
@@ -133,8 +144,17 @@ impl<'a> Assembler<'a> {
         Ok(())
     }
 
+    /// The name of the first point, line or triangle of the next primitive, and the number of the primitive itself.
+    fn numbers(&mut self, primitive: &Primitive) -> Result<(u32, u32), RenderError> {
+        let numbers = (self.next_id, self.next_part);
+        let count = u32::try_from(primitive.count()).map_err(|_| RenderError::TooManyPrimitives)?;
+        self.next_id = numbers.0.checked_add(count).ok_or(RenderError::TooManyPrimitives)?;
+        self.next_part += 1;
+        Ok(numbers)
+    }
+
     /// Adds the environment behind everything: two triangles at the far plane that fill the picture.
-    fn backdrop(&mut self, scene: &Scene, blur: f32) -> Result<(), RenderError> {
+    fn backdrop(&mut self, blur: f32) -> Result<(), RenderError> {
         let first_id = self.next_id;
         self.next_id = first_id.checked_add(2).ok_or(RenderError::TooManyPrimitives)?;
         let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
@@ -142,7 +162,7 @@ impl<'a> Assembler<'a> {
         let ndc_to_screen = self.stage.ndc_to_screen;
         // With one w for all of them, what they carry is linear on the screen, as places on a plane across the view are.
         let vertices = corners.map(|c| ScreenVertex::snap(ndc_to_screen.point(c), 1.0));
-        let clip_to_world = scene.shot.world_to_clip().raw().inverse();
+        let clip_to_world = self.stage.world_to_clip.raw().inverse();
         let vertex = |corner: Point<Ndc>| {
             let place = clip_to_world * corner.raw().extend(1.0);
             let [x, y, z] = (place.truncate() / place.w).as_vec3().to_array();
@@ -153,6 +173,7 @@ impl<'a> Assembler<'a> {
         let primitive: &'static Primitive = &BACKDROP;
         self.memory.draws.draws.push(Draw {
             first_id,
+            part: self.next_part,
             primitive,
             material: &DEFAULT_MATERIAL,
             maps: Maps::default(),
@@ -173,7 +194,7 @@ impl<'a> Assembler<'a> {
     /// lines and triangles that may have to be clipped.
     fn submit(&mut self, draw: &Draw<'_>) {
         let images = std::mem::take(&mut self.memory.images);
-        let (cover, cull) = (cover_of(draw.material), self.cull(draw));
+        let (cover, cull) = (self.needs.cover(draw.material), self.cull(draw));
         let triangles = draw.primitive.indices.as_chunks::<3>().0;
         for (whole, cut) in images.runs() {
             let (screen, first_id) = (&images.screen, draw.first_id);
@@ -230,7 +251,8 @@ impl<'a> Assembler<'a> {
     /// Which triangles are not to be seen: the backs of surfaces with one side. Fronts run counter-clockwise in the picture,
     /// unless either the way to the world or that to the screen mirrors.
     pub(super) fn cull(&self, draw: &Draw<'_>) -> Cull {
-        match (draw.material.double_sided, draw.mirrored == self.stage.mirrors) {
+        let both = draw.material.double_sided || self.needs.backs;
+        match (both, draw.mirrored == self.stage.mirrors) {
             (true, _) => Cull::Nothing,
             (false, true) => Cull::Clockwise,
             (false, false) => Cull::CounterClockwise,
@@ -288,15 +310,6 @@ fn is_kept(cull: Cull, orientation: f64) -> bool {
 fn orientation([p, q, r]: [HPoint<Clip>; 3]) -> f64 {
     let column = |point: HPoint<Clip>| DVec3::new(point.x(), point.y(), point.w());
     column(p).dot(column(q).cross(column(r)))
-}
-
-pub(super) fn cover_of(material: &Material) -> Cover {
-    match material.alpha_mode {
-        AlphaMode::Opaque if material.transmits() => Cover::Translucent,
-        AlphaMode::Opaque => Cover::Solid,
-        AlphaMode::Mask { .. } => Cover::Masked,
-        AlphaMode::Blend => Cover::Translucent,
-    }
 }
 
 #[cfg(test)]

@@ -26,6 +26,7 @@ impl Assembler<'_> {
         vertices.extend(ground.corners.map(vertex));
         let draw = Draw {
             first_id,
+            part: self.next_part,
             primitive: &BACKDROP,
             material: &DEFAULT_MATERIAL,
             maps: Maps::default(),

@@ -1,10 +1,13 @@
 //! Line drawings of a scene: from the models to the page that every output writes.
 
 use super::RenderError;
+use crate::Timings;
 use crate::color::SrgbEncoder;
-use crate::drawing::{self, Ink, LineLook, Page, Warning};
+use crate::drawing::{self, Ink, Layer, LineLook, Overlay, Page, Widths};
 use crate::scene::{Scene, Style};
-use crate::{Picture, Timings};
+
+/// The ink of lines over surfaces: nearly black.
+const INK: Ink = [20, 24, 30];
 
 /// The line drawing of a scene on a page of the picture's size, 96 pixels to the inch. Styles that show surfaces have their
 /// hidden lines removed.
@@ -24,30 +27,31 @@ pub fn draw(scene: &Scene, threads: usize, timings: &Timings) -> Result<Page, Re
     Ok(timings.measure("chains", page))
 }
 
-/// The line drawing as a picture, and what is missing in it.
-pub(super) fn picture(
-    scene: &Scene,
-    threads: usize,
-    timings: &Timings,
-) -> Result<(Picture, Vec<Warning>), RenderError> {
-    let mut page = draw(scene, threads, timings)?;
-    let warnings = std::mem::take(&mut page.warnings);
-    let (width, height) = (scene.image.width, scene.image.height);
-    let too_large = raster::RasterError::Size { x: 0, y: 0, width, height };
-    let picture = timings.measure("pixels", || page.to_picture(width, height));
-    Ok((picture.ok_or(too_large)?, warnings))
-}
-
 impl Style {
     /// How its lines look.
     #[must_use]
     pub const fn line_look(self) -> LineLook {
         match self {
-            Self::Shaded | Self::Flat => LineLook::REMOVED,
             Self::Wireframe => LineLook::WIREFRAME,
             Self::Lines(look) => look,
+            _ => LineLook::REMOVED,
         }
     }
+}
+
+/// The lines that a style or an overlay draws over surfaces: the outlines of toons, and feature edges.
+pub(super) fn over_surfaces(scene: &Scene, threads: usize) -> Result<Vec<Layer>, RenderError> {
+    let wants_edges = scene.overlays.iter().any(|overlay| matches!(overlay, Overlay::Edges));
+    let look = match scene.style {
+        _ if !scene.style.shows_surfaces() => return Ok(Vec::new()),
+        _ if wants_edges => LineLook { ink: Some(INK), ..LineLook::REMOVED },
+        Style::Toon => {
+            LineLook { widths: Widths::Pixels(2.0), ink: Some(INK), ..LineLook::SILHOUETTE }
+        }
+        _ => return Ok(Vec::new()),
+    };
+    let drawing = drawing::draw(scene, &look.options(), threads)?;
+    Ok(drawing.to_page(&look, "", None).layers)
 }
 
 /// The background as a colour of paper; `None` if it is transparent.

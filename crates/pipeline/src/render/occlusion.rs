@@ -1,5 +1,6 @@
 //! What of a frame occlusion in screen space is told from.
 
+use super::region::{Region, sheets};
 use super::shadows::Casters;
 use super::stage::Stage;
 use super::{RenderError, Renderer, Textures};
@@ -18,6 +19,9 @@ pub(super) fn screen_space(
     mut nearest: Vec<Nearest>,
 ) -> Result<Option<ScreenSpace>, RenderError> {
     let Some(radius) = scene.occlusion_radius else { return Ok(None) };
+    if scene.image.width > raster::MAX_SIDE || scene.image.height > raster::MAX_SIDE {
+        return Err(RenderError::OcclusionTooLarge);
+    }
     let (width, height) = (scene.image.width, scene.image.height);
     nearest.resize(width as usize * height as usize, Nearest::NOTHING);
     frame.nearest(&Casters(draws), threads, &mut nearest);
@@ -36,10 +40,15 @@ pub(super) fn screen_space(
 pub(super) fn whole_screen_space(
     scene: &Scene,
     textures: &Textures<'_>,
+    threads: usize,
 ) -> Result<Option<ScreenSpace>, RenderError> {
     if scene.occlusion_radius.is_none() {
         return Ok(None);
     }
-    let memory = assemble(scene, textures, 1, Renderer::default().lend(scene, 1)?)?;
-    screen_space(scene, &memory.frame, &memory.draws, 1, Vec::new())
+    let [whole] = sheets(scene.image, Region::whole(scene.image))[..] else {
+        return Err(RenderError::OcclusionTooLarge);
+    };
+    let memory = Renderer::default().lend(scene, whole, threads)?;
+    let memory = assemble(scene, textures, threads, memory)?;
+    screen_space(scene, &memory.frame, &memory.draws, threads, Vec::new())
 }

@@ -5,15 +5,14 @@
 
 use super::RenderError;
 use super::assemble::assemble;
-use super::images::Images;
 use super::occlusion::whole_screen_space;
-use super::renderer::{Memory, shading};
+use super::region::PartOfSheet;
+use super::renderer::{Renderer, shading, styled};
 use super::shadows::ShadowMemory;
 use super::textures::Textures;
 use crate::color::SrgbEncoder;
 use crate::model::Model;
-use crate::scene::{Scene, Style};
-use crate::shade::DrawList;
+use crate::scene::Scene;
 use raster::{Fragment, Frame, Surface};
 use std::sync::{Mutex, PoisonError};
 
@@ -57,26 +56,22 @@ pub struct Owner {
 /// As [`render`](crate::render()).
 pub fn pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelMakeup>, RenderError> {
     let image = scene.image;
-    let shaded = matches!(scene.style, Style::Shaded | Style::Flat);
-    if !shaded || x >= image.width || y >= image.height {
+    if !scene.style.shows_surfaces() || x >= image.width || y >= image.height {
         return Ok(None);
     }
     let textures = Textures::of(&scene.models);
-    let memory = Memory {
-        frame: Frame::part([x, y], [1, 1], image.samples)?,
-        draws: DrawList::default(),
-        images: Images::default(),
-        spare: Vec::new(),
-    };
+    let one = PartOfSheet::of_pixel(image, [x, y]);
+    let memory = Renderer::default().lend(scene, one, 1)?;
     let memory = assemble(scene, &textures, 1, memory)?;
     let mut shadows = ShadowMemory::default();
     shadows.render(scene, &textures, 1)?;
-    let occlusion = whole_screen_space(scene, &textures)?;
-    let surface = shading(scene, &memory.draws, &memory.frame, &shadows.maps, occlusion.as_ref());
-    let witness = Witness { surface: &surface, place: [x, y], seen: Mutex::default() };
-    let mut color = [[0; 4]];
-    memory.frame.draw(&witness, image.background, 1, &mut color, SrgbEncoder::shared());
-    let mut seen = witness.seen.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let occlusion = whole_screen_space(scene, &textures, 1)?;
+    let (frame, draws) = (&memory.frame, &memory.draws);
+    let surface = shading(scene, draws, frame, &shadows.maps, occlusion.as_ref());
+    let (color, mut seen) = match &styled(scene, &surface) {
+        Some(styled) => witnessed(frame, styled, one.corner(), image.background),
+        None => witnessed(frame, &surface, one.corner(), image.background),
+    };
     seen.sort_by_key(|(id, ..)| *id);
     seen.dedup_by_key(|(id, ..)| *id);
     let fragments = seen.into_iter().map(|(id, weights, color)| SeenFragment {
@@ -84,11 +79,24 @@ pub fn pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelMakeup>, Rende
         weights,
         color,
     });
-    Ok(Some(PixelMakeup { color: color[0], fragments: fragments.collect() }))
+    Ok(Some(PixelMakeup { color, fragments: fragments.collect() }))
 }
 
 /// The name, the weights and the colour of a fragment.
 type Noted = (u32, [f32; 3], [f32; 4]);
+
+/// Draws a frame of one pixel, and notes what was shaded for it.
+fn witnessed<S: Surface>(
+    frame: &Frame,
+    surface: &S,
+    place: [u32; 2],
+    background: [f32; 4],
+) -> ([u8; 4], Vec<Noted>) {
+    let witness = Witness { surface, place, seen: Mutex::default() };
+    let mut color = [[0; 4]];
+    frame.draw(&witness, background, 1, &mut color, SrgbEncoder::shared());
+    (color[0], witness.seen.into_inner().unwrap_or_else(PoisonError::into_inner))
+}
 
 /// A surface that notes what is asked of it.
 struct Witness<'a, S> {

@@ -3,12 +3,13 @@
 use super::RenderError;
 use super::assemble::assemble;
 use super::images::Images;
-use super::occlusion::screen_space;
+use super::occlusion::{screen_space, whole_screen_space};
+use super::region::{PartOfSheet, Region, Sheet, sheets};
 use super::shadows::ShadowMemory;
 use super::textures::Textures;
-use crate::color::SrgbEncoder;
-use crate::scene::Scene;
-use crate::shade::{Draw, DrawList, ScreenSpace, Shading, ShadowMap, Vertex};
+use crate::picture::Channel;
+use crate::scene::{Scene, Style};
+use crate::shade::{Draw, DrawList, Look, ScreenSpace, Shading, ShadowMap, Styled, Vertex};
 use crate::{Cancel, Picture, Timings};
 use raster::{Frame, Nearest};
 
@@ -46,6 +47,8 @@ pub struct Renderer {
 #[derive(Debug)]
 pub(super) struct Memory<'a> {
     pub(super) frame: Frame,
+    /// The sheet of the picture that the frame is a part of.
+    pub(super) sheet: Sheet,
     pub(super) draws: DrawList<'a>,
     pub(super) images: Images,
     /// Lists for what the vertices of draws carry.
@@ -64,60 +67,130 @@ impl Renderer {
     ///
     /// # Errors
     /// If the picture's size is out of range or the scene holds too much, or it was [cancelled](Self::cancelled_by).
-    pub fn render(
+    pub fn render<C: Channel>(
         &mut self,
         scene: &Scene,
         textures: &Textures<'_>,
         threads: usize,
         timings: &Timings,
-        picture: &mut Picture,
+        picture: &mut Picture<C>,
     ) -> Result<(), RenderError> {
-        let image = scene.image;
+        let whole = Region::whole(scene.image);
+        self.render_region(scene, textures, whole, threads, timings, picture)
+    }
+
+    /// Renders a part of the picture of a scene. Its pixels are those that the whole picture has there, bit for bit.
+    ///
+    /// # Errors
+    /// If the region is empty, too large, or not in the picture, or the scene holds too much, or it was
+    /// [cancelled](Self::cancelled_by).
+    pub fn render_region<C: Channel>(
+        &mut self,
+        scene: &Scene,
+        textures: &Textures<'_>,
+        region: Region,
+        threads: usize,
+        timings: &Timings,
+        picture: &mut Picture<C>,
+    ) -> Result<(), RenderError> {
+        let is_part = region != Region::whole(scene.image);
+        let whole = || whole_screen_space(scene, textures, threads);
+        let occlusion = if is_part { whole()? } else { None };
+        self.render_part(scene, textures, region, threads, timings, occlusion.as_ref(), picture)
+    }
+
+    /// The same with the nearest surfaces of the whole picture, if they are needed and the region is a part of it.
+    #[expect(clippy::too_many_arguments, reason = "a region, and all that drawing it depends on")]
+    pub(super) fn render_part<C: Channel>(
+        &mut self,
+        scene: &Scene,
+        textures: &Textures<'_>,
+        region: Region,
+        threads: usize,
+        timings: &Timings,
+        occlusion: Option<&ScreenSpace>,
+        picture: &mut Picture<C>,
+    ) -> Result<(), RenderError> {
+        region.check(scene.image)?;
+        picture.resize(region.width, region.height);
         let shadows = || self.shadows.render(scene, textures, threads);
         if scene.lights.iter().any(|light| light.shadow().is_some()) {
             timings.measure("shadows", shadows)?;
         } else {
             self.shadows.clear();
         }
-        let memory = self.lend(scene, threads)?;
-        let memory = timings.measure("vertices", || assemble(scene, textures, threads, memory))?;
-        let Memory { frame, draws, .. } = &memory;
-        let nearest = std::mem::take(&mut self.nearest);
-        let occlusion = screen_space(scene, frame, draws, threads, nearest)?;
-        let shading = shading(scene, draws, frame, &self.shadows.maps, occlusion.as_ref());
-        picture.resize(image.width, image.height);
-        let encoder = SrgbEncoder::shared();
-        timings.measure("pixels", || {
-            frame.draw(&shading, image.background, threads, &mut picture.pixels, encoder);
-        });
-        self.nearest = occlusion.map(|space| space.nearest).unwrap_or_default();
-        self.take_back(memory);
+        let parts = sheets(scene.image, region);
+        if let [part] = parts[..] {
+            let pixels = &mut picture.pixels;
+            self.draw_part(scene, textures, part, threads, timings, occlusion, pixels)?;
+        } else {
+            for part in parts {
+                let mut patch = vec![[C::default(); 4]; part.area()];
+                self.draw_part(scene, textures, part, threads, timings, occlusion, &mut patch)?;
+                part.put(&patch, region, &mut picture.pixels);
+            }
+        }
         if self.cancel.is_cancelled() { Err(RenderError::Cancelled) } else { Ok(()) }
     }
 
-    /// The memory, with an empty frame for the scene's picture.
+    #[expect(clippy::too_many_arguments, reason = "a part, and all that drawing it depends on")]
+    fn draw_part<C: Channel>(
+        &mut self,
+        scene: &Scene,
+        textures: &Textures<'_>,
+        part: PartOfSheet,
+        threads: usize,
+        timings: &Timings,
+        occlusion: Option<&ScreenSpace>,
+        target: &mut [[C; 4]],
+    ) -> Result<(), RenderError> {
+        let memory = self.lend(scene, part, threads)?;
+        let memory = timings.measure("vertices", || assemble(scene, textures, threads, memory))?;
+        let Memory { frame, draws, .. } = &memory;
+        let own = match occlusion {
+            Some(_) => None,
+            None => {
+                let nearest = std::mem::take(&mut self.nearest);
+                screen_space(scene, frame, draws, threads, nearest)?
+            }
+        };
+        let space = occlusion.or(own.as_ref());
+        let shading = shading(scene, draws, frame, &self.shadows.maps, space);
+        let background = scene.image.background;
+        timings.measure("pixels", || match &styled(scene, &shading) {
+            Some(styled) => frame.draw(styled, background, threads, target, C::encoder()),
+            None => frame.draw(&shading, background, threads, target, C::encoder()),
+        });
+        self.nearest = own.map(|space| space.nearest).unwrap_or_default();
+        self.take_back(memory);
+        Ok(())
+    }
+
+    /// The memory, with an empty frame for a part of the scene's picture.
     pub(super) fn lend<'a>(
         &mut self,
         scene: &Scene,
+        part: PartOfSheet,
         threads: usize,
     ) -> Result<Memory<'a>, RenderError> {
-        let image = scene.image;
+        let samples = scene.image.samples;
+        let ([x, y], [width, height]) = (part.corner(), part.size());
         let frame = match self.frame.take() {
-            Some(mut frame) => {
-                frame.restart(image.width, image.height, image.samples)?;
+            Some(mut frame) if [x, y] == [0, 0] => {
+                frame.restart(width, height, samples)?;
                 frame
             }
-            None => Frame::new(image.width, image.height, image.samples)?,
+            _ => Frame::part([x, y], [width, height], samples)?,
         };
         let draws = DrawList { draws: emptied(std::mem::take(&mut self.draws)) };
         let images = std::mem::take(&mut self.images);
         let spare = std::mem::take(&mut self.spare);
         let frame = frame.with_threads(threads).with_stop(self.cancel.flag());
-        Ok(Memory { frame, draws, images, spare })
+        Ok(Memory { frame, sheet: part.sheet, draws, images, spare })
     }
 
     fn take_back(&mut self, memory: Memory<'_>) {
-        let Memory { frame, mut draws, images, mut spare } = memory;
+        let Memory { frame, mut draws, images, mut spare, .. } = memory;
         // The first list that is asked for next time is the one of the first draw.
         spare.extend(draws.draws.drain(..).rev().map(|draw| draw.vertices));
         self.frame = Some(frame);
@@ -145,6 +218,35 @@ pub(super) fn shading<'a>(
         viewer: scene.shot.viewer(),
         instructions: frame.instructions(),
     }
+}
+
+/// The surfaces of a style that looks otherwise than materials have it.
+pub(super) fn styled<'a>(scene: &Scene, shading: &'a Shading<'a>) -> Option<Styled<'a>> {
+    let camera = scene.shot.camera;
+    let look = match scene.style {
+        Style::Gouraud => Look::Gouraud,
+        Style::Clay => Look::Clay,
+        Style::Matcap => Look::Matcap,
+        Style::Normals => Look::Normals,
+        Style::Depth => {
+            let world_to_view = camera.world_to_view();
+            let (mut near, mut far) = (f64::INFINITY, f64::NEG_INFINITY);
+            for point in scene.world_points() {
+                let depth = -world_to_view.point(point).z();
+                (near, far) = (near.min(depth), far.max(depth));
+            }
+            // What is behind the eye is not seen.
+            Look::Depth { near: near.max(0.0) as f32, far: far as f32 }
+        }
+        Style::UvChecker => Look::UvChecker,
+        Style::Ids => Look::Ids,
+        Style::Toon => Look::Toon,
+        Style::XRay => Look::XRay,
+        Style::Shaded | Style::Flat | Style::Wireframe | Style::Lines(_) => return None,
+    };
+    let view = [camera.u(), camera.v(), camera.w()].map(|axis| axis.raw().as_vec3().to_array());
+    let eye = camera.eye().raw().as_vec3().to_array();
+    Some(Styled { shading, look, view, eye })
 }
 
 /// The room of a list, for draws of other things.

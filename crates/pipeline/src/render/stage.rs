@@ -1,5 +1,6 @@
 //! The way from the world to the screen.
 
+use super::region::Sheet;
 use super::{RenderError, Shot};
 use crate::scene::Scene;
 use clip::{Extent, Outcode, Volume, clip_segment};
@@ -11,10 +12,12 @@ use viewport::Viewport;
 /// The way from the world to the screen.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stage {
-    world_to_clip: Projective<World, Clip>,
+    /// With the sheet of the picture in the whole of the view volume.
+    pub(super) world_to_clip: Projective<World, Clip>,
     /// What is kept: the view volume with a guard band.
     pub(super) volume: Volume,
     pub(super) ndc_to_screen: Affine<Ndc, Screen>,
+    screen_to_ndc: Affine<Screen, Ndc>,
     pub(super) mirrors: bool,
 }
 
@@ -30,8 +33,10 @@ pub(super) enum Whereabouts {
 }
 
 impl Stage {
-    pub(super) fn of(scene: &Scene) -> Result<Self, RenderError> {
-        Self::new(&scene.shot, scene.image.width, scene.image.height)
+    pub(super) fn of(scene: &Scene, sheet: Sheet) -> Result<Self, RenderError> {
+        let mut stage = Self::new(&scene.shot, sheet.area.width, sheet.area.height)?;
+        stage.world_to_clip = sheet.world_to_clip(scene)?;
+        Ok(stage)
     }
 
     /// The way to a picture of this size.
@@ -48,6 +53,7 @@ impl Stage {
             world_to_clip: shot.world_to_clip(),
             volume,
             ndc_to_screen: viewport.ndc_to_screen(),
+            screen_to_ndc: viewport.screen_to_ndc(),
             mirrors: shot.mirrors(),
         })
     }
@@ -93,6 +99,11 @@ impl Stage {
     /// The visible part of a line; `None` if there is none.
     pub(super) fn visible_segment(&self, ends: [HPoint<Clip>; 2]) -> Option<clip::ClippedSegment> {
         clip_segment(ends[0], ends[1], &self.volume)
+    }
+
+    /// From pixels back to the canonical volume.
+    pub(super) fn screen_to_ndc(&self) -> Affine<Screen, Ndc> {
+        self.screen_to_ndc
     }
 
     /// The divide and the viewport.

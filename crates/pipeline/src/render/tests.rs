@@ -1,6 +1,7 @@
 //! That shading eight fragments at once changes nothing.
 
 use super::assemble::assemble;
+use super::region::{Region, sheets};
 use super::renderer::Memory;
 use super::{Renderer, Textures};
 use crate::scene::{Origin, Scene, Style, parse};
@@ -39,7 +40,8 @@ fn eight_fragments_at_once_have_the_colours_of_one_by_one() {
             scene.style = style;
             scene.image.samples = Samples::from_count(samples).expect("a number of samples");
             let textures = Textures::of(&scene.models);
-            let memory = Renderer::default().lend(&scene, 1).expect("a frame");
+            let whole = sheets(scene.image, Region::whole(scene.image))[0];
+            let memory = Renderer::default().lend(&scene, whole, 1).expect("a frame");
             let Memory { frame, draws, .. } =
                 assemble(&scene, &textures, 1, memory).expect("a frame");
             let viewer = scene.shot.viewer();

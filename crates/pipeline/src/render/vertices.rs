@@ -124,7 +124,7 @@ fn turned_tangents(tangents: &[[f32; 4]], model_to_world: Affine<Model, World>) 
 }
 
 /// The map of normals that belongs to a map of points, times a positive number: the inverse transposed, by cofactors.
-fn normal_map(map: Affine<Model, World>) -> DMat3 {
+pub(super) fn normal_map(map: Affine<Model, World>) -> DMat3 {
     let raw = map.raw();
     let [x, y, z] = [raw.x_axis, raw.y_axis, raw.z_axis].map(glam::DVec4::truncate);
     let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
@@ -135,7 +135,7 @@ fn normal_map(map: Affine<Model, World>) -> DMat3 {
 }
 
 /// The unit normal in the world; zero if it has no direction.
-fn turned(map: DMat3, normal: [f32; 3]) -> [f32; 3] {
+pub(super) fn turned(map: DMat3, normal: [f32; 3]) -> [f32; 3] {
     let turned = map * DVec3::from_array(normal.map(f64::from));
     let length = turned.length();
     let unit = if length > 0.0 && length.is_finite() { turned / length } else { DVec3::ZERO };

@@ -14,6 +14,7 @@ mod look;
 mod material;
 mod occlusion;
 mod overlay;
+mod passes;
 mod projection;
 mod section;
 mod shadow;
@@ -30,6 +31,7 @@ pub use self::look::{BackgroundFile, ImageFile, StyleFile, ToneMappingFile};
 pub use self::material::{AlphaModeFile, MaterialFile, MaterialsFile};
 pub use self::occlusion::AmbientOcclusionFile;
 pub use self::overlay::OverlayFile;
+pub use self::passes::{PassEncodingFile, PassFile, PassesFile};
 pub use self::projection::{PrincipalFile, ProjectionFile};
 pub use self::section::SectionFile;
 pub use self::shadow::ShadowsFile;
@@ -76,6 +78,9 @@ pub struct SceneFile {
     /// What is drawn over the picture. Default: nothing.
     #[serde(default)]
     pub overlays: Vec<OverlayFile>,
+    /// What is written of each pixel besides its colour. Default: nothing.
+    #[serde(default)]
+    pub passes: PassesFile,
     /// Planes that cut the models open, one after the other, in line drawings and on sheets; at most 16. Default: none.
     #[serde(default)]
     pub sections: Vec<SectionFile>,
@@ -158,6 +163,7 @@ impl SceneFile {
             style: StyleFile::default(),
             image: ImageFile::default(),
             overlays: Vec::new(),
+            passes: PassesFile::default(),
             sections: Vec::new(),
             sheet: None,
         }

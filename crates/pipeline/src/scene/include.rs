@@ -197,6 +197,7 @@ fn laid_over(below: Layer, above: Layer) -> Layer {
         style,
         image,
         overlays,
+        passes,
         sections,
         sheet,
     } = above.file;
@@ -221,6 +222,7 @@ fn laid_over(below: Layer, above: Layer) -> Layer {
         style: if has("style") { style } else { old.style },
         image: if has("image") { image } else { old.image },
         overlays: joined(old.overlays, overlays),
+        passes: if has("passes") { passes } else { old.passes },
         sections: joined(old.sections, sections),
         sheet: if has("sheet") { sheet } else { old.sheet },
     };

@@ -48,7 +48,7 @@ fn near_misses_are_answered_with_the_name_that_was_meant() {
         &with("style: Hatched"),
         "unexpected `Hatched` for `Style`",
         (3, 10),
-        "possible here: `Shaded`, `Flat`, `Wireframe`, `Lines`",
+        "possible here: `Shaded`, `Flat`, `Gouraud`, `Clay`, `Matcap`, `Normals`, `Depth`, `UvChecker`, `Ids`, `Toon`, `XRay`, `Wireframe`, `Lines`",
     );
 }
 

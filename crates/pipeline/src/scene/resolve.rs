@@ -112,10 +112,10 @@ impl Scene {
 
 pub(super) fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSpec, SceneError> {
     let (width, height) = file.image.size;
-    let fits = |side: u32| (1..=raster::MAX_SIDE).contains(&side);
+    let fits = |side: u32| (1..=crate::MAX_SIDE).contains(&side);
     if !fits(width) || !fits(height) {
         let message = format!("a picture cannot have {width} x {height} pixels");
-        let help = format!("each side must be between 1 and {}", raster::MAX_SIDE);
+        let help = format!("each side must be between 1 and {}", crate::MAX_SIDE);
         return Err(origin.fault(&[Field("image"), Field("size")], message, Some(help)));
     }
     let samples = Samples::from_count(file.image.samples).ok_or_else(|| {
@@ -328,6 +328,7 @@ pub(super) fn resolve_overlays(
             OverlayFile::Axes { length } => Overlay::Axes(length.map(Positive::value)),
             OverlayFile::Grid { step } => Overlay::Grid(step.map(Positive::value)),
             OverlayFile::Horizon => Overlay::Horizon,
+            OverlayFile::Edges => Overlay::Edges,
             OverlayFile::VanishingPoints => Overlay::VanishingPoints,
             OverlayFile::Volume(camera) => {
                 Overlay::Volume(resolve_shot(origin, camera, models, image)?.into())

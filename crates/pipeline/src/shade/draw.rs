@@ -14,6 +14,8 @@ use std::borrow::Cow;
 pub struct Draw<'a> {
     /// The name of its first point, line or triangle; the others follow.
     pub first_id: u32,
+    /// Its number among the primitives of the scene, as often as they are shown.
+    pub part: u32,
     /// Indices, and what else the vertices carry.
     pub primitive: &'a Primitive,
     /// What it is made of.

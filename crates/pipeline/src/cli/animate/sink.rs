@@ -71,7 +71,12 @@ impl Sink {
 
     fn gif(output: &Path, film: &Film, fps: f64) -> Result<Self, Failure> {
         let (width, height) = film.size();
-        let [width, height] = [width, height].map(|side| side as u16);
+        let (Ok(width), Ok(height)) = (u16::try_from(width), u16::try_from(height)) else {
+            let most = u16::MAX;
+            return Err(Failure::Usage(format!(
+                "a GIF has sides of {most} pixels at most, and these pictures have {width} x {height}"
+            )));
+        };
         let fault = |error| gif_fault(output, error);
         let file = Shared::of(output)?;
         let mut encoder = gif::Encoder::new(file, width, height, &[]).map_err(fault)?;

@@ -15,13 +15,13 @@ const NUMBERS: [&str; 2] = ["frame", "index"];
 
 /// A picture to make.
 #[derive(Debug)]
-pub(super) struct Job {
+pub(in crate::cli) struct Job {
     /// The scene or the model; `-` for the standard input.
-    pub(super) input: PathBuf,
-    pub(super) look: LookArgs,
-    pub(super) format: Format,
+    pub(in crate::cli) input: PathBuf,
+    pub(in crate::cli) look: LookArgs,
+    pub(in crate::cli) format: Format,
     /// The file; `None` for the standard output.
-    pub(super) output: Option<PathBuf>,
+    pub(in crate::cli) output: Option<PathBuf>,
 }
 
 /// Every picture, in the order of the inputs and of the views.

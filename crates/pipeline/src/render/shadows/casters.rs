@@ -3,8 +3,9 @@
 use crate::model::{TextureSlot, TextureUse, Topology};
 use crate::render::RenderError;
 use crate::render::Textures;
-use crate::render::assemble::{DEFAULT_MATERIAL, cover_of, triangle};
+use crate::render::assemble::{DEFAULT_MATERIAL, triangle};
 use crate::render::images::Images;
+use crate::render::needs::cover_of;
 use crate::render::stage::Stage;
 use crate::render::vertices::{Parts, uv_set};
 use crate::scene::Scene;
@@ -79,6 +80,7 @@ pub(super) fn add_casters<'a>(
                 );
                 draws.draws.push(Draw {
                     first_id,
+                    part: 0,
                     primitive,
                     material,
                     maps: Maps::of(material, 1, texture),

@@ -13,6 +13,24 @@ pub enum StyleFile {
     Shaded,
     /// Lit, each triangle with one normal.
     Flat,
+    /// Lit at the corners of triangles and blended over them, matt, in the colours of the materials.
+    Gouraud,
+    /// Matt clay in the light of the scene.
+    Clay,
+    /// As a ball of glazed clay whose surface faces the viewer alike, whatever the light of the scene.
+    Matcap,
+    /// Normals in the world as colours: red, green and blue are (n + 1) / 2.
+    Normals,
+    /// The nearer, the brighter.
+    Depth,
+    /// A checkerboard by texture coordinates, 8 squares for each unit; red grows with u, green with v.
+    UvChecker,
+    /// A colour for each part.
+    Ids,
+    /// The colours of the materials in three steps of light, with outlines.
+    Toon,
+    /// As if of glass: surfaces are denser the more they lie along the line of sight.
+    XRay,
     /// The edges of all triangles, the hidden ones too.
     Wireframe,
     /// A line drawing. Default: hidden lines removed.
@@ -65,6 +83,8 @@ pub struct ImageFile {
     pub background: BackgroundFile,
     /// Coverage samples per pixel: 1, 4, 8 or 16. Default: 4.
     pub samples: u32,
+    /// The bits of each channel in a PNG: 8 or 16. Default: 8.
+    pub bits: u32,
     /// The exposure in stops: each doubles all light. Default: 0.
     pub exposure_ev: Option<Finite>,
     /// The curve that brings bright light into the range of a picture. Default: none.
@@ -80,6 +100,7 @@ impl Default for ImageFile {
             size: (960, 720),
             background: BackgroundFile::Transparent,
             samples: 4,
+            bits: 8,
             exposure_ev: None,
             tone_mapping: ToneMappingFile::None,
             anisotropy: 4,

@@ -24,4 +24,6 @@ pub enum OverlayFile {
     VanishingPoints,
     /// What another camera sees: its view volume and its eye.
     Volume(CameraFile),
+    /// The edges of the surfaces where they can be seen: outlines, borders, creases. Line drawings have them anyway.
+    Edges,
 }

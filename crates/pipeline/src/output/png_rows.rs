@@ -1,0 +1,68 @@
+//! PNG files row by row: the whole picture need never be in memory.
+
+use crate::Channel;
+use png::{BitDepth, ColorType, Compression, Encoder, SrgbRenderingIntent, StreamWriter};
+use std::io::{self, Write};
+
+/// How much of a file is one of its data chunks.
+const CHUNK: usize = 1 << 20;
+/// About as many pixels are handed over at once.
+const AT_ONCE: usize = 1 << 13;
+
+/// The pixels of a PNG file that is being written. Its bytes do not depend on how many are given at a time.
+pub struct PngRows<'a, W: Write> {
+    stream: StreamWriter<'a, W>,
+    opaque: bool,
+    bytes: Vec<u8>,
+}
+
+/// Writes a PNG file of this width and height, with 8 or 16 bits for each channel: of red, green and blue if the picture is opaque,
+/// and with straight alpha otherwise. `draw` writes its pixels.
+///
+/// # Errors
+/// If the file cannot be written, `draw` fails, or it has written too many pixels or too few.
+pub fn encode_png<W: Write, E: From<io::Error>>(
+    out: W,
+    size: [u32; 2],
+    opaque: bool,
+    bits: u8,
+    draw: impl FnOnce(&mut PngRows<'_, W>) -> Result<(), E>,
+) -> Result<(), E> {
+    let mut encoder = Encoder::new(out, size[0], size[1]);
+    encoder.set_color(if opaque { ColorType::Rgb } else { ColorType::Rgba });
+    encoder.set_depth(if bits == 16 { BitDepth::Sixteen } else { BitDepth::Eight });
+    encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+    encoder.set_compression(Compression::Fast);
+    let mut writer = encoder.write_header().map_err(io::Error::from)?;
+    {
+        let stream = writer.stream_writer_with_size(CHUNK).map_err(io::Error::from)?;
+        let mut rows = PngRows { stream, opaque, bytes: Vec::new() };
+        draw(&mut rows)?;
+        rows.stream.finish().map_err(io::Error::from)?;
+    }
+    Ok(writer.finish().map_err(io::Error::from)?)
+}
+
+impl<W: Write> PngRows<'_, W> {
+    /// Writes the next pixels; of an opaque picture alpha is left out.
+    ///
+    /// # Errors
+    /// If they cannot be written, or are more than the picture has.
+    pub fn write<C: Channel>(&mut self, pixels: &[[C; 4]]) -> io::Result<()> {
+        let count = if self.opaque { 3 } else { 4 };
+        for pixels in pixels.chunks(AT_ONCE) {
+            self.bytes.clear();
+            for pixel in pixels {
+                pixel[..count].iter().for_each(|channel| channel.write(&mut self.bytes));
+            }
+            self.stream.write_all(&self.bytes)?;
+        }
+        Ok(())
+    }
+}
+
+impl<W: Write> std::fmt::Debug for PngRows<'_, W> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("PngRows").field("opaque", &self.opaque).finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,118 @@
+//! The two depths of a channel: 8 and 16 bits.
+
+use crate::color::{DeepEncoder, SrgbEncoder};
+use raster::Encode;
+
+/// One of the four numbers of a pixel: `u8` or `u16`.
+pub trait Channel: sealed::Sealed + Copy + Default + Eq + Send + Sync + 'static {
+    /// All of it: 255 or 65,535.
+    const FULL: Self;
+    /// How many bits it has.
+    const BITS: u8;
+    /// Makes sRGB pixels with straight alpha of linear colours that are multiplied by alpha.
+    fn encoder() -> impl Encode<[Self; 4]>;
+    /// The same share of all, from 8 bits.
+    fn of_byte(byte: u8) -> Self;
+    /// The nearest of 8 bits.
+    fn to_byte(self) -> u8;
+    /// Appends the bytes that a PNG has for it: the upper first.
+    fn write(self, bytes: &mut Vec<u8>);
+    /// A pixel under one of a drawing: sRGB and multiplied by alpha as canvases are, of 8 bits.
+    fn under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4];
+}
+
+mod sealed {
+    /// Nobody else makes channels.
+    pub trait Sealed {}
+    impl Sealed for u8 {}
+    impl Sealed for u16 {}
+}
+
+impl Channel for u8 {
+    const FULL: Self = Self::MAX;
+    const BITS: u8 = 8;
+
+    #[inline(always)]
+    fn encoder() -> impl Encode<[Self; 4]> {
+        SrgbEncoder::shared()
+    }
+
+    fn of_byte(byte: u8) -> Self {
+        byte
+    }
+
+    fn to_byte(self) -> u8 {
+        self
+    }
+
+    fn write(self, bytes: &mut Vec<u8>) {
+        bytes.push(self);
+    }
+
+    fn under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4] {
+        u16::under(pixel.map(u16::of_byte), over).map(u16::to_byte)
+    }
+}
+
+impl Channel for u16 {
+    const FULL: Self = Self::MAX;
+    const BITS: u8 = 16;
+
+    #[inline(always)]
+    fn encoder() -> impl Encode<[Self; 4]> {
+        DeepEncoder::shared()
+    }
+
+    fn of_byte(byte: u8) -> Self {
+        Self::from(byte) * 257
+    }
+
+    fn to_byte(self) -> u8 {
+        ((u32::from(self) + 128) / 257) as u8
+    }
+
+    fn write(self, bytes: &mut Vec<u8>) {
+        bytes.extend(self.to_be_bytes());
+    }
+
+    fn under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4] {
+        if over[3] == 0 {
+            return pixel;
+        }
+        let full = f64::from(Self::FULL);
+        let [.., alpha] = over.map(|channel| f64::from(channel) / 255.0);
+        let through = f64::from(pixel[3]) / full * (1.0 - alpha);
+        let sum = alpha + through;
+        let mut mixed = [0, 1, 2, 3].map(|k| {
+            let color = f64::from(over[k]) / 255.0 + f64::from(pixel[k]) / full * through;
+            (color / sum * full + 0.5).clamp(0.0, full) as Self
+        });
+        mixed[3] = (sum * full + 0.5).clamp(0.0, full) as Self;
+        mixed
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn drawings_lie_over_pixels_as_alpha_has_it() {
+        let under = [65_535, 0, 32_768, 65_535];
+        assert_eq!(u16::under(under, [0; 4]), under);
+        assert_eq!(u16::under(under, [10, 20, 30, 255]), [2570, 5140, 7710, 65_535]);
+        // Half of the drawing's black over it.
+        let [r, g, b, a] = u16::under(under, [0, 0, 0, 51]);
+        assert_eq!([r, g, a], [52_428, 0, 65_535]);
+        assert!(b.abs_diff(26_214) <= 1);
+        assert_eq!(u16::under([0; 4], [25, 0, 0, 51]), [32_125, 0, 0, 13_107]);
+    }
+
+    #[test]
+    fn bytes_survive_sixteen_bits() {
+        for byte in 0..=255_u8 {
+            assert_eq!(u16::of_byte(byte).to_byte(), byte);
+        }
+        assert_eq!(u16::FULL.to_byte(), 255);
+    }
+}

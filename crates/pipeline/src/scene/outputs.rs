@@ -1,0 +1,92 @@
+//! What is written of a scene's picture: how many bits its channels have, and which passes go with it.
+
+use super::file::{PassEncodingFile, PassFile};
+use super::locate::Step::Field;
+use super::{Origin, SceneError, SceneFile};
+use crate::render::passes::{Pass, PassEncoding};
+
+/// What is written of a scene's picture.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Outputs {
+    /// Whether channels have 16 bits, and not 8.
+    pub deep: bool,
+    /// The passes beside the picture.
+    pub passes: Vec<Pass>,
+    /// How passes are written.
+    pub encoding: PassEncoding,
+}
+
+impl Outputs {
+    /// What a scene file asks for.
+    ///
+    /// # Errors
+    /// If it asks for another number of bits; the error points at it.
+    pub fn of(origin: &Origin, file: &SceneFile) -> Result<Self, SceneError> {
+        let bits = file.image.bits;
+        if bits != 8 && bits != 16 {
+            let message = format!("a channel cannot have {bits} bits");
+            let help = Some("possible are 8 and 16".to_owned());
+            return Err(origin.fault(&[Field("image"), Field("bits")], message, help));
+        }
+        let encoding = match file.passes.encoding {
+            PassEncodingFile::Png => PassEncoding::Png,
+            PassEncodingFile::Npy => PassEncoding::Npy,
+        };
+        let mut passes: Vec<Pass> = file.passes.write.iter().copied().map(Pass::from).collect();
+        passes.sort_unstable();
+        passes.dedup();
+        Ok(Self { deep: bits == 16, passes, encoding })
+    }
+}
+
+impl From<PassFile> for Pass {
+    fn from(file: PassFile) -> Self {
+        match file {
+            PassFile::Depth => Self::Depth,
+            PassFile::Distance => Self::Distance,
+            PassFile::Normal => Self::Normal,
+            PassFile::ViewNormal => Self::ViewNormal,
+            PassFile::Position => Self::Position,
+            PassFile::Uv => Self::Uv,
+            PassFile::Barycentric => Self::Barycentric,
+            PassFile::Id => Self::Id,
+            PassFile::Model => Self::Model,
+            PassFile::Node => Self::Node,
+            PassFile::Mesh => Self::Mesh,
+            PassFile::Material => Self::Material,
+            PassFile::Overdraw => Self::Overdraw,
+            PassFile::Coverage => Self::Coverage,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::parse;
+    use super::*;
+
+    fn outputs(text: &str) -> Result<Outputs, SceneError> {
+        let text = format!("Scene(models: [(path: \"a.glb\")],\n  {text})");
+        let file = parse("scene.ron", &text)?;
+        let origin = Origin::of_text("scene.ron", text, ".".into());
+        Outputs::of(&origin, &file)
+    }
+
+    #[test]
+    fn passes_and_bits_are_as_the_file_has_them() {
+        assert_eq!(outputs("").expect("defaults"), Outputs::default());
+        let found = outputs("image: (bits: 16), passes: (write: [Uv, Depth, Uv], encoding: Npy)");
+        let passes = vec![Pass::Depth, Pass::Uv];
+        let due = Outputs { deep: true, passes, encoding: PassEncoding::Npy };
+        assert_eq!(found.expect("a scene"), due);
+    }
+
+    #[test]
+    fn mistakes_are_pointed_at() {
+        let error = outputs("image: Image(bits: 10)").expect_err("ten bits");
+        assert_eq!(error.line_and_column(), (2, 22));
+        assert_eq!(error.message, "a channel cannot have 10 bits");
+        let error = outputs("passes: (write: [Depht])").expect_err("no such pass");
+        assert_eq!(error.help.as_deref(), Some("did you mean `Depth`?"));
+    }
+}

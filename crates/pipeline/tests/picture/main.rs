@@ -1,0 +1,22 @@
+//! What pictures are besides their colours: passes, regions, depths of colour.
+
+#![allow(clippy::panic, reason = "what is missing in an answer fails the test")]
+
+mod passes;
+mod plane;
+mod regions;
+mod styles;
+
+use pipeline::scene::ResolveOptions;
+use pipeline::scene::file::SceneFile;
+use pipeline::{Origin, Scene};
+use std::path::Path;
+
+/// A scene of the project, after a change of its file.
+fn scene(name: &str, change: impl FnOnce(&mut SceneFile)) -> Scene {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    let (origin, mut file) =
+        Origin::read(&folder.join(format!("{name}.ron"))).expect("a committed scene");
+    change(&mut file);
+    Scene::resolve(&origin, &file, &ResolveOptions::default()).expect("a scene that makes sense")
+}

@@ -1,0 +1,127 @@
+//! Regions, bands and sheets: parts of a picture are the whole, bit for bit, and 16 bits are the 8 bits and more.
+
+use super::scene;
+use pipeline::scene::file::OverlayFile;
+use pipeline::{Channel, Paint, Picture, Region, Scene, Timings};
+
+/// Scenes with thin lines, layers, an environment behind everything, overlays, letters and line drawings.
+const SCENES: [&str; 7] =
+    ["floor", "panes", "primitives", "finishes", "two_point", "technical", "view_volume"];
+
+fn region<C: Channel>(scene: &Scene, region: Region) -> Picture<C> {
+    let timings = Timings::default();
+    let mut paint = Paint::new(scene, 2, &timings).expect("a scene");
+    paint.region(region).expect("a region")
+}
+
+fn assert_part<C: Channel + std::fmt::Debug>(
+    whole: &Picture<C>,
+    part: &Picture<C>,
+    at: Region,
+    name: &str,
+) {
+    for (x, y) in (0..at.height).flat_map(|y| (0..at.width).map(move |x| (x, y))) {
+        assert_eq!(
+            part.pixel(x, y),
+            whole.pixel(at.x + x, at.y + y),
+            "{name}: ({x}, {y}) of {at:?}"
+        );
+    }
+}
+
+#[test]
+fn regions_and_bands_are_parts_of_the_whole() {
+    for name in SCENES {
+        let scene = scene(name, |file| {
+            file.image.size = (330, 210);
+            file.overlays.push(OverlayFile::Axes { length: None });
+        });
+        let all = Region::whole(scene.image);
+        let whole: Picture = region(&scene, all);
+        let crop = Region { x: 101, y: 59, width: 150, height: 80 };
+        assert_part(&whole, &region(&scene, crop), crop, name);
+        let timings = Timings::default();
+        let mut paint = Paint::new(&scene, 1, &timings).expect("a scene");
+        let mut pixels: Vec<[u8; 4]> = Vec::new();
+        let mut file = Vec::new();
+        let witness = |band: &Picture| pixels.extend(&band.pixels);
+        paint.write_png(&mut file, all, 50, witness).expect("a file");
+        assert!(pixels == whole.pixels, "{name} in bands");
+        assert!(file == whole.to_png(), "{name} as a file");
+        let deep: Picture<u16> = region(&scene, all);
+        assert_part(&deep, &region(&scene, crop), crop, name);
+        hold_sixteen_bits(&whole, &deep, name);
+    }
+}
+
+/// That the nearest of 8 bits are those of the picture, but for what drawings over it round.
+fn hold_sixteen_bits(whole: &Picture, deep: &Picture<u16>, name: &str) {
+    let mut drawn = 0;
+    for (flat, deep) in whole.pixels.iter().zip(&deep.pixels) {
+        let far = (0..4).any(|k| (f64::from(deep[k]) / 257.0 - f64::from(flat[k])).abs() > 0.503);
+        // What little a pixel that is hardly there keeps of a colour is not told from 8 bits.
+        drawn += usize::from(far && flat[3] > 8);
+        let near = (0..4).all(|k| (f64::from(deep[k]) / 257.0 - f64::from(flat[k])).abs() <= 4.01);
+        assert!(near || flat[3] < 160, "{name}: {flat:?} {deep:?}");
+    }
+    assert!(drawn * 20 < whole.pixels.len(), "{name}: {drawn} pixels are not the nearest");
+}
+
+#[test]
+fn without_drawings_sixteen_bits_round_to_eight() {
+    for name in ["floor", "panes", "crates", "finishes"] {
+        let scene = scene(name, |file| file.image.size = (200, 130));
+        let all = Region::whole(scene.image);
+        let (flat, deep): (Picture, Picture<u16>) = (region(&scene, all), region(&scene, all));
+        for (flat, deep) in flat.pixels.iter().zip(&deep.pixels) {
+            for k in 0..4 {
+                let fine = f64::from(deep[k]) / 257.0;
+                assert!((fine - f64::from(flat[k])).abs() <= 0.503, "{name}: {flat:?} {deep:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn files_do_not_depend_on_the_bands_they_are_written_in() {
+    // Opaque, transparent, and transparent but covered from side to side.
+    for (background, covered) in [(1.0, false), (0.0, false), (0.0, true)] {
+        let mut scene = scene("spheres", |file| file.image.size = (333, 210));
+        scene.image.background = [background; 4];
+        let all = if covered {
+            Region { x: 160, y: 90, width: 9, height: 14 }
+        } else {
+            Region::whole(scene.image)
+        };
+        let timings = Timings::default();
+        let mut paint = Paint::new(&scene, 1, &timings).expect("a scene");
+        let whole: Picture = paint.region(all).expect("a picture");
+        assert_eq!(whole.is_opaque(), covered || background == 1.0);
+        for rows in [1, 64, 100] {
+            let mut bytes = Vec::new();
+            paint.write_png(&mut bytes, all, rows, |_: &Picture| ()).expect("a file");
+            assert!(bytes == whole.to_png(), "{rows} rows at a time");
+        }
+    }
+}
+
+#[test]
+fn regions_of_a_giant_picture_unite_across_its_sheets() {
+    for name in ["floor", "finishes", "two_point"] {
+        let scene = scene(name, |file| {
+            file.image.size = (20_000, 20_000);
+            file.image.samples = 4;
+        });
+        // Where four sheets meet.
+        let whole = Region { x: 16_200, y: 16_300, width: 400, height: 200 };
+        let picture: Picture = region(&scene, whole);
+        for (x, y, width, height) in
+            [(16_200, 16_300, 184, 84), (16_350, 16_320, 100, 140), (16_384, 16_384, 216, 116)]
+        {
+            let part = Region { x, y, width, height };
+            let found: Picture = region(&scene, part);
+            let within = Region { x: x - whole.x, y: y - whole.y, ..part };
+            assert_part(&picture, &found, within, name);
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! What is nearest, and how many layers there are, against frames of one primitive each.
+
+use homog::Point;
+use raster::{Cover, Fragment, Frame, Samples, ScreenVertex, Surface};
+
+const SIZE: [u32; 2] = [150, 100];
+
+/// A surface with holes.
+struct Holed;
+
+impl Surface for Holed {
+    fn keeps(&self, fragment: &Fragment<'_>) -> bool {
+        (fragment.x / 3 + fragment.y / 5).is_multiple_of(2)
+    }
+    fn shade(&self, _: &Fragment<'_>) -> [f32; 4] {
+        [0.0; 4]
+    }
+}
+
+/// Many triangles through each other, each of another depth at each corner.
+fn triangles() -> Vec<[ScreenVertex; 3]> {
+    let mut state = 12_345_u32;
+    let mut random = |most: f64| {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(state >> 8) / f64::from(1 << 24) * most
+    };
+    let mut vertex = || {
+        let place = Point::new(random(150.0), random(100.0), random(1.0));
+        ScreenVertex::snap(place, 1.0 + random(3.0)).expect("a vertex in the picture")
+    };
+    (0..60).map(|_| [vertex(), vertex(), vertex()]).collect()
+}
+
+fn frame(primitives: &[([ScreenVertex; 3], u32, Cover)]) -> Frame {
+    let mut frame = Frame::new(SIZE[0], SIZE[1], Samples::One).expect("a small frame");
+    for (corners, id, cover) in primitives {
+        frame.triangle(*corners, *id, *cover);
+    }
+    frame
+}
+
+fn cover_of(id: u32) -> Cover {
+    [Cover::Solid, Cover::Masked, Cover::Translucent][id as usize % 3]
+}
+
+/// For each pixel the primitives that cover its centre, with their depths, each drawn alone.
+fn covering() -> Vec<Vec<(u32, f32)>> {
+    let mut all = vec![Vec::new(); (SIZE[0] * SIZE[1]) as usize];
+    for (id, corners) in (0..).zip(triangles()) {
+        let seen = frame(&[(corners, id, Cover::Solid)]).visibility();
+        for (at, pixel) in all.iter_mut().enumerate().filter(|(at, _)| seen.ids[*at].is_some()) {
+            let (x, y) = (at as u32 % SIZE[0], at as u32 / SIZE[0]);
+            let is_there = cover_of(id) != Cover::Masked || (x / 3 + y / 5).is_multiple_of(2);
+            if is_there {
+                pixel.push((id, seen.depth[at]));
+            }
+        }
+    }
+    all
+}
+
+#[test]
+fn the_nearest_of_all_covers_is_found_for_any_number_of_threads() {
+    let given: Vec<_> = (0..).zip(triangles()).map(|(id, c)| (c, id, cover_of(id))).collect();
+    let frame = frame(&given);
+    for threads in 1..=3 {
+        let mut found = vec![None; (SIZE[0] * SIZE[1]) as usize];
+        frame.front(&Holed, threads, &mut found, |fragment| {
+            let sum: f32 = fragment.weights.iter().sum();
+            assert!((sum - 1.0).abs() < 1e-5, "{:?}", fragment.weights);
+            Some(fragment.id)
+        });
+        for (at, (pixel, found)) in covering().iter().zip(&found).enumerate() {
+            let nearest = pixel.iter().max_by(|(_, a), (_, b)| a.total_cmp(b));
+            assert_eq!(nearest.map(|(id, _)| *id), *found, "pixel {at}: {pixel:?}");
+        }
+    }
+}
+
+#[test]
+fn layers_are_counted_whatever_hides_them() {
+    let translucent = |(id, corners)| (corners, id, Cover::Translucent);
+    let frame = frame(&(0..).zip(triangles()).map(translucent).collect::<Vec<_>>());
+    /// Keeps what is not masked, and what the holes leave of the rest.
+    struct Kept;
+    impl Surface for Kept {
+        fn keeps(&self, fragment: &Fragment<'_>) -> bool {
+            cover_of(fragment.id) != Cover::Masked || Holed.keeps(fragment)
+        }
+        fn shade(&self, _: &Fragment<'_>) -> [f32; 4] {
+            [0.0; 4]
+        }
+    }
+    let mut counts = vec![0; (SIZE[0] * SIZE[1]) as usize];
+    frame.count_layers(&Kept, 2, &mut counts);
+    let due: Vec<u32> = covering().iter().map(|pixel| pixel.len() as u32).collect();
+    assert!(due.iter().any(|count| *count > 8), "they lie over each other");
+    assert_eq!(counts, due);
+}
