@@ -8,7 +8,7 @@
 
 use crate::model::Model;
 use crate::render::{RenderError, Renderer, Textures};
-use crate::scene::file::EnvironmentFile;
+use crate::scene::file::{BackgroundFile, EnvironmentFile};
 use crate::scene::{Origin, Placed, ResolveError, Scene, SceneFile, bounds};
 use crate::{Picture, Timings, render};
 use homog::{Affine, Point, World};
@@ -78,10 +78,13 @@ impl Film {
         let mut film = Self { scene, motion, frames, middle };
         let moments = (0..MOMENTS).flat_map(|at| film.models_at(at as f64 / MOMENTS as f64));
         // The surroundings have been read before: whoever was allowed to then is so now.
-        let known = match &file.environment {
-            Some(EnvironmentFile::File { path, .. }) => vec![origin.folder.join(path)],
-            _ => Vec::new(),
-        };
+        let mut known = Vec::new();
+        if let Some(EnvironmentFile::File { path, .. }) = &file.environment {
+            known.push(origin.folder.join(path));
+        }
+        if let BackgroundFile::Picture { path, .. } = &file.image.background {
+            known.push(origin.folder.join(path));
+        }
         let framed = Scene::around(origin, file, moments.collect(), &known)?;
         (film.scene.shot, film.scene.lights) = (framed.shot, framed.lights);
         film.scene.ground = framed.ground;

@@ -7,6 +7,7 @@
 //! ```
 
 mod assemble;
+mod backdrop;
 mod ground;
 mod images;
 mod lines;

@@ -4,6 +4,7 @@
 //! radians, every default is decided, and what does not make sense has become an error that points at its place.
 
 mod advice;
+mod background;
 pub(crate) mod bounds;
 mod classical;
 mod error;
@@ -21,6 +22,7 @@ mod number;
 mod origin;
 mod outputs;
 mod overrides;
+mod painting;
 mod parse;
 mod radiance;
 pub mod reference;
@@ -40,6 +42,7 @@ pub use ground::Ground;
 pub use layout::laid_out;
 pub use origin::Origin;
 pub use outputs::Outputs;
+pub use painting::{Fit, Gradient, Painting, Photo};
 pub use parse::parse;
 pub use resolve::{ResolveOptions, chosen_animation};
 pub use review::review;
@@ -75,6 +78,8 @@ pub struct Scene {
     pub style: Style,
     /// The picture to make.
     pub image: ImageSpec,
+    /// What is painted behind the models, over the picture's background.
+    pub painting: Option<Arc<Painting>>,
     /// What is drawn over it.
     pub overlays: Vec<Overlay>,
     /// Planes that cut the models open in line drawings; their unit normals point to what is kept.

@@ -3,6 +3,7 @@
 //! These types say what a scene file may contain and nothing of what it means; [`Scene::resolve`](super::Scene::resolve) does that. Every
 //! field but the models' paths may be left out. Unknown fields are errors, so that a slip of the pen is found.
 
+mod background;
 mod camera;
 mod environment;
 mod ground;
@@ -20,6 +21,7 @@ mod section;
 mod shadow;
 mod sheet;
 
+pub use self::background::{BackgroundFile, FitFile};
 pub use self::camera::{CameraChoice, CameraFile, FromFile, USUAL_PADDING, ViewFile};
 pub use self::environment::EnvironmentFile;
 pub use self::ground::GroundFile;
@@ -27,7 +29,7 @@ pub use self::include::Paths;
 pub use self::instances::{InstanceFile, InstancesFile};
 pub use self::light::LightFile;
 pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, ToneFile, WidthFile};
-pub use self::look::{BackgroundFile, ImageFile, StyleFile, ToneMappingFile};
+pub use self::look::{ImageFile, StyleFile, ToneMappingFile};
 pub use self::material::{AlphaModeFile, MaterialFile, MaterialsFile};
 pub use self::occlusion::AmbientOcclusionFile;
 pub use self::overlay::OverlayFile;

@@ -7,7 +7,7 @@
 //! ```
 //! Lists are joined, what is included first; of every other field the including file's goes before the included ones', whole.
 
-use super::file::{EnvironmentFile, ModelFile};
+use super::file::{BackgroundFile, EnvironmentFile, ModelFile};
 use super::locate::Step::{self, Field, Index};
 use super::locate::{locate, says};
 use super::origin::{plain, read_text};
@@ -178,6 +178,9 @@ fn rebase(file: &mut SceneFile, folder: &Path) {
         |path: &mut String| *path = folder.join(&*path).to_string_lossy().replace('\\', "/");
     file.models.iter_mut().for_each(|ModelFile { path, .. }| rebased(path));
     if let Some(EnvironmentFile::File { path, .. }) = &mut file.environment {
+        rebased(path);
+    }
+    if let BackgroundFile::Picture { path, .. } = &mut file.image.background {
         rebased(path);
     }
 }

@@ -1,9 +1,9 @@
 //! From what a person wrote to what drawing needs, or to an error that points.
 
+use super::background;
 use super::bounds::world_points;
 use super::file::{
-    BackgroundFile, Choice, EnvironmentFile, Finite, MaterialFile, ModelFile, OverlayFile,
-    ToneMappingFile,
+    BackgroundFile, Choice, Finite, MaterialFile, ModelFile, OverlayFile, ToneMappingFile,
 };
 use super::ground::resolve_ground;
 use super::instances;
@@ -17,7 +17,6 @@ use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
 use super::wording::suggestion;
 use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile, Style};
-use crate::color::parse_hex;
 use crate::drawing::Overlay;
 use crate::import::{FaultKind, ImportError, ImportOptions, load, load_bytes};
 use crate::model::Model;
@@ -94,6 +93,7 @@ impl Scene {
         let environment = if is_lit { environment()? } else { None };
         let overlays = resolve_overlays(origin, &file.overlays, &models, image)?;
         let sections = resolve_sections(origin, &file.sections)?;
+        let painting = background::painting(origin, file, allowed)?;
         Ok(Self {
             models,
             shot,
@@ -104,6 +104,7 @@ impl Scene {
             develop,
             style,
             image,
+            painting,
             overlays,
             sections,
         })
@@ -123,25 +124,7 @@ pub(super) fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSp
         let help = Some("possible are 1, 4, 8 and 16".to_owned());
         origin.fault(&[Field("image"), Field("samples")], message, help)
     })?;
-    let background = match &file.image.background {
-        BackgroundFile::Transparent => [0.0; 4],
-        BackgroundFile::Environment { .. }
-            if matches!(file.environment, None | Some(EnvironmentFile::Dark)) =>
-        {
-            let help = Some("add one, such as environment: Studio()".to_owned());
-            let at = [Field("image"), Field("background")];
-            return Err(origin.fault(&at, "the scene has no environment to be seen", help));
-        }
-        BackgroundFile::Environment { .. } => [0.0, 0.0, 0.0, 1.0],
-        BackgroundFile::Color(text) => {
-            let [r, g, b] = parse_hex(text).ok_or_else(|| {
-                let message = format!("`{text}` is no colour");
-                let help = Some("write #rgb or #rrggbb, such as #f4f1ea".to_owned());
-                origin.fault(&[Field("image"), Field("background")], message, help)
-            })?;
-            [r, g, b, 1.0]
-        }
-    };
+    let background = background::ground_color(origin, file)?;
     let backdrop = match &file.image.background {
         BackgroundFile::Environment { blur } => {
             Some(blur.map_or(0.0, |blur| blur.value().min(1.0) as f32))

@@ -1,5 +1,6 @@
 //! All mistakes of a scene file, and not only the first.
 
+use super::background;
 use super::error::SceneError;
 use super::file::SceneFile;
 use super::lights::resolve_light;
@@ -40,9 +41,10 @@ pub fn review(origin: &Origin, file: &SceneFile, options: &ResolveOptions) -> Ve
     }
     let is_whole = models.len() == file.models.len();
     let models = models.concat();
-    match resolve_image(origin, file) {
-        Err(mistake) => mistakes.push(mistake),
-        Ok(image) if !models.is_empty() && is_whole => {
+    let image = resolve_image(origin, file);
+    match &image {
+        Err(mistake) => mistakes.push(mistake.clone()),
+        &Ok(image) if !models.is_empty() && is_whole => {
             mistakes.extend(resolve_shot(origin, &file.camera, &models, image).err());
             mistakes.extend(resolve_overlays(origin, &file.overlays, &models, image).err());
         }
@@ -54,6 +56,10 @@ pub fn review(origin: &Origin, file: &SceneFile, options: &ResolveOptions) -> Ve
     mistakes.extend(shadows.err());
     mistakes
         .extend(resolve_environment(origin, file, &models, &options.import.allow_outside).err());
+    if image.is_ok() {
+        let painting = background::painting(origin, file, &options.import.allow_outside);
+        mistakes.extend(painting.err());
+    }
     mistakes.extend(resolve_style(origin, &file.style).err());
     mistakes.extend(resolve_sections(origin, &file.sections).err());
     let sheet = file.sheet.iter();
