@@ -29,3 +29,4 @@ mod sections;
 mod variants;
 mod vectors;
 mod viewers;
+mod views;

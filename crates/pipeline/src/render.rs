@@ -25,6 +25,7 @@ mod stage;
 mod tests;
 mod textures;
 mod vertices;
+mod viewports;
 
 pub use lines::draw;
 pub use paint::{Paint, PaintError, band_rows};

@@ -6,6 +6,7 @@
 mod advice;
 mod background;
 pub(crate) mod bounds;
+mod camera_path;
 mod classical;
 mod error;
 pub mod file;
@@ -33,9 +34,11 @@ mod shadows;
 mod sheet;
 mod surroundings;
 mod viewpoint;
+mod views;
 mod wording;
 
 pub use advice::{Advice, advise};
+pub use camera_path::CameraPath;
 pub use error::SceneError;
 pub use file::SceneFile;
 pub use ground::Ground;
@@ -44,8 +47,10 @@ pub use origin::Origin;
 pub use outputs::Outputs;
 pub use painting::{Fit, Gradient, Painting, Photo};
 pub use parse::parse;
+pub(crate) use resolve::shot_at;
 pub use resolve::{ResolveOptions, chosen_animation};
 pub use review::review;
+pub use views::View;
 
 use crate::drawing::{LineLook, Overlay};
 use crate::import::ImportError;
@@ -78,6 +83,8 @@ pub struct Scene {
     pub style: Style,
     /// The picture to make.
     pub image: ImageSpec,
+    /// Views of their own in parts of the picture, in the order in which they are drawn over it.
+    pub views: Vec<View>,
     /// What is painted behind the models, over the picture's background.
     pub painting: Option<Arc<Painting>>,
     /// What is drawn over it.

@@ -4,7 +4,8 @@ use super::RenderError;
 use crate::Timings;
 use crate::color::SrgbEncoder;
 use crate::drawing::{
-    self, Ink, Layer, LineLook, MILLIMETRES_PER_PIXEL, Overlay, Page, Pasted, Widths, micrometres,
+    self, Ink, Layer, LineLook, MILLIMETRES_PER_PIXEL, Overlay, Page, Pasted, Warning, Widths,
+    micrometres,
 };
 use crate::scene::{ImageSpec, Painting, Scene, Style};
 use glam::DVec2;
@@ -29,6 +30,7 @@ pub fn draw(scene: &Scene, threads: usize, timings: &Timings) -> Result<Page, Re
         let mut page = drawing.to_page(&look, &scene.title(), paper(scene.image.background));
         page.pictures.extend(scene.painting.as_ref().map(|all| pasted(all, scene.image)));
         page.layers.extend(drawing::overlays(scene));
+        page.warnings.extend((!scene.views.is_empty()).then_some(Warning::ViewportsUnseen));
         page
     };
     Ok(timings.measure("chains", page))

@@ -5,6 +5,7 @@
 
 mod background;
 mod camera;
+mod camera_path;
 mod environment;
 mod ground;
 mod include;
@@ -20,9 +21,11 @@ mod projection;
 mod section;
 mod shadow;
 mod sheet;
+mod viewport;
 
 pub use self::background::{BackgroundFile, FitFile};
 pub use self::camera::{CameraChoice, CameraFile, FromFile, USUAL_PADDING, ViewFile};
+pub use self::camera_path::{CameraKeyFile, CameraPathFile, CurveFile};
 pub use self::environment::EnvironmentFile;
 pub use self::ground::GroundFile;
 pub use self::include::Paths;
@@ -40,7 +43,8 @@ pub use self::shadow::ShadowsFile;
 pub use self::sheet::{
     AngleFile, AxonometricFile, OrientationFile, PaperFile, SheetFile, SideFile, UnitFile,
 };
-pub use super::number::Finite;
+pub use self::viewport::{BorderFile, StereoFile, ViewportFile};
+pub use super::number::{FieldOfView, Finite};
 use super::number::{Scale, Triple};
 use crate::import;
 use serde::Deserialize;
@@ -60,6 +64,13 @@ pub struct SceneFile {
     /// From where, and by which projection. Default: framed from a named direction, in perspective.
     #[serde(default)]
     pub camera: CameraFile,
+    /// Where the camera is at which time, for `alberti animate`; pictures do not look at it. Default: it stays in its place.
+    pub camera_path: Option<CameraPathFile>,
+    /// Views of their own in parts of the picture, one over the other. Default: none.
+    #[serde(default)]
+    pub viewports: Vec<ViewportFile>,
+    /// A pair of pictures for two eyes. Default: one picture.
+    pub stereo: Option<StereoFile>,
     /// The lights. Default: those of the models; where they have none and there is no environment either, a key light from above
     /// the viewer's left shoulder, and ambient light; with an environment the key light alone, if there are to be shadows.
     pub lights: Option<Vec<LightFile>>,
@@ -157,6 +168,9 @@ impl SceneFile {
             include: Paths::default(),
             models: vec![model],
             camera: CameraFile::default(),
+            camera_path: None,
+            viewports: Vec::new(),
+            stereo: None,
             lights: None,
             shadows: None,
             ground: None,

@@ -3,7 +3,8 @@
 use super::background;
 use super::bounds::world_points;
 use super::file::{
-    BackgroundFile, Choice, Finite, MaterialFile, ModelFile, OverlayFile, ToneMappingFile,
+    BackgroundFile, CameraFile, Choice, Finite, MaterialFile, ModelFile, OverlayFile,
+    ToneMappingFile,
 };
 use super::ground::resolve_ground;
 use super::instances;
@@ -15,11 +16,13 @@ use super::overrides::override_materials;
 use super::section::resolve_sections;
 use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
+use super::views::resolve_views;
 use super::wording::suggestion;
 use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile, Style};
 use crate::drawing::Overlay;
 use crate::import::{FaultKind, ImportError, ImportOptions, load, load_bytes};
 use crate::model::Model;
+use crate::render::Shot;
 use crate::shade::{Develop, ToneMapping};
 use homog::Bounds;
 use raster::Samples;
@@ -70,6 +73,18 @@ impl Scene {
         models: Vec<Placed>,
         allowed: &[PathBuf],
     ) -> Result<Self, ResolveError> {
+        let mut scene = Self::alone(origin, file, models, allowed)?;
+        scene.views = resolve_views(origin, file, &scene.models, allowed)?;
+        Ok(scene)
+    }
+
+    /// The same without its views.
+    pub(super) fn alone(
+        origin: &Origin,
+        file: &SceneFile,
+        models: Vec<Placed>,
+        allowed: &[PathBuf],
+    ) -> Result<Self, ResolveError> {
         let image = resolve_image(origin, file)?;
         let shot = resolve_shot(origin, &file.camera, &models, image)?;
         let lights = resolve_lights(origin, file, &models, &shot)?;
@@ -104,11 +119,22 @@ impl Scene {
             develop,
             style,
             image,
+            views: Vec::new(),
             painting,
             overlays,
             sections,
         })
     }
+}
+
+/// The camera of a scene at a moment, around models that are loaded, posed and placed.
+pub(crate) fn shot_at(
+    origin: &Origin,
+    camera: &CameraFile,
+    models: &[Placed],
+    image: ImageSpec,
+) -> Result<Shot, SceneError> {
+    resolve_shot(origin, camera, models, image)
 }
 
 pub(super) fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSpec, SceneError> {

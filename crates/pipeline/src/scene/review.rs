@@ -12,7 +12,8 @@ use super::section::resolve_sections;
 use super::shadows::resolve_shadow;
 use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
-use super::{Placed, ResolveOptions, instances};
+use super::views::resolve_views;
+use super::{CameraPath, Placed, ResolveError, ResolveOptions, instances};
 use crate::drawing::Sheet;
 use std::sync::Arc;
 
@@ -64,6 +65,14 @@ pub fn review(origin: &Origin, file: &SceneFile, options: &ResolveOptions) -> Ve
     mistakes.extend(resolve_sections(origin, &file.sections).err());
     let sheet = file.sheet.iter();
     mistakes.extend(sheet.filter_map(|sheet| Sheet::resolve(origin, sheet).err()));
+    mistakes.extend(CameraPath::of(origin, file).err());
+    if mistakes.is_empty() && is_whole && !models.is_empty() {
+        let views = resolve_views(origin, file, &models, &options.import.allow_outside);
+        mistakes.extend(views.err().and_then(|error| match error {
+            ResolveError::Scene(mistake) => Some(mistake),
+            _ => None,
+        }));
+    }
     mistakes.sort_by_key(|mistake| mistake.span.start);
     mistakes
 }

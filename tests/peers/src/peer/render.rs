@@ -53,6 +53,8 @@ impl Render {
             develop: pipeline::shade::Develop::default(),
             style: Style::Shaded,
             image: ImageSpec { width, height, background: [0.0; 4], backdrop: None, samples, anisotropy: 1 },
+            views: Vec::new(),
+            painting: None,
             overlays: Vec::new(),
         sections: Vec::new(),
         };
