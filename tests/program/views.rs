@@ -63,7 +63,8 @@ fn eyes_see_the_plane_of_convergence_in_one_place() {
     let pair = "stereo: SideBySide(convergence: 4.5, eye_distance: 0.3)";
     let pair = render(&bench, "pair", &format!("{camera}, {wide}, {pair}"));
     let dark = |pixels: Vec<[u8; 4]>| pixels.iter().filter(|p| **p != [255; 4]).count();
-    let counts = [dark(mono.2), dark(cut(&pair, [0, 0, 60, 60])), dark(cut(&pair, [60, 0, 60, 60]))];
+    let counts =
+        [dark(mono.2), dark(cut(&pair, [0, 0, 60, 60])), dark(cut(&pair, [60, 0, 60, 60]))];
     let near = |a: usize, b: usize| a.abs_diff(b) * 12 < a;
     assert!(near(counts[0], counts[1]) && near(counts[1], counts[2]), "{counts:?}");
     assert_ne!(cut(&pair, [0, 0, 60, 60]), cut(&pair, [60, 0, 60, 60]));
@@ -112,11 +113,14 @@ fn copies_and_changed_materials_are_seen() {
 fn a_camera_moves_along_its_keys() {
     let bench = Bench::new("camera_path");
     bench.bring("crate.glb");
-    let key = |time: f64, x: f64| {
-        format!("(time: {time}, eye: ({x}, 0.5, 6), target: ({x}, 0.5, 0))")
-    };
-    let keys = format!("camera_path: (keys: [{}, {}], curve: Linear)", key(1.0, 0.0), key(2.0, 2.0));
-    bench.write("way.ron", format!("Scene(models: [(path: \"crate.glb\")], image: (size: (40, 30)), {keys})"));
+    let key =
+        |time: f64, x: f64| format!("(time: {time}, eye: ({x}, 0.5, 6), target: ({x}, 0.5, 0))");
+    let keys =
+        format!("camera_path: (keys: [{}, {}], curve: Linear)", key(1.0, 0.0), key(2.0, 2.0));
+    bench.write(
+        "way.ron",
+        format!("Scene(models: [(path: \"crate.glb\")], image: (size: (40, 30)), {keys})"),
+    );
     let run = bench.run(&["animate", "way.ron", "-o", "f_{frame}.png", "--fps", "4"]);
     assert_eq!(run.code, 0, "{}", run.stderr);
     assert!(!bench.path("f_4.png").exists());

@@ -8,7 +8,6 @@
 
 use crate::model::Model;
 use crate::render::{RenderError, Renderer, Shot, Textures};
-use crate::scene::file::{BackgroundFile, EnvironmentFile};
 use crate::scene::{CameraPath, Origin, Placed, ResolveError, Scene, SceneFile, bounds, shot_at};
 use crate::{Picture, Timings, render};
 use homog::{Affine, Point, World};
@@ -80,16 +79,7 @@ impl Film {
         let mut film = Self { scene, motion, frames, middle, shots: Vec::new() };
         let moments = (0..MOMENTS).flat_map(|at| film.models_at(at as f64 / MOMENTS as f64));
         // The surroundings have been read before: whoever was allowed to then is so now.
-        let mut known = Vec::new();
-        if let Some(EnvironmentFile::File { path, .. }) = &file.environment {
-            known.push(origin.folder.join(path));
-        }
-        let others = file.viewports.iter().filter_map(|viewport| viewport.background.as_ref());
-        for background in others.chain([&file.image.background]) {
-            if let BackgroundFile::Picture { path, .. } = background {
-                known.push(origin.folder.join(path));
-            }
-        }
+        let known: Vec<_> = file.pictures().map(|path| origin.folder.join(path)).collect();
         let framed = Scene::around(origin, file, moments.collect(), &known)?;
         (film.scene.shot, film.scene.lights) = (framed.shot, framed.lights);
         film.scene.ground = framed.ground;

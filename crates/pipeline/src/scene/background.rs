@@ -16,6 +16,23 @@ const MOST_COLORS: usize = 16;
 const MOST_TEXELS: u64 = 1 << 26;
 const PATH: [Step<'static>; 2] = [Field("image"), Field("background")];
 
+impl SceneFile {
+    /// The paths of all pictures around and behind the models, from the scene's folder on.
+    pub fn pictures(&self) -> impl Iterator<Item = &str> {
+        let own = self.viewports.iter().filter_map(|viewport| viewport.background.as_ref());
+        let behind =
+            own.chain([&self.image.background]).filter_map(|background| match background {
+                BackgroundFile::Picture { path, .. } => Some(path.as_str()),
+                _ => None,
+            });
+        let around = match &self.environment {
+            Some(EnvironmentFile::File { path, .. }) => Some(path.as_str()),
+            _ => None,
+        };
+        around.into_iter().chain(behind)
+    }
+}
+
 fn fault(origin: &Origin, rest: &[Step<'_>], message: String, help: Option<&str>) -> SceneError {
     origin.fault(&[&PATH, rest].concat(), message, help.map(str::to_owned))
 }
