@@ -4,6 +4,7 @@
 //!  scenes ──► raster, render (ours) ┐
 //!             llvmpipe, euc         ├─► rounds, all by turns ──► medians of ratios ──► text, JSON, SVG
 //!  limits ──► clear, kernel         ┘
+//!  features ► render, with one thing more or less each
 //!  files  ──► alberti, f3d as processes
 //! ```
 //!
@@ -12,6 +13,7 @@
 mod chart;
 mod clock;
 mod contest;
+mod features;
 mod files;
 mod gl;
 mod goals;
@@ -28,7 +30,7 @@ use std::process::ExitCode;
 use std::rc::Rc;
 
 const USAGE: &str = "alberti-peers --out DIR [--alberti PROGRAM] [--rounds N] [PART…]
-Parts of names choose scenes, `limits`, `threads` and `files`; without any, all is measured.";
+Parts of names choose scenes, `limits`, `threads`, `features` and `files`; without any, all is measured.";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -90,6 +92,11 @@ fn run(arguments: &[String]) -> Result<(), String> {
     }
     let threads = if options.wants("threads") { contest::threads(&options)? } else { Vec::new() };
     println!("{}", report::threads(&threads));
+    let features = match scene::assets().filter(|_| options.wants("features")) {
+        Some(folder) => features::features(&folder.join("models"), options.rounds)?,
+        None => Vec::new(),
+    };
+    println!("{}", report::features(&features));
     let files = match (alberti, scene::assets()) {
         _ if !options.wants("files") => Vec::new(),
         (Some(alberti), Some(folder)) => {
@@ -100,7 +107,7 @@ fn run(arguments: &[String]) -> Result<(), String> {
             Vec::new()
         }
     };
-    let figures = Figures { llvmpipe, scenes, bounds, threads, files };
+    let figures = Figures { llvmpipe, scenes, bounds, threads, features, files };
     println!("{}", report::held_to(&figures));
     let write = |name: &str, text: String| {
         let path = out.join(name);

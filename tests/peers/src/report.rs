@@ -1,6 +1,7 @@
 //! The report: tables for a terminal, and the same figures as JSON.
 
 use crate::contest::{Heat, Threads};
+use crate::features::BASE;
 use crate::files::FileHeat;
 use crate::goals::goals;
 use crate::limits::KERNEL_PIXELS;
@@ -18,6 +19,8 @@ pub struct Figures {
     pub bounds: Option<Vec<Series>>,
     /// One thread against two.
     pub threads: Vec<Threads>,
+    /// What features of the shading cost.
+    pub features: Vec<Series>,
     /// From files to pictures.
     pub files: Vec<FileHeat>,
 }
@@ -40,6 +43,16 @@ pub fn scene(heat: &Heat) -> String {
 pub fn limits(series: &[Series]) -> String {
     let mut text = format!("\nlimits: fifty layers, and the kernel, are {KERNEL_PIXELS} pixels\n");
     table(&mut text, series, ["clear", "kernel"]);
+    text
+}
+
+/// The table of the shading's features.
+pub fn features(series: &[Series]) -> String {
+    let mut text = String::new();
+    if !series.is_empty() {
+        text += "\nfeatures: the flight helmet at 1080p, by `render`\n";
+        table(&mut text, series, [BASE, "1 sample"]);
+    }
     text
 }
 
@@ -137,6 +150,7 @@ pub fn to_json(figures: &Figures) -> Value {
     json!({
         "llvmpipe": figures.llvmpipe,
         "scenes": scenes.collect::<Value>(),
+        "features": contestants(&figures.features, &[BASE]),
         "limits": figures.bounds.as_ref().map(|series| contestants(series, &["clear", "kernel"])),
         "threads": threads.collect::<Value>(),
         "files": files.collect::<Value>(),

@@ -54,8 +54,8 @@ pub(crate) fn pages(args: &ManArgs, program: Command) -> Result<(), Failure> {
 
 fn write_all(command: &Command, name: &str, folder: &std::path::Path) -> Result<(), Failure> {
     pipeline::write_file(&folder.join(format!("{name}.1")), &page(command, name)?)?;
-    let inner = command.get_subcommands();
-    inner.map(|inner| write_all(inner, &format!("{name}-{}", inner.get_name()), folder)).collect()
+    let mut inner = command.get_subcommands();
+    inner.try_for_each(|inner| write_all(inner, &format!("{name}-{}", inner.get_name()), folder))
 }
 
 /// The page of a command in the language of roff.

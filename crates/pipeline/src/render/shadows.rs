@@ -28,7 +28,8 @@ pub(super) struct ShadowMemory {
 impl ShadowMemory {
     /// Takes all maps out and keeps their memory.
     pub(super) fn clear(&mut self) {
-        self.spare.extend(self.maps.drain(..).flatten());
+        // The first map that is asked for next time is the one of the first light.
+        self.spare.extend(self.maps.drain(..).rev().flatten());
     }
 
     /// Makes the maps of a scene's lights with up to `threads` threads, whose number does not change them.

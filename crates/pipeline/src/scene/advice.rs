@@ -62,7 +62,7 @@ impl Adviser<'_> {
     fn unseen(&self) -> Vec<Advice> {
         let is_unseen = |survey: &Survey| survey.all > 0 && survey.inside == 0;
         if !self.surveys.is_empty() && self.surveys.iter().all(is_unseen) {
-            let whole = self.surveys.iter().fold(Survey::default(), |sum, one| sum.with(one));
+            let whole = self.surveys.iter().fold(Survey::default(), Survey::with);
             let message = format!("nothing is in the picture: {}", self.rejected(&whole));
             let help = self.help_against(&whole);
             let fault = self.origin.fault(&[Field("camera")], message, Some(help));

@@ -100,7 +100,9 @@ impl ScreenSpace {
             return 1.0;
         }
         let (mut open, mut all) = (0.0, 0.0);
-        for way in self.ways {
+        for (number, way) in self.ways.into_iter().enumerate() {
+            // Steps of one direction lie between those of the others, so that no border is seen several times side by side.
+            let shift = (0.618_034 * number as f32) % 1.0;
             let ahead = [here[0] + way[0] * reach, here[1] + way[1] * reach, here[2]];
             let along = minus(self.placed(ahead), p);
             let back = dot(along, v);
@@ -117,9 +119,10 @@ impl ScreenSpace {
             let share = dot(inside, inside).sqrt();
             let tilt = angle_of(dot(inside, v) / share.max(1e-6));
             let tilt = if dot(inside, flat) < 0.0 { -tilt } else { tilt };
-            let up = self.horizon(p, v, here, way, reach, (FRAC_PI_2 + tilt).min(PI));
+            let up = self.horizon(p, v, here, way, [reach, shift], (FRAC_PI_2 + tilt).min(PI));
+            let other = [-way[0], -way[1]];
             let down =
-                self.horizon(p, v, here, [-way[0], -way[1]], reach, (FRAC_PI_2 - tilt).min(PI));
+                self.horizon(p, v, here, other, [reach, 1.0 - shift], (FRAC_PI_2 - tilt).min(PI));
             open += share * (arc(up, tilt) + arc(-down, tilt));
             all += share * (arc(tilt + FRAC_PI_2, tilt) + arc(tilt - FRAC_PI_2, tilt));
         }
@@ -134,14 +137,14 @@ impl ScreenSpace {
         v: [f32; 3],
         here: [f32; 3],
         way: [f32; 2],
-        reach: f32,
+        [reach, shift]: [f32; 2],
         lowest: f32,
     ) -> f32 {
         let low = libm::cosf(lowest);
         let mut highest = low;
         let steps = (reach / PER_STEP).clamp(6.0, STEPS) as i32;
         for step in 0..steps {
-            let t = (step as f32 + 0.5) / steps as f32;
+            let t = (step as f32 + shift) / steps as f32;
             let far = 1.0 + t * t * (reach - 1.0);
             let (x, y) = (here[0] + way[0] * far, here[1] + way[1] * far);
             let Some(depth) = self.depth(x, y) else { continue };

@@ -48,15 +48,22 @@ impl Render {
                 Light::Ambient { lux: lux(AMBIENT) },
             ],
             ground: None,
-        occlusion_radius: None,
-        environment: None,
+            occlusion_radius: None,
+            environment: None,
             develop: pipeline::shade::Develop::default(),
             style: Style::Shaded,
-            image: ImageSpec { width, height, background: [0.0; 4], backdrop: None, samples, anisotropy: 1 },
+            image: ImageSpec {
+                width,
+                height,
+                background: [0.0; 4],
+                backdrop: None,
+                samples,
+                anisotropy: 1,
+            },
             views: Vec::new(),
             painting: None,
             overlays: Vec::new(),
-        sections: Vec::new(),
+            sections: Vec::new(),
         };
         // As long as the process: there are few, and their textures refer to them.
         let models: &'static [Placed] = scene.models.clone().leak();

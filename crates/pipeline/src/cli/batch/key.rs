@@ -13,9 +13,9 @@ pub(super) fn key(input: &Path, settings: &str, allowed: &[PathBuf]) -> String {
     put(&mut hash, env!("CARGO_PKG_VERSION").as_bytes());
     put(&mut hash, settings.as_bytes());
     if is_scene(input) {
-        put_scene(&mut hash, input, allowed)
+        put_scene(&mut hash, input, allowed);
     } else {
-        put_model(&mut hash, input)
+        put_model(&mut hash, input);
     }
     hash.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect()
 }

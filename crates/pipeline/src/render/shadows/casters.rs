@@ -1,6 +1,6 @@
 //! What casts shadows: the triangles of a scene that let no light through.
 
-use crate::model::{TextureSlot, TextureUse, Topology};
+use crate::model::{Instance, Model, Primitive, TextureSlot, TextureUse, Topology};
 use crate::render::RenderError;
 use crate::render::Textures;
 use crate::render::assemble::{DEFAULT_MATERIAL, triangle};
@@ -10,6 +10,7 @@ use crate::render::stage::Stage;
 use crate::render::vertices::{Parts, uv_set};
 use crate::scene::Scene;
 use crate::shade::{Draw, DrawList, Maps, Role, Tangents};
+use homog::Affine;
 use raster::{Cover, Cull, Fragment, Fragments, Frame, Instructions, Surface, WIDE};
 
 /// What of draws is there at all: their colours do not count.
@@ -66,32 +67,10 @@ pub(super) fn add_casters<'a>(
                 let texture = |slot: TextureSlot, used: TextureUse| {
                     textures.chain(number, slot, used.texture)
                 };
-                let uv_set = uv_set(material, primitive);
-                let uvs = uv_set.and_then(|set| model.posed_uvs(instance, primitive, set));
-                let mut vertices = Vec::new();
-                let parts = Parts { positions: None, normals: None, uvs: uvs.as_deref() };
-                let selected = [&images.whole, &images.cut];
-                parts.vertices(
-                    posed.positions.len(),
-                    selected,
-                    model_to_world,
-                    threads,
-                    &mut vertices,
-                );
-                draws.draws.push(Draw {
-                    first_id,
-                    part: 0,
-                    primitive,
-                    material,
-                    maps: Maps::of(material, 1, texture),
-                    vertices,
-                    tangents: Tangents::None,
-                    smooth: false,
-                    uv_set,
-                    colors: model.posed_colors(instance, primitive),
-                    role: Role::Surface,
-                    mirrored: false,
-                });
+                let maps = Maps::of(material, 1, texture);
+                let mut draw = masked(model, instance, primitive, maps, images);
+                draw.first_id = first_id;
+                draws.draws.push(draw);
             }
             let count = u32::try_from(triangles.len()).ok();
             let next = count.and_then(|count| first_id.checked_add(count));
@@ -99,4 +78,35 @@ pub(super) fn add_casters<'a>(
         }
     }
     Ok(())
+}
+
+/// What tells where a masked primitive is: its material, with the texture coordinates and the colours of its vertices.
+fn masked<'a>(
+    model: &'a Model,
+    instance: Instance,
+    primitive: &'a Primitive,
+    maps: Maps<'a>,
+    images: &Images,
+) -> Draw<'a> {
+    let material = primitive.material.map_or(&*DEFAULT_MATERIAL, |m| &model.materials[m]);
+    let uv_set = uv_set(material, primitive);
+    let uvs = uv_set.and_then(|set| model.posed_uvs(instance, primitive, set));
+    let parts = Parts { positions: None, normals: None, uvs: uvs.as_deref() };
+    let (count, selected) = (primitive.positions.len(), [&images.whole, &images.cut]);
+    let mut vertices = Vec::new();
+    parts.vertices(count, selected, Affine::IDENTITY, 1, &mut vertices);
+    Draw {
+        first_id: 0,
+        part: 0,
+        primitive,
+        material,
+        maps,
+        vertices,
+        tangents: Tangents::None,
+        smooth: false,
+        uv_set,
+        colors: model.posed_colors(instance, primitive),
+        role: Role::Surface,
+        mirrored: false,
+    }
 }

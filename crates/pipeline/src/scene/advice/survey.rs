@@ -10,7 +10,7 @@ use homog::{Clip, HPoint, Point, World};
 /// Directions in which rays leave the eye: no edge of a model that a person made lies along one.
 const RAYS: [DVec3; 3] = [
     DVec3::new(0.5773, 0.6191, 0.5324),
-    DVec3::new(-0.7071, 0.3183, 0.6314),
+    DVec3::new(-0.7167, 0.3291, 0.6149),
     DVec3::new(0.2718, -0.8618, -0.4283),
 ];
 
