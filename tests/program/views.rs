@@ -86,7 +86,7 @@ fn a_picture_lies_behind_the_models_and_outside_of_the_folder_it_is_refused() {
     let image = render(&bench, "framed", &format!("image: (size: (40, 20), {behind})"));
     assert_eq!(cut(&image, [0, 0, 1, 1]), [[0, 0, 204, 255]]);
     assert_eq!(cut(&image, [11, 0, 1, 1]), [[204, 0, 0, 255]]);
-    let lines = format!("image: (size: (40, 20), {behind}), style: Lines(())");
+    let lines = format!("image: (size: (40, 20), {behind}), style: Lines()");
     let lines = render(&bench, "lines", &lines);
     assert_eq!(cut(&lines, [0, 0, 1, 1]), [[0, 0, 204, 255]]);
     assert_eq!(cut(&lines, [12, 0, 1, 1]), [[204, 0, 0, 255]]);

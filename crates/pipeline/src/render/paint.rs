@@ -113,7 +113,7 @@ impl<'a> Paint<'a> {
         region.check(self.scene.image)?;
         let views = &self.scene.views;
         let mut picture = Picture::default();
-        if views.iter().any(|view| view.hides(region)) {
+        if View::fill(views, region) {
             picture.resize(region.width, region.height);
         } else {
             picture = self.own_region(region)?;

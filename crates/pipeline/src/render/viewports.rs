@@ -21,9 +21,20 @@ impl View {
         Some([shown, own])
     }
 
-    /// Whether nothing of a region of the picture is seen beside the view.
-    pub(super) fn hides(&self, region: Region) -> bool {
-        !self.cyan && self.area.and(region) == Some(region)
+    /// Whether nothing of a region of the picture is seen beside views, as far as is easily told: one fills it, or all do that lie
+    /// beside each other.
+    pub(super) fn fill(views: &[Self], region: Region) -> bool {
+        let shown = views.iter().filter(|view| !view.cyan);
+        let shown: Vec<Region> = shown.filter_map(|view| view.area.and(region)).collect();
+        let (mut apart, mut filled): (Vec<Region>, usize) = (Vec::new(), 0);
+        for part in shown {
+            if apart.iter().all(|other| other.and(part).is_none()) {
+                apart.push(part);
+                filled += part.area();
+            }
+        }
+        filled == region.area()
+            || views.iter().any(|view| view.area.and(region) == Some(region) && !view.cyan)
     }
 
     /// Puts pixels of the view that are `shown` in the picture into a region of it.

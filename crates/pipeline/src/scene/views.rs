@@ -166,7 +166,9 @@ fn eyes(
     if beside && width < 2 {
         return Err(fault("the picture is too narrow for two", "make it wider").into());
     }
-    let half = Region { x: 0, y: 0, width: if beside { width / 2 } else { width }, height };
+    // Of an odd number of columns both have the one in the middle, and the right eye's is seen.
+    let half = if beside { width.div_ceil(2) } else { width };
+    let half = Region { x: 0, y: 0, width: half, height };
     let areas = [half, Region { x: if beside { width - half.width } else { 0 }, ..half }];
     let inner = within(file, &ViewportFile::default(), (half.width, height));
     let inner = SceneFile { stereo: None, ..inner };
