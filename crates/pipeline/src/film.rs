@@ -8,7 +8,7 @@
 
 use crate::model::Model;
 use crate::render::{RenderError, Renderer, Shot, Textures};
-use crate::scene::{CameraPath, Origin, Placed, ResolveError, Scene, SceneFile, bounds, shot_at};
+use crate::scene::{CameraPath, Origin, Placed, ResolveError, Scene, SceneFile, bounds};
 use crate::{Picture, Timings, render};
 use homog::{Affine, Point, World};
 use std::collections::BTreeMap;
@@ -106,7 +106,7 @@ impl Film {
             if self.motion.is_still() { self.scene.models.clone() } else { moments.collect() };
         let shot = |frame: usize| {
             let part = frame as f64 / self.frames.max(1) as f64;
-            shot_at(origin, &path.at(from + (to - from) * part), &models, self.scene.image)
+            path.shot(origin, from + (to - from) * part, &models, self.scene.image)
         };
         self.shots = (0..self.frames).map(shot).collect::<Result<Vec<_>, _>>()?;
         Ok(self)

@@ -47,7 +47,6 @@ pub use origin::Origin;
 pub use outputs::Outputs;
 pub use painting::{Fit, Gradient, Painting, Photo};
 pub use parse::parse;
-pub(crate) use resolve::shot_at;
 pub use resolve::{ResolveOptions, chosen_animation};
 pub use review::review;
 pub use views::View;

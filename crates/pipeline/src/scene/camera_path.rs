@@ -5,7 +5,9 @@ use super::file::{
 };
 use super::locate::Step::{self, Field, Index};
 use super::number::Triple;
-use super::{Origin, SceneError};
+use super::viewpoint::resolve_shot;
+use super::{ImageSpec, Origin, Placed, SceneError};
+use crate::render::Shot;
 
 /// The most keys.
 const MOST: usize = 10_000;
@@ -85,6 +87,20 @@ impl CameraPath {
             *fov_y_degrees = FieldOfView::new(numbers[9].clamp(0.01, 179.0)).unwrap_or_default();
         }
         camera
+    }
+
+    /// The same around models that are loaded, posed and placed.
+    pub(crate) fn shot(
+        &self,
+        origin: &Origin,
+        time: f64,
+        models: &[Placed],
+        image: ImageSpec,
+    ) -> Result<Shot, SceneError> {
+        resolve_shot(origin, &self.at(time), models, image).map_err(|error| {
+            let message = format!("{:.3} s along the camera's way: {}", time, error.message);
+            origin.fault(&[Field("camera_path"), Field("keys")], message, error.help)
+        })
     }
 
     fn numbers(&self, time: f64) -> Numbers {

@@ -64,7 +64,8 @@ pub struct SceneFile {
     /// From where, and by which projection. Default: framed from a named direction, in perspective.
     #[serde(default)]
     pub camera: CameraFile,
-    /// Where the camera is at which time, for `alberti animate`; pictures do not look at it. Default: it stays in its place.
+    /// Where the camera is at which time, for `alberti animate`; pictures do not look at it, nor do lights that
+    /// the scene leaves open. Default: it stays in its place.
     pub camera_path: Option<CameraPathFile>,
     /// Views of their own in parts of the picture, one over the other. Default: none.
     #[serde(default)]

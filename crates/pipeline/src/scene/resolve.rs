@@ -3,8 +3,7 @@
 use super::background;
 use super::bounds::world_points;
 use super::file::{
-    BackgroundFile, CameraFile, Choice, Finite, MaterialFile, ModelFile, OverlayFile,
-    ToneMappingFile,
+    BackgroundFile, Choice, Finite, MaterialFile, ModelFile, OverlayFile, ToneMappingFile,
 };
 use super::ground::resolve_ground;
 use super::instances;
@@ -22,7 +21,6 @@ use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFil
 use crate::drawing::Overlay;
 use crate::import::{FaultKind, ImportError, ImportOptions, load, load_bytes};
 use crate::model::Model;
-use crate::render::Shot;
 use crate::shade::{Develop, ToneMapping};
 use homog::Bounds;
 use raster::Samples;
@@ -127,16 +125,6 @@ impl Scene {
     }
 }
 
-/// The camera of a scene at a moment, around models that are loaded, posed and placed.
-pub(crate) fn shot_at(
-    origin: &Origin,
-    camera: &CameraFile,
-    models: &[Placed],
-    image: ImageSpec,
-) -> Result<Shot, SceneError> {
-    resolve_shot(origin, camera, models, image)
-}
-
 pub(super) fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSpec, SceneError> {
     let (width, height) = file.image.size;
     let fits = |side: u32| (1..=crate::MAX_SIDE).contains(&side);
@@ -182,7 +170,8 @@ fn load_models(
     instances::check_counts(origin, file)?;
     // Models in one pose are shared; a model in two poses, or with other materials, is two models.
     type Pose = (PathBuf, [Option<Choice>; 3], Option<u64>);
-    let mut loaded: BTreeMap<Pose, Vec<(&[MaterialFile], Arc<Model>)>> = BTreeMap::new();
+    type Alike<'a> = Vec<(&'a [MaterialFile], Arc<Model>)>;
+    let mut loaded: BTreeMap<Pose, Alike<'_>> = BTreeMap::new();
     let mut models = Vec::new();
     for (number, entry) in file.models.iter().enumerate() {
         let path = origin.folder.join(&entry.path);

@@ -47,7 +47,7 @@ pub(super) fn resolve_views(
     allowed: &[PathBuf],
 ) -> Result<Vec<View>, ResolveError> {
     if let Some(stereo) = file.stereo {
-        return Ok(eyes(origin, file, stereo, models, allowed)?);
+        return eyes(origin, file, stereo, models, allowed);
     }
     if file.viewports.len() > MOST {
         let message = format!("{} viewports are more than {MOST}", file.viewports.len());
