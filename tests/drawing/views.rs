@@ -90,6 +90,8 @@ pub fn scene(model: &Arc<Model>, kind: Kind, side: usize) -> Result<Scene, Strin
             samples,
             anisotropy: 1,
         },
+        views: Vec::new(),
+        painting: None,
         overlays: Vec::new(),
         sections: Vec::new(),
     })

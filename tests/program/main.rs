@@ -32,3 +32,4 @@ mod sweep;
 mod variants;
 mod vectors;
 mod viewers;
+mod views;

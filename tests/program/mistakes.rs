@@ -129,6 +129,11 @@ fn files() {
 }
 
 #[test]
+fn views() {
+    table("views");
+}
+
+#[test]
 fn there_are_enough_of_them() {
     let folder = alberti_tests::root().join("tests/program/mistakes");
     let entries = std::fs::read_dir(folder).expect("the cases");

@@ -7,9 +7,8 @@
 //! the memory of its picture before.
 
 use crate::model::Model;
-use crate::render::{RenderError, Renderer, Textures};
-use crate::scene::file::EnvironmentFile;
-use crate::scene::{Origin, Placed, ResolveError, Scene, SceneFile, bounds};
+use crate::render::{RenderError, Renderer, Shot, Textures};
+use crate::scene::{CameraPath, Origin, Placed, ResolveError, Scene, SceneFile, bounds};
 use crate::{Picture, Timings, render};
 use homog::{Affine, Point, World};
 use std::collections::BTreeMap;
@@ -43,6 +42,8 @@ pub struct Film {
     frames: usize,
     /// What a turntable turns about.
     middle: Point<World>,
+    /// The camera of each picture, if it moves.
+    shots: Vec<Shot>,
 }
 
 /// A film that cannot be drawn to its end.
@@ -75,17 +76,40 @@ impl Film {
         frames: usize,
     ) -> Result<Self, ResolveError> {
         let middle = middle(&bounds::world_points(&scene.models));
-        let mut film = Self { scene, motion, frames, middle };
+        let mut film = Self { scene, motion, frames, middle, shots: Vec::new() };
         let moments = (0..MOMENTS).flat_map(|at| film.models_at(at as f64 / MOMENTS as f64));
         // The surroundings have been read before: whoever was allowed to then is so now.
-        let known = match &file.environment {
-            Some(EnvironmentFile::File { path, .. }) => vec![origin.folder.join(path)],
-            _ => Vec::new(),
-        };
+        let known: Vec<_> = file.pictures().map(|path| origin.folder.join(path)).collect();
         let framed = Scene::around(origin, file, moments.collect(), &known)?;
         (film.scene.shot, film.scene.lights) = (framed.shot, framed.lights);
         film.scene.ground = framed.ground;
+        for (view, framed) in film.scene.views.iter_mut().zip(framed.views) {
+            (view.scene.shot, view.scene.lights) = (framed.scene.shot, framed.scene.lights);
+            view.scene.ground = framed.scene.ground;
+        }
         Ok(film)
+    }
+
+    /// The same film with a camera that moves: along its way from one time to another, in seconds. Views with cameras of their own keep
+    /// them.
+    ///
+    /// # Errors
+    /// If it cannot see on its way, such as where the eye is in the place that it looks at.
+    pub fn along(
+        mut self,
+        origin: &Origin,
+        path: &CameraPath,
+        [from, to]: [f64; 2],
+    ) -> Result<Self, ResolveError> {
+        let moments = (0..MOMENTS).flat_map(|at| self.models_at(at as f64 / MOMENTS as f64));
+        let models: Vec<Placed> =
+            if self.motion.is_still() { self.scene.models.clone() } else { moments.collect() };
+        let shot = |frame: usize| {
+            let part = frame as f64 / self.frames.max(1) as f64;
+            path.shot(origin, from + (to - from) * part, &models, self.scene.image)
+        };
+        self.shots = (0..self.frames).map(shot).collect::<Result<Vec<_>, _>>()?;
+        Ok(self)
     }
 
     /// How many pictures it has.
@@ -103,7 +127,7 @@ impl Film {
     /// Whether the background is opaque, and with it every picture.
     #[must_use]
     pub fn is_opaque(&self) -> bool {
-        self.scene.image.background[3] == 1.0
+        self.scene.has_opaque_background()
     }
 
     /// Draws all pictures with up to `threads` threads and hands them to `sink` in their order. The pictures do not depend on
@@ -210,17 +234,32 @@ impl<'a> Camera<'a> {
     fn of(film: &'a Film) -> Self {
         let mut scene = film.scene.clone();
         if matches!(film.motion, Motion::Clip { .. }) {
+            let copies = copies(&film.scene.models);
             for placed in &mut scene.models {
                 placed.model = Arc::new(without_images(&placed.model));
+            }
+            for (at, first) in copies {
+                scene.models[at].model = Arc::clone(&scene.models[first].model);
             }
         }
         Self { film, scene, renderer: Renderer::default() }
     }
 
     fn picture(&mut self, frame: usize, textures: &Textures<'_>) -> Result<Picture, RenderError> {
-        let Film { scene, motion, frames, middle } = self.film;
+        let Film { scene, motion, frames, middle, shots } = self.film;
         let part = frame as f64 / (*frames).max(1) as f64;
+        // Views let go of the models that they share, so that those are not copied before they are posed.
+        self.scene.views.iter_mut().for_each(|view| view.scene.models.clear());
         motion.apply(&mut self.scene.models, &scene.models, *middle, part);
+        if let Some(shot) = shots.get(frame) {
+            self.scene.shot = *shot;
+        }
+        if !scene.views.is_empty() {
+            for view in &mut self.scene.views {
+                view.scene.models.clone_from(&self.scene.models);
+            }
+            return render(&self.scene, 1);
+        }
         if !scene.style.shows_surfaces() || scene.style.has_outlines() || !scene.overlays.is_empty()
         {
             return render(&self.scene, 1);
@@ -232,6 +271,11 @@ impl<'a> Camera<'a> {
 }
 
 impl Motion {
+    /// Whether nothing moves.
+    fn is_still(&self) -> bool {
+        matches!(self, Self::Turntable { angle } if *angle == 0.0)
+    }
+
     /// Brings models to a part of the way; `start` has them where they are without motion.
     fn apply(&self, models: &mut [Placed], start: &[Placed], middle: Point<World>, part: f64) {
         match self {
@@ -245,14 +289,37 @@ impl Motion {
             }
             Self::Clip { animations, from, to } => {
                 let time = from + (to - from) * part;
+                let copies = copies(start);
+                // Copies let go of the model that they share, so that it is not copied before it is posed.
+                let nothing = Arc::new(Model::default());
+                for &(at, _) in &copies {
+                    models[at].model = Arc::clone(&nothing);
+                }
                 for (placed, animation) in models.iter_mut().zip(animations) {
                     if let Some(animation) = animation {
                         Arc::make_mut(&mut placed.model).pose(*animation, time);
                     }
                 }
+                for (at, first) in copies {
+                    models[at].model = Arc::clone(&models[first].model);
+                }
             }
         }
     }
+}
+
+/// Models that are the same as the one before them, with the first of their row.
+fn copies(models: &[Placed]) -> Vec<(usize, usize)> {
+    let mut first = 0;
+    let mut copies = Vec::new();
+    for (at, pair) in (1..).zip(models.windows(2)) {
+        if Arc::ptr_eq(&pair[0].model, &pair[1].model) {
+            copies.push((at, first));
+        } else {
+            first = at;
+        }
+    }
+    copies
 }
 
 /// A copy that can be posed: the textures are kept elsewhere.

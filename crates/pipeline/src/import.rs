@@ -54,6 +54,8 @@ mod untyped;
 mod warnings;
 mod webp;
 
+pub(crate) use decode::decode_bounded as decode_image;
+
 pub use check::{Problem, Report, Severity, check, check_bytes};
 pub use choice::Choice;
 pub use error::{Fault, FaultKind, ImportError};

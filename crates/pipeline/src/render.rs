@@ -7,6 +7,7 @@
 //! ```
 
 mod assemble;
+mod backdrop;
 mod ground;
 mod images;
 mod lines;
@@ -24,6 +25,7 @@ mod stage;
 mod tests;
 mod textures;
 mod vertices;
+mod viewports;
 
 pub use lines::draw;
 pub use paint::{Paint, PaintError, band_rows};

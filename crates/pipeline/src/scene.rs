@@ -4,12 +4,15 @@
 //! radians, every default is decided, and what does not make sense has become an error that points at its place.
 
 mod advice;
+mod background;
 pub(crate) mod bounds;
+mod camera_path;
 mod classical;
 mod error;
 pub mod file;
 mod ground;
 mod include;
+mod instances;
 mod layout;
 mod lights;
 mod locate;
@@ -19,6 +22,8 @@ mod mistakes;
 mod number;
 mod origin;
 mod outputs;
+mod overrides;
+mod painting;
 mod parse;
 mod radiance;
 pub mod reference;
@@ -29,19 +34,23 @@ mod shadows;
 mod sheet;
 mod surroundings;
 mod viewpoint;
+mod views;
 mod wording;
 
 pub use advice::{Advice, advise};
 pub(crate) use bounds::DepthSpan;
+pub use camera_path::CameraPath;
 pub use error::SceneError;
 pub use file::SceneFile;
 pub use ground::Ground;
 pub use layout::laid_out;
 pub use origin::Origin;
 pub use outputs::Outputs;
+pub use painting::{Fit, Gradient, Painting, Photo};
 pub use parse::parse;
 pub use resolve::{ResolveOptions, chosen_animation};
 pub use review::review;
+pub use views::View;
 
 use crate::drawing::{LineLook, Overlay};
 use crate::import::ImportError;
@@ -74,6 +83,10 @@ pub struct Scene {
     pub style: Style,
     /// The picture to make.
     pub image: ImageSpec,
+    /// Views of their own in parts of the picture, in the order in which they are drawn over it.
+    pub views: Vec<View>,
+    /// What is painted behind the models, over the picture's background.
+    pub painting: Option<Arc<Painting>>,
     /// What is drawn over it.
     pub overlays: Vec<Overlay>,
     /// Planes that cut the models open in line drawings; their unit normals point to what is kept.

@@ -54,6 +54,8 @@ use seen::{Seen, Wide, scale};
 /// What the fragments of a frame are shaded with.
 #[derive(Debug)]
 pub struct Shading<'a> {
+    /// What is painted behind everything, if something is.
+    pub painting: Option<&'a crate::scene::Painting>,
     /// What was drawn.
     pub draws: &'a DrawList<'a>,
     /// The lights, in the world.
@@ -182,6 +184,7 @@ impl Shading<'_> {
         match draw.role {
             Role::Surface => {}
             Role::Backdrop(blur) => return self.backdrop(draw, items, seen, blur),
+            Role::Painting => return self.painted(draw, items, seen),
             Role::Ground => return self.ground(draw, items, seen),
         }
         let is_blended = draw.material.alpha_mode == AlphaMode::Blend;
@@ -242,6 +245,25 @@ impl Shading<'_> {
         self.develop.apply(&mut colors);
         let [r, g, b] = colors;
         [r, g, b, [1.0; N]]
+    }
+
+    /// What is painted behind everything.
+    #[inline(always)]
+    fn painted<const N: usize>(
+        &self,
+        draw: &Draw<'_>,
+        items: &Items<N>,
+        seen: &impl Seen<N>,
+    ) -> [[f32; N]; 4] {
+        let [x, y, _] = blend(&draw.places(&draw.corners(items)), &seen.weights());
+        let mut colors = [[0.0; N]; 4];
+        for lane in 0..N {
+            let color = self.painting.map_or([0.0; 4], |all| all.color([x[lane], y[lane]]));
+            for channel in 0..4 {
+                colors[channel][lane] = color[channel];
+            }
+        }
+        colors
     }
 
     /// Adds the light that surfaces reflect to the viewer, and returns the share of light that they let pass.

@@ -9,8 +9,8 @@ use super::progress::Counter;
 use super::render::{open, threads, warn};
 use pipeline::film::{Film, FilmError, Motion};
 use pipeline::scene::file::{Choice, Finite, SceneFile};
-use pipeline::scene::{Placed, ResolveOptions, chosen_animation};
-use pipeline::{Origin, Scene};
+use pipeline::scene::{CameraPath, Placed, ResolveOptions, chosen_animation};
+use pipeline::{Origin, ResolveError, Scene};
 use sink::Sink;
 use std::path::PathBuf;
 
@@ -74,23 +74,28 @@ impl AnimateArgs {
             Some(placed.model.animations.get(animation?)?.duration_seconds)
         });
         let end = ends.fold(0.0, f64::max);
+        let path = CameraPath::of(origin, file).map_err(ResolveError::from)?;
+        let [begin, end] = path.as_ref().map_or([0.0, end], CameraPath::span);
+        let from = self.from.map_or(begin, Finite::value);
+        let to = self.to.map_or(end, Finite::value);
         let motion = match self.turntable {
-            None if animations.iter().any(Option::is_some) => {
-                let from = self.from.map_or(0.0, Finite::value);
-                Motion::Clip { animations, from, to: self.to.map_or(end, Finite::value) }
-            }
+            None if animations.iter().any(Option::is_some) => Motion::Clip { animations, from, to },
+            // The camera moves, and nothing else.
+            None if path.is_some() => Motion::Turntable { angle: 0.0 },
             degrees => {
                 Motion::Turntable { angle: degrees.map_or(360.0, Finite::value).to_radians() }
             }
         };
         let frames = match (&motion, self.frames) {
             (_, Some(frames)) => frames as usize,
-            (Motion::Turntable { .. }, None) => 120,
-            (Motion::Clip { from, to, .. }, None) => {
-                libm::round((to - from).abs() * self.fps).clamp(1.0, 100_000.0) as usize
-            }
+            (Motion::Turntable { .. }, None) if path.is_none() => 120,
+            (_, None) => libm::round((to - from).abs() * self.fps).clamp(1.0, 100_000.0) as usize,
         };
-        Ok(Film::new(origin, file, scene, motion, frames)?)
+        let film = Film::new(origin, file, scene, motion, frames)?;
+        match path {
+            None => Ok(film),
+            Some(path) => Ok(film.along(origin, &path, [from, to])?),
+        }
     }
 }
 
@@ -105,7 +110,10 @@ fn animations(models: &[Placed], file: &SceneFile) -> Result<Vec<Option<usize>>,
             Failure::Usage(format!("{}: {problem}{help}", placed.model.name))
         })
     };
-    let choices = file.models.iter().map(|model| model.animation.as_ref());
+    let choices = file
+        .models
+        .iter()
+        .flat_map(|model| std::iter::repeat_n(model.animation.as_ref(), model.copies()));
     models.iter().zip(choices).map(chosen).collect()
 }
 

@@ -18,6 +18,8 @@ pub enum Warning {
     },
     /// The style shows surfaces, and only line drawings are cut open.
     SectionsUnseen,
+    /// Only pixels have viewports.
+    ViewportsUnseen,
     /// Not all crossings of surfaces were looked for.
     CrossingsLeftOut,
     /// Not all of the hatching was drawn.
@@ -37,6 +39,9 @@ impl fmt::Display for Warning {
             ),
             Self::SectionsUnseen => f.write_str(
                 "sections cut line drawings only: this style shows the models whole; choose another, such as `--style lines`",
+            ),
+            Self::ViewportsUnseen => f.write_str(
+                "only PNG pictures have viewports and pairs of eyes: this one shows the scene's own camera alone",
             ),
             Self::CrossingsLeftOut => f.write_str(
                 "so many surfaces may cross that not all were compared: some lines where they cross may be missing",

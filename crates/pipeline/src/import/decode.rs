@@ -51,6 +51,15 @@ pub(super) fn format(bytes: &[u8]) -> &'static str {
     }
 }
 
+/// An image of at most so many texels, whose header is asked before anything is allocated.
+pub(crate) fn decode_bounded(bytes: &[u8], most: u64) -> Result<Image, String> {
+    let (width, height) = size(bytes)?;
+    if u64::from(width) * u64::from(height) > most {
+        return Err(format!("the image has {width} x {height} texels, more than {most} in all"));
+    }
+    decode(bytes)
+}
+
 /// The whole image. Its size should have been asked first: this allocates as much as the image has texels.
 pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
     guarded(|| match Kind::of(bytes)? {

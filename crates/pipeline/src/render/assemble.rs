@@ -9,11 +9,11 @@ use super::textures::Textures;
 use super::vertices::{Parts, tangents};
 use crate::model::{Instance, Material, Posed, Primitive, TextureSlot, TextureUse, Topology};
 use crate::scene::{Placed, Scene};
-use crate::shade::{Draw, Maps, MipChain, PLACE, Role, Tangents};
+use crate::shade::{Draw, Maps, MipChain, Role};
 use clip::{Outcode, clip_triangle};
 use glam::DVec3;
-use homog::{Affine, Clip, HPoint, Model, Ndc, Point, World};
-use raster::{Cover, Cull, Frame, ScreenVertex, signed_area};
+use homog::{Affine, Clip, HPoint, Model, World};
+use raster::{Cover, Cull, Frame, signed_area};
 use std::ops::Range;
 
 /// The width of lines that a file draws, in pixels: glTF gives none.
@@ -60,6 +60,9 @@ pub(super) fn assemble_as<'a>(
     }
     if let Some(blur) = scene.image.backdrop {
         assembler.backdrop(blur)?;
+    }
+    if let Some(painting) = &scene.painting {
+        assembler.painting(painting, scene.image)?;
     }
     Ok(assembler.memory)
 }
@@ -151,43 +154,6 @@ impl<'a> Assembler<'a> {
         self.next_id = numbers.0.checked_add(count).ok_or(RenderError::TooManyPrimitives)?;
         self.next_part += 1;
         Ok(numbers)
-    }
-
-    /// Adds the environment behind everything: two triangles at the far plane that fill the picture.
-    fn backdrop(&mut self, blur: f32) -> Result<(), RenderError> {
-        let first_id = self.next_id;
-        self.next_id = first_id.checked_add(2).ok_or(RenderError::TooManyPrimitives)?;
-        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-        let corners = corners.map(|(x, y)| Point::<Ndc>::new(x, y, -1.0));
-        let ndc_to_screen = self.stage.ndc_to_screen;
-        // With one w for all of them, what they carry is linear on the screen, as places on a plane across the view are.
-        let vertices = corners.map(|c| ScreenVertex::snap(ndc_to_screen.point(c), 1.0));
-        let clip_to_world = self.stage.world_to_clip.raw().inverse();
-        let vertex = |corner: Point<Ndc>| {
-            let place = clip_to_world * corner.raw().extend(1.0);
-            let [x, y, z] = (place.truncate() / place.w).as_vec3().to_array();
-            let mut vertex = [0.0; 8];
-            [vertex[PLACE], vertex[PLACE + 1], vertex[PLACE + 2]] = [x, y, z];
-            vertex
-        };
-        let primitive: &'static Primitive = &BACKDROP;
-        self.memory.draws.draws.push(Draw {
-            first_id,
-            part: self.next_part,
-            primitive,
-            material: &DEFAULT_MATERIAL,
-            maps: Maps::default(),
-            vertices: corners.map(vertex).to_vec(),
-            tangents: Tangents::None,
-            smooth: false,
-            uv_set: None,
-            colors: None,
-            role: Role::Backdrop(blur),
-            mirrored: false,
-        });
-        let triangles = primitive.indices.as_chunks::<3>().0;
-        self.memory.frame.mesh(&vertices, triangles, first_id, Cover::Solid, Cull::Nothing);
-        Ok(())
     }
 
     /// Adds what is selected of the primitive to the frame, in its order: runs of triangles as they are, and in between the points,

@@ -3,8 +3,15 @@
 use super::RenderError;
 use crate::Timings;
 use crate::color::SrgbEncoder;
-use crate::drawing::{self, Ink, Layer, LineLook, Overlay, Page, Widths};
-use crate::scene::{Scene, Style};
+use crate::drawing::{
+    self, Ink, Layer, LineLook, MILLIMETRES_PER_PIXEL, Overlay, Page, Pasted, Warning, Widths,
+    micrometres,
+};
+use crate::scene::{ImageSpec, Painting, Scene, Style};
+use glam::DVec2;
+
+/// The most pixels along a side of a picture that lies under lines.
+const MOST_PASTED: u32 = 4096;
 
 /// The ink of lines over surfaces: nearly black.
 const INK: Ink = [20, 24, 30];
@@ -21,7 +28,9 @@ pub fn draw(scene: &Scene, threads: usize, timings: &Timings) -> Result<Page, Re
     let drawing = timings.measure("lines", || drawing::draw(scene, &look.options(), threads))?;
     let page = || {
         let mut page = drawing.to_page(&look, &scene.title(), paper(scene.image.background));
+        page.pictures.extend(scene.painting.as_ref().map(|all| pasted(all, scene.image)));
         page.layers.extend(drawing::overlays(scene));
+        page.warnings.extend((!scene.views.is_empty()).then_some(Warning::ViewportsUnseen));
         page
     };
     Ok(timings.measure("chains", page))
@@ -52,6 +61,19 @@ pub(super) fn over_surfaces(scene: &Scene, threads: usize) -> Result<Vec<Layer>,
     };
     let drawing = drawing::draw(scene, &look.options(), threads)?;
     Ok(drawing.to_page(&look, "", None).layers)
+}
+
+/// What is painted behind the models as a picture of the size of the page.
+fn pasted(painting: &Painting, image: ImageSpec) -> Pasted {
+    let side = |pixels: u32| f64::from(pixels) * MILLIMETRES_PER_PIXEL;
+    let size = micrometres(DVec2::new(side(image.width), side(image.height)));
+    let (width, height) = (image.width.min(MOST_PASTED), image.height.min(MOST_PASTED));
+    Pasted {
+        id: "background".to_owned(),
+        corner: [0; 2],
+        size,
+        picture: painting.picture(width, height),
+    }
 }
 
 /// The background as a colour of paper; `None` if it is transparent.

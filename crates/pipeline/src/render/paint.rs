@@ -9,10 +9,11 @@ use super::renderer::Renderer;
 use super::{RenderError, Textures, lines};
 use crate::drawing::{Layer, Page, Warning, overlays};
 use crate::output::encode_png;
-use crate::scene::Scene;
+use crate::scene::{Scene, View};
 use crate::shade::ScreenSpace;
 use crate::{Channel, Picture, Timings};
 use std::io::{self, Write};
+use std::sync::Arc;
 
 /// A scene ready to be drawn, region by region.
 #[derive(Debug)]
@@ -20,7 +21,7 @@ pub struct Paint<'a> {
     scene: &'a Scene,
     threads: usize,
     timings: &'a Timings,
-    textures: Textures<'a>,
+    textures: Arc<Textures<'a>>,
     renderer: Renderer,
     /// A line drawing.
     page: Option<Page>,
@@ -29,6 +30,8 @@ pub struct Paint<'a> {
     /// The nearest surfaces of the whole picture, when regions need them.
     occlusion: Option<ScreenSpace>,
     warnings: Vec<Warning>,
+    /// The views of the scene, in their order.
+    views: Vec<Self>,
 }
 
 /// How many rows of a picture of this width are drawn at once when its memory is to be bounded: some 64 MiB of pixels, in whole rows of the
@@ -49,25 +52,57 @@ impl<'a> Paint<'a> {
         threads: usize,
         timings: &'a Timings,
     ) -> Result<Self, RenderError> {
+        let scenes = || std::iter::once(scene).chain(scene.views.iter().map(|view| &view.scene));
+        let surfaces = scenes().any(|scene| scene.style.shows_surfaces());
+        let models = if surfaces { &scene.models[..] } else { &[] };
+        let textures = Arc::new(timings.measure("mip chains", || Textures::of(models)));
+        Self::with_textures(scene, threads, timings, &textures)
+    }
+
+    /// The same with the mip chains of the models, which views share with the scene.
+    fn with_textures(
+        scene: &'a Scene,
+        threads: usize,
+        timings: &'a Timings,
+        textures: &Arc<Textures<'a>>,
+    ) -> Result<Self, RenderError> {
         let surfaces = scene.style.shows_surfaces();
         let mut page = (!surfaces).then(|| lines::draw(scene, threads, timings)).transpose()?;
         let mut warnings =
             page.as_mut().map_or(Vec::new(), |page| std::mem::take(&mut page.warnings));
+        warnings.retain(|warning| *warning != Warning::ViewportsUnseen);
         warnings
             .extend((surfaces && !scene.sections.is_empty()).then_some(Warning::SectionsUnseen));
-        let models = if surfaces { &scene.models[..] } else { &[] };
-        let textures = timings.measure("mip chains", || Textures::of(models));
         let mut layers = lines::over_surfaces(scene, threads)?;
         layers.extend(if surfaces { overlays(scene) } else { Vec::new() });
-        let renderer = Renderer::default();
-        let occlusion = None;
-        Ok(Self { scene, threads, timings, textures, renderer, page, layers, occlusion, warnings })
+        let inner = |view: &'a View| Self::with_textures(&view.scene, threads, timings, textures);
+        let views = scene.views.iter().map(inner).collect::<Result<Vec<_>, _>>()?;
+        let (renderer, occlusion, textures) = (Renderer::default(), None, Arc::clone(textures));
+        Ok(Self {
+            scene,
+            threads,
+            timings,
+            textures,
+            renderer,
+            page,
+            layers,
+            occlusion,
+            warnings,
+            views,
+        })
     }
 
     /// What could not be drawn as it should.
     #[must_use]
     pub fn into_warnings(self) -> Vec<Warning> {
-        self.warnings
+        let inner = self.views.into_iter().flat_map(Self::into_warnings);
+        let mut all = self.warnings;
+        for warning in inner {
+            if !all.contains(&warning) {
+                all.push(warning);
+            }
+        }
+        all
     }
 
     /// A region of the picture.
@@ -75,9 +110,26 @@ impl<'a> Paint<'a> {
     /// # Errors
     /// If it is empty, too large or not in the picture, or the scene holds too much.
     pub fn region<C: Channel>(&mut self, region: Region) -> Result<Picture<C>, RenderError> {
+        region.check(self.scene.image)?;
+        let views = &self.scene.views;
+        let mut picture = Picture::default();
+        if View::fill(views, region) {
+            picture.resize(region.width, region.height);
+        } else {
+            picture = self.own_region(region)?;
+        }
+        for (view, paint) in views.iter().zip(&mut self.views) {
+            if let Some([shown, own]) = view.shown(region) {
+                view.put(&paint.region(own)?, shown, region, &mut picture);
+            }
+        }
+        Ok(picture)
+    }
+
+    /// A region of the picture without its views.
+    fn own_region<C: Channel>(&mut self, region: Region) -> Result<Picture<C>, RenderError> {
         let Self { scene, threads, timings, textures, renderer, page, layers, occlusion, .. } =
             self;
-        region.check(scene.image)?;
         let size = [scene.image.width, scene.image.height];
         if let Some(page) = page {
             return Ok(timings.measure("pixels", || page.to_region(size, region)));
@@ -137,7 +189,7 @@ impl<'a> Paint<'a> {
         &mut self,
         bands: impl Iterator<Item = Region>,
     ) -> Result<bool, RenderError> {
-        if self.scene.image.background[3] >= 1.0 {
+        if self.scene.has_opaque_background() {
             return Ok(true);
         }
         for band in bands {

@@ -113,6 +113,7 @@ impl Drawing<'_> {
     ) -> Result<(), RenderError> {
         let mut scene = self.scene.clone();
         (scene.image.samples, scene.image.backdrop) = (samples, None);
+        scene.painting = None;
         (scene.ground, scene.occlusion_radius) = (None, None);
         // Styles may show backs, and what is opaque as glass.
         scene.style = if scene.style == Style::Flat { Style::Flat } else { Style::Shaded };

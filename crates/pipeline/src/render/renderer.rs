@@ -210,6 +210,7 @@ pub(super) fn shading<'a>(
 ) -> Shading<'a> {
     Shading {
         draws,
+        painting: scene.painting.as_deref(),
         lights: &scene.lights,
         shadows,
         occlusion,

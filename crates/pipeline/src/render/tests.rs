@@ -47,6 +47,7 @@ fn eight_fragments_at_once_have_the_colours_of_one_by_one() {
             let viewer = scene.shot.viewer();
             let instructions = frame.instructions();
             let shading = Shading {
+                painting: None,
                 draws: &draws,
                 lights: &scene.lights,
                 shadows: &[],

@@ -3,6 +3,8 @@
 use crate::model::{Image, Material, Model, Texture, TextureSlot};
 use crate::scene::Placed;
 use crate::shade::{MipChain, Texels};
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// For each model of a scene, the mip chains of its textures, as colours and as numbers; `None` for those that no material
 /// reads so.
@@ -11,13 +13,24 @@ use crate::shade::{MipChain, Texels};
 #[derive(Debug)]
 pub struct Textures<'a> {
     chains: Vec<Vec<[Option<MipChain<'a>>; 2]>>,
+    /// For each model of the scene whose chains are its: models that are there several times share them.
+    of_models: Vec<usize>,
 }
 
 impl<'a> Textures<'a> {
     /// Builds the chains.
     #[must_use]
     pub fn of(models: &'a [Placed]) -> Self {
-        Self { chains: models.iter().map(|placed| chains(&placed.model)).collect() }
+        let mut known: BTreeMap<*const Model, usize> = BTreeMap::new();
+        let mut all = Vec::new();
+        let number = |placed: &'a Placed| {
+            *known.entry(Arc::as_ptr(&placed.model)).or_insert_with(|| {
+                all.push(chains(&placed.model));
+                all.len() - 1
+            })
+        };
+        let of_models = models.iter().map(number).collect();
+        Self { chains: all, of_models }
     }
 
     /// The chain of a texture of the scene's n-th model, for a slot of a material.
@@ -27,7 +40,8 @@ impl<'a> Textures<'a> {
         slot: TextureSlot,
         texture: usize,
     ) -> Option<&MipChain<'a>> {
-        self.chains.get(model)?.get(texture)?[usize::from(!slot.is_color())].as_ref()
+        self.chains.get(*self.of_models.get(model)?)?.get(texture)?[usize::from(!slot.is_color())]
+            .as_ref()
     }
 }
 

@@ -3,13 +3,17 @@
 //! These types say what a scene file may contain and nothing of what it means; [`Scene::resolve`](super::Scene::resolve) does that. Every
 //! field but the models' paths may be left out. Unknown fields are errors, so that a slip of the pen is found.
 
+mod background;
 mod camera;
+mod camera_path;
 mod environment;
 mod ground;
 mod include;
+mod instances;
 mod light;
 mod lines;
 mod look;
+mod material;
 mod occlusion;
 mod overlay;
 mod passes;
@@ -17,14 +21,19 @@ mod projection;
 mod section;
 mod shadow;
 mod sheet;
+mod viewport;
 
+pub use self::background::{BackgroundFile, FitFile};
 pub use self::camera::{CameraChoice, CameraFile, FromFile, USUAL_PADDING, ViewFile};
+pub use self::camera_path::{CameraKeyFile, CameraPathFile, CurveFile};
 pub use self::environment::EnvironmentFile;
 pub use self::ground::GroundFile;
 pub use self::include::Paths;
+pub use self::instances::{InstanceFile, InstancesFile};
 pub use self::light::LightFile;
 pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, ToneFile, WidthFile};
-pub use self::look::{BackgroundFile, ImageFile, StyleFile, ToneMappingFile};
+pub use self::look::{ImageFile, StyleFile, ToneMappingFile};
+pub use self::material::{AlphaModeFile, MaterialFile, MaterialsFile};
 pub use self::occlusion::AmbientOcclusionFile;
 pub use self::overlay::OverlayFile;
 pub use self::passes::{PassEncodingFile, PassFile, PassesFile};
@@ -34,7 +43,8 @@ pub use self::shadow::ShadowsFile;
 pub use self::sheet::{
     AngleFile, AxonometricFile, OrientationFile, PaperFile, SheetFile, SideFile, UnitFile,
 };
-pub use super::number::Finite;
+pub use self::viewport::{BorderFile, StereoFile, ViewportFile};
+pub use super::number::{FieldOfView, Finite};
 use super::number::{Scale, Triple};
 use crate::import;
 use serde::Deserialize;
@@ -54,6 +64,14 @@ pub struct SceneFile {
     /// From where, and by which projection. Default: framed from a named direction, in perspective.
     #[serde(default)]
     pub camera: CameraFile,
+    /// Where the camera is at which time, for `alberti animate`; pictures do not look at it, nor do lights that
+    /// the scene leaves open. Default: it stays in its place.
+    pub camera_path: Option<CameraPathFile>,
+    /// Views of their own in parts of the picture, one over the other. Default: none.
+    #[serde(default)]
+    pub viewports: Vec<ViewportFile>,
+    /// A pair of pictures for two eyes. Default: one picture.
+    pub stereo: Option<StereoFile>,
     /// The lights. Default: those of the models; where they have none and there is no environment either, a key light from above
     /// the viewer's left shoulder, and ambient light; with an environment the key light alone, if there are to be shadows.
     pub lights: Option<Vec<LightFile>>,
@@ -107,6 +125,11 @@ pub struct ModelFile {
     pub animation: Option<Choice>,
     /// The time of the animation in seconds. Default: 0, if there is an `animation`.
     pub time: Option<Finite>,
+    /// The model many times. Default: once.
+    pub instances: Option<InstancesFile>,
+    /// What its materials look like, other than the model has it. Default: as it has it.
+    #[serde(default)]
+    pub materials: Vec<MaterialFile>,
 }
 
 /// Which scene, variant or animation of a model.
@@ -139,11 +162,16 @@ impl SceneFile {
             variant: None,
             animation: None,
             time: None,
+            instances: None,
+            materials: Vec::new(),
         };
         Self {
             include: Paths::default(),
             models: vec![model],
             camera: CameraFile::default(),
+            camera_path: None,
+            viewports: Vec::new(),
+            stereo: None,
             lights: None,
             shadows: None,
             ground: None,

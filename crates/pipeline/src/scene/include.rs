@@ -7,7 +7,7 @@
 //! ```
 //! Lists are joined, what is included first; of every other field the including file's goes before the included ones', whole.
 
-use super::file::{EnvironmentFile, ModelFile};
+use super::file::{BackgroundFile, EnvironmentFile, ModelFile};
 use super::locate::Step::{self, Field, Index};
 use super::locate::{locate, says};
 use super::origin::{plain, read_text};
@@ -19,8 +19,18 @@ use std::path::{Path, PathBuf};
 const MOST_FILES: usize = 64;
 
 /// The fields of a scene that are taken whole.
-const SINGLE: [&str; 8] =
-    ["camera", "shadows", "ground", "environment", "ambient_occlusion", "style", "image", "sheet"];
+const SINGLE: [&str; 10] = [
+    "camera",
+    "shadows",
+    "ground",
+    "environment",
+    "ambient_occlusion",
+    "style",
+    "image",
+    "sheet",
+    "camera_path",
+    "stereo",
+];
 
 /// Which parts of a scene are written in which included file. What is not here is in the scene file itself.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
@@ -124,6 +134,7 @@ impl Gatherer<'_> {
             ("lights", elements(file.lights.as_ref().map_or(0, Vec::len))),
             ("overlays", elements(file.overlays.len())),
             ("sections", elements(file.sections.len())),
+            ("viewports", elements(file.viewports.len())),
         ];
         let fields = said.map(|field| (field, page.file)).collect();
         Ok(laid_over(below, Layer { file, fields, lists: lists.into() }))
@@ -180,6 +191,12 @@ fn rebase(file: &mut SceneFile, folder: &Path) {
     if let Some(EnvironmentFile::File { path, .. }) = &mut file.environment {
         rebased(path);
     }
+    let others = file.viewports.iter_mut().filter_map(|viewport| viewport.background.as_mut());
+    for background in others.chain([&mut file.image.background]) {
+        if let BackgroundFile::Picture { path, .. } = background {
+            rebased(path);
+        }
+    }
 }
 
 /// Two layers as one.
@@ -189,6 +206,9 @@ fn laid_over(below: Layer, above: Layer) -> Layer {
         include,
         models,
         camera,
+        camera_path,
+        viewports,
+        stereo,
         lights,
         shadows,
         ground,
@@ -207,6 +227,9 @@ fn laid_over(below: Layer, above: Layer) -> Layer {
         include,
         models: joined(old.models, models),
         camera: if has("camera") { camera } else { old.camera },
+        camera_path: if has("camera_path") { camera_path } else { old.camera_path },
+        viewports: joined(old.viewports, viewports),
+        stereo: if has("stereo") { stereo } else { old.stereo },
         lights: match (old.lights, lights) {
             (Some(old), Some(new)) => Some(joined(old, new)),
             (old, new) => new.or(old),

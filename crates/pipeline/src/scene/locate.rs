@@ -20,6 +20,11 @@ pub(crate) fn locate(source: &str, path: &[Step<'_>]) -> Range<usize> {
     follow(source, path).0
 }
 
+/// Whether there is a value at the end of `path`.
+pub(crate) fn has(source: &str, path: &[Step<'_>]) -> bool {
+    follow(source, path).1
+}
+
 /// Whether the whole scene has a field of this name in its own text.
 pub(crate) fn says(source: &str, field: &str) -> bool {
     follow(source, &[Step::Field(field)]).1

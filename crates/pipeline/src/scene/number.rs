@@ -59,6 +59,10 @@ checked_number! {
     Percent, "a number from 0 to 100", |x| (0.0..=100.0).contains(&x)
 }
 checked_number! {
+    /// A part of a whole, from 0 to 1.
+    Share, "a number from 0 to 1", |x| (0.0..=1.0).contains(&x)
+}
+checked_number! {
     /// How large a light looks, in degrees across, from 0 to 30.
     Softness, "an angle from 0 to 30 degrees", |x| (0.0..=30.0).contains(&x)
 }
@@ -78,6 +82,11 @@ impl Spacing {
     pub const USUAL: Self = Self(2.0);
 }
 
+impl Share {
+    /// A half.
+    pub const HALF: Self = Self(0.5);
+}
+
 impl Percent {
     /// Nothing.
     pub const ZERO: Self = Self(0.0);
@@ -95,6 +104,12 @@ impl Positive {
     pub(super) const fn known(value: f64) -> Self {
         debug_assert!(value > 0.0, "a positive number is greater than 0");
         Self(value)
+    }
+}
+
+impl Default for Finite {
+    fn default() -> Self {
+        Self(0.0)
     }
 }
 

@@ -1,7 +1,8 @@
 //! Where a scene comes from: a file with text and a folder, or a bare model and the program's flags.
 
 use super::include::{Written, gather};
-use super::locate::{Step, locate};
+use super::locate::{Step, has, locate};
+use super::views::is_of_viewports;
 use super::{ResolveError, SceneError, SceneFile};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
@@ -20,6 +21,8 @@ pub struct Origin {
     pub folder: PathBuf,
     /// Which parts are written in files that it includes.
     written: Written,
+    /// The viewport that is spoken of.
+    viewport: Option<usize>,
     /// The file of a bare model, if it is in memory.
     pub(super) model: Option<Arc<[u8]>>,
 }
@@ -33,6 +36,7 @@ impl Origin {
             text: text.into(),
             folder,
             written: Written::default(),
+            viewport: None,
             model: None,
         }
     }
@@ -104,6 +108,26 @@ impl Origin {
         holds(&wanted) && wanted.canonicalize().map_or(true, |path| holds(&path))
     }
 
+    /// The same where a viewport is spoken of: errors point at what it says itself before what the scene says.
+    pub(super) fn of_viewport(&self, number: usize) -> Self {
+        Self { viewport: Some(number), ..self.clone() }
+    }
+
+    /// The path of a field of the scene as a viewport has it, if it says that field.
+    fn in_viewport<'a>(&self, number: usize, path: &[Step<'a>]) -> Option<Vec<Step<'a>>> {
+        let (field, rest) = match *path {
+            [Step::Field("image"), Step::Field("background"), ref rest @ ..] => {
+                ("background", rest)
+            }
+            [Step::Field(field), ref rest @ ..] if is_of_viewports(field) => (field, rest),
+            _ => return None,
+        };
+        let own = [Step::Field("viewports"), Step::Index(number), Step::Field(field)];
+        let (source, there) = self.written.source_of(&own);
+        let text = source.map_or(self.text.as_str(), |(_, text)| text);
+        has(text, &there).then(|| [&own, rest].concat())
+    }
+
     /// An error that points at the value at the end of `path`.
     pub(super) fn fault(
         &self,
@@ -111,7 +135,8 @@ impl Origin {
         message: impl Into<String>,
         help: Option<String>,
     ) -> SceneError {
-        let (source, path) = self.written.source_of(path);
+        let inner = self.viewport.and_then(|number| self.in_viewport(number, path));
+        let (source, path) = self.written.source_of(inner.as_deref().unwrap_or(path));
         let (file, text) = source.unwrap_or((&self.file, &self.text));
         SceneError {
             file: file.to_owned(),

@@ -1,25 +1,28 @@
 //! From what a person wrote to what drawing needs, or to an error that points.
 
+use super::background;
 use super::bounds::world_points;
 use super::file::{
-    BackgroundFile, Choice, EnvironmentFile, Finite, ModelFile, OverlayFile, ToneMappingFile,
+    BackgroundFile, Choice, Finite, MaterialFile, ModelFile, OverlayFile, ToneMappingFile,
 };
 use super::ground::resolve_ground;
+use super::instances;
 use super::lights::resolve_lights;
 use super::locate::Step::{Field, Index};
 use super::look::resolve_style;
 use super::number::Positive;
+use super::overrides::override_materials;
 use super::section::resolve_sections;
 use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
+use super::views::resolve_views;
 use super::wording::suggestion;
 use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile, Style};
-use crate::color::parse_hex;
 use crate::drawing::Overlay;
 use crate::import::{FaultKind, ImportError, ImportOptions, load, load_bytes};
 use crate::model::Model;
 use crate::shade::{Develop, ToneMapping};
-use homog::{Affine, Bounds, Model as ModelSpace, Vector, World};
+use homog::Bounds;
 use raster::Samples;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -68,6 +71,18 @@ impl Scene {
         models: Vec<Placed>,
         allowed: &[PathBuf],
     ) -> Result<Self, ResolveError> {
+        let mut scene = Self::alone(origin, file, models, allowed)?;
+        scene.views = resolve_views(origin, file, &scene.models, allowed)?;
+        Ok(scene)
+    }
+
+    /// The same without its views.
+    pub(super) fn alone(
+        origin: &Origin,
+        file: &SceneFile,
+        models: Vec<Placed>,
+        allowed: &[PathBuf],
+    ) -> Result<Self, ResolveError> {
         let image = resolve_image(origin, file)?;
         let shot = resolve_shot(origin, &file.camera, &models, image)?;
         let lights = resolve_lights(origin, file, &models, &shot)?;
@@ -91,6 +106,7 @@ impl Scene {
         let environment = if is_lit { environment()? } else { None };
         let overlays = resolve_overlays(origin, &file.overlays, &models, image)?;
         let sections = resolve_sections(origin, &file.sections)?;
+        let painting = background::painting(origin, file, allowed)?;
         Ok(Self {
             models,
             shot,
@@ -101,6 +117,8 @@ impl Scene {
             develop,
             style,
             image,
+            views: Vec::new(),
+            painting,
             overlays,
             sections,
         })
@@ -120,25 +138,7 @@ pub(super) fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSp
         let help = Some("possible are 1, 4, 8 and 16".to_owned());
         origin.fault(&[Field("image"), Field("samples")], message, help)
     })?;
-    let background = match &file.image.background {
-        BackgroundFile::Transparent => [0.0; 4],
-        BackgroundFile::Environment { .. }
-            if matches!(file.environment, None | Some(EnvironmentFile::Dark)) =>
-        {
-            let help = Some("add one, such as environment: Studio()".to_owned());
-            let at = [Field("image"), Field("background")];
-            return Err(origin.fault(&at, "the scene has no environment to be seen", help));
-        }
-        BackgroundFile::Environment { .. } => [0.0, 0.0, 0.0, 1.0],
-        BackgroundFile::Color(text) => {
-            let [r, g, b] = parse_hex(text).ok_or_else(|| {
-                let message = format!("`{text}` is no colour");
-                let help = Some("write #rgb or #rrggbb, such as #f4f1ea".to_owned());
-                origin.fault(&[Field("image"), Field("background")], message, help)
-            })?;
-            [r, g, b, 1.0]
-        }
-    };
+    let background = background::ground_color(origin, file)?;
     let backdrop = match &file.image.background {
         BackgroundFile::Environment { blur } => {
             Some(blur.map_or(0.0, |blur| blur.value().min(1.0) as f32))
@@ -167,25 +167,29 @@ fn load_models(
     if file.models.is_empty() {
         return Err(no_model(origin).into());
     }
-    // Models in one pose are shared; a model in two poses is two models.
+    instances::check_counts(origin, file)?;
+    // Models in one pose are shared; a model in two poses, or with other materials, is two models.
     type Pose = (PathBuf, [Option<Choice>; 3], Option<u64>);
-    let mut loaded: BTreeMap<Pose, Arc<Model>> = BTreeMap::new();
+    type Alike<'a> = Vec<(&'a [MaterialFile], Arc<Model>)>;
+    let mut loaded: BTreeMap<Pose, Alike<'_>> = BTreeMap::new();
     let mut models = Vec::new();
     for (number, entry) in file.models.iter().enumerate() {
         let path = origin.folder.join(&entry.path);
         let time = entry.time.map(|time| time.value().to_bits());
         let choices = [&entry.scene, &entry.variant, &entry.animation].map(Clone::clone);
         let pose = (path, choices, time);
-        let model = if let Some(model) = loaded.get(&pose) {
+        let alike = loaded.entry(pose).or_default();
+        let known = alike.iter().find(|(materials, _)| **materials == *entry.materials);
+        let model = if let Some((_, model)) = known {
             Arc::clone(model)
         } else {
             let model = load_model(origin, number, entry, options);
             let model = model.map_err(|fault| fault.in_scene(origin, number, entry))?;
             let model = Arc::new(model);
-            loaded.insert(pose, Arc::clone(&model));
+            alike.push((&entry.materials, Arc::clone(&model)));
             model
         };
-        models.push(Placed { model, model_to_world: placement(entry) });
+        models.extend(instances::placed(origin, number, entry, &model)?);
     }
     Ok(models)
 }
@@ -261,6 +265,7 @@ pub(super) fn load_model(
         let animation = chosen_animation(&model, entry.animation.as_ref()).map_err(fault)?;
         model.pose(animation, entry.time.map_or(0.0, Finite::value));
     }
+    override_materials(origin, number, &entry.materials, &mut model)?;
     Ok(model)
 }
 
@@ -308,17 +313,6 @@ pub fn chosen_animation(
         let message = format!("the model {} has no animation `{wanted}`", model.name);
         (message, suggestion(&wanted, &names))
     })
-}
-
-/// Scale, then turns about x, y and z, then translation.
-pub(super) fn placement(entry: &ModelFile) -> Affine<ModelSpace, World> {
-    let [sx, sy, sz] = entry.scale.0;
-    let [rx, ry, rz] = entry.rotate_degrees.0.map(f64::to_radians);
-    Affine::<ModelSpace, ModelSpace>::scale(sx, sy, sz)
-        .then(Affine::<ModelSpace, ModelSpace>::rotation_x(rx))
-        .then(Affine::<ModelSpace, ModelSpace>::rotation_y(ry))
-        .then(Affine::<ModelSpace, ModelSpace>::rotation_z(rz))
-        .then(Affine::translation(Vector::from(entry.translate.0)))
 }
 
 pub(super) fn resolve_overlays(

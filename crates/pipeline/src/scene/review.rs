@@ -1,17 +1,19 @@
 //! All mistakes of a scene file, and not only the first.
 
+use super::background;
 use super::error::SceneError;
 use super::file::SceneFile;
 use super::lights::resolve_light;
 use super::locate::Step;
 use super::look::resolve_style;
 use super::origin::Origin;
-use super::resolve::{ModelFault, load_model, placement, resolve_image, resolve_overlays};
+use super::resolve::{ModelFault, load_model, resolve_image, resolve_overlays};
 use super::section::resolve_sections;
 use super::shadows::resolve_shadow;
 use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
-use super::{Placed, ResolveOptions};
+use super::views::resolve_views;
+use super::{CameraPath, Placed, ResolveError, ResolveOptions, instances};
 use crate::drawing::Sheet;
 use std::sync::Arc;
 
@@ -21,12 +23,16 @@ use std::sync::Arc;
 #[must_use]
 pub fn review(origin: &Origin, file: &SceneFile, options: &ResolveOptions) -> Vec<SceneError> {
     let mut mistakes = Vec::new();
-    let mut models = Vec::new();
-    for (number, entry) in file.models.iter().enumerate() {
+    let mut models: Vec<Vec<Placed>> = Vec::new();
+    let counts = instances::check_counts(origin, file);
+    let entries = if counts.is_ok() { &file.models[..] } else { &[] };
+    mistakes.extend(counts.err());
+    for (number, entry) in entries.iter().enumerate() {
         match load_model(origin, number, entry, options) {
-            Ok(model) => {
-                models.push(Placed { model: Arc::new(model), model_to_world: placement(entry) });
-            }
+            Ok(model) => match instances::placed(origin, number, entry, &Arc::new(model)) {
+                Ok(placed) => models.push(placed),
+                Err(mistake) => mistakes.push(mistake),
+            },
             Err(ModelFault::Scene(mistake)) => mistakes.push(mistake),
             Err(ModelFault::File(_)) => {}
         }
@@ -34,9 +40,12 @@ pub fn review(origin: &Origin, file: &SceneFile, options: &ResolveOptions) -> Ve
     if file.models.is_empty() {
         mistakes.push(super::resolve::no_model(origin));
     }
-    match resolve_image(origin, file) {
-        Err(mistake) => mistakes.push(mistake),
-        Ok(image) if !models.is_empty() && models.len() == file.models.len() => {
+    let is_whole = models.len() == file.models.len();
+    let models = models.concat();
+    let image = resolve_image(origin, file);
+    match &image {
+        Err(mistake) => mistakes.push(mistake.clone()),
+        &Ok(image) if !models.is_empty() && is_whole => {
             mistakes.extend(resolve_shot(origin, &file.camera, &models, image).err());
             mistakes.extend(resolve_overlays(origin, &file.overlays, &models, image).err());
         }
@@ -48,10 +57,22 @@ pub fn review(origin: &Origin, file: &SceneFile, options: &ResolveOptions) -> Ve
     mistakes.extend(shadows.err());
     mistakes
         .extend(resolve_environment(origin, file, &models, &options.import.allow_outside).err());
+    if image.is_ok() {
+        let painting = background::painting(origin, file, &options.import.allow_outside);
+        mistakes.extend(painting.err());
+    }
     mistakes.extend(resolve_style(origin, &file.style).err());
     mistakes.extend(resolve_sections(origin, &file.sections).err());
     let sheet = file.sheet.iter();
     mistakes.extend(sheet.filter_map(|sheet| Sheet::resolve(origin, sheet).err()));
+    mistakes.extend(CameraPath::of(origin, file).err());
+    if mistakes.is_empty() && is_whole && !models.is_empty() {
+        let views = resolve_views(origin, file, &models, &options.import.allow_outside);
+        mistakes.extend(views.err().and_then(|error| match error {
+            ResolveError::Scene(mistake) => Some(mistake),
+            _ => None,
+        }));
+    }
     mistakes.sort_by_key(|mistake| mistake.span.start);
     mistakes
 }

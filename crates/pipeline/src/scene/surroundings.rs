@@ -1,7 +1,7 @@
 //! From the surroundings that a scene file asks for to what shading needs; made once for each content and kept.
 
 use super::file::{EnvironmentFile, Finite, SceneFile};
-use super::locate::Step::Field;
+use super::locate::Step::{self, Field};
 use super::radiance::Panorama;
 use super::{Origin, Placed, SceneError};
 use crate::shade::{Environment, Sky, studio};
@@ -81,7 +81,8 @@ pub(super) fn resolve_environment(
             kept((2, [bits[0], bits[1], bits[2], 0]), || Environment::of(|_| light))
         }
         EnvironmentFile::File { path, strength, rotate_degrees } => {
-            let bytes = read(origin, path, allowed)?;
+            let at = [Field("environment"), Field("path")];
+            let bytes = read_bytes(origin, &at, path, allowed)?;
             let panorama = Panorama::read(&bytes)
                 .map_err(|problem| fault(origin, format!("{path}: {problem}"), None))?;
             let turn = Turn::new(strength.value(), degrees(*rotate_degrees));
@@ -96,22 +97,28 @@ fn fault(origin: &Origin, message: String, help: Option<String>) -> SceneError {
     origin.fault(&[Field("environment"), Field("path")], message, help)
 }
 
-fn read(origin: &Origin, path: &str, allowed: &[PathBuf]) -> Result<Vec<u8>, SceneError> {
+/// The bytes of a file that the scene names at `at`: below its folder or one that is allowed, and not too long.
+pub(super) fn read_bytes(
+    origin: &Origin,
+    at: &[Step<'_>],
+    path: &str,
+    allowed: &[PathBuf],
+) -> Result<Vec<u8>, SceneError> {
     if !origin.may_read(Path::new(path), allowed) {
         let help =
             "keep pictures below the scene's folder, or allow another with --allow-outside DIR";
         let message = format!("the path \"{path}\" leads out of the scene's folder");
-        return Err(fault(origin, message, Some(help.to_owned())));
+        return Err(origin.fault(at, message, Some(help.to_owned())));
     }
     let full = origin.folder.join(path);
     let unreadable = |cause: std::io::Error| {
         let help = "check the path: it begins at the folder of the scene".to_owned();
-        fault(origin, format!("cannot read {path}: {cause}"), Some(help))
+        origin.fault(at, format!("cannot read {path}: {cause}"), Some(help))
     };
     let about = std::fs::metadata(&full).map_err(unreadable)?;
     if !about.is_file() || about.len() > LONGEST {
         let message = format!("{path} is no file of at most {LONGEST} bytes");
-        return Err(fault(origin, message, None));
+        return Err(origin.fault(at, message, None));
     }
     std::fs::read(&full).map_err(unreadable)
 }

@@ -46,6 +46,8 @@ pub enum Role {
     Surface,
     /// The environment behind everything, blurred so much, from 0 to 1.
     Backdrop(f32),
+    /// What is painted behind everything; places are parts of the picture's width and height.
+    Painting,
     /// The ground, of which only shadows are seen.
     Ground,
 }

@@ -45,6 +45,8 @@ pub fn scene(model: Model, shot: Shot) -> Scene {
             samples: raster::Samples::One,
             anisotropy: 1,
         },
+        views: Vec::new(),
+        painting: None,
         overlays: Vec::new(),
         sections: Vec::new(),
     }

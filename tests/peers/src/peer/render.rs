@@ -60,6 +60,8 @@ impl Render {
                 samples,
                 anisotropy: 1,
             },
+            views: Vec::new(),
+            painting: None,
             overlays: Vec::new(),
             sections: Vec::new(),
         };

@@ -2,7 +2,6 @@
 
 use crate::cli::render::is_scene;
 use pipeline::Origin;
-use pipeline::scene::file::EnvironmentFile;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
@@ -31,7 +30,7 @@ fn put_model(hash: &mut Sha256, path: &Path) {
     }
 }
 
-/// Adds a scene, what it includes, its models and its environment.
+/// Adds a scene, what it includes, its models and its pictures.
 fn put_scene(hash: &mut Sha256, path: &Path, allowed: &[PathBuf]) {
     put(hash, &std::fs::read(path).unwrap_or_default());
     let Ok((origin, file)) = Origin::read_below(path, allowed) else { return };
@@ -39,7 +38,7 @@ fn put_scene(hash: &mut Sha256, path: &Path, allowed: &[PathBuf]) {
     for model in &file.models {
         put_model(hash, &origin.folder.join(&model.path));
     }
-    if let Some(EnvironmentFile::File { path, .. }) = &file.environment {
+    for path in file.pictures() {
         put(hash, &std::fs::read(origin.folder.join(path)).unwrap_or_default());
     }
 }

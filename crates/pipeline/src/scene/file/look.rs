@@ -1,7 +1,8 @@
 //! How a scene file wants its picture: the style, the size, the background.
 
+use super::background::BackgroundFile;
 use super::lines::{HiddenFile, LinesFile, ShownFile, WidthFile};
-use crate::scene::number::{Finite, NonNegative, Percent};
+use crate::scene::number::{Finite, Percent};
 use serde::Deserialize;
 
 /// How surfaces are drawn.
@@ -106,22 +107,6 @@ impl Default for ImageFile {
             anisotropy: 4,
         }
     }
-}
-
-/// What is seen where no model is.
-#[derive(Clone, PartialEq, Debug, Default, Deserialize)]
-#[serde(rename = "Background", deny_unknown_fields)]
-pub enum BackgroundFile {
-    /// Nothing: alpha is 0.
-    #[default]
-    Transparent,
-    /// A colour as on a web page: `#rgb` or `#rrggbb`.
-    Color(String),
-    /// The environment.
-    Environment {
-        /// How blurred, from 0 to 1. Default: 0.
-        blur: Option<NonNegative>,
-    },
 }
 
 /// The curve that brings light beyond 1 into the range of a picture.

@@ -1,0 +1,77 @@
+//! Views within a picture: drawn on their own, and put into their places.
+
+use super::region::Region;
+use crate::scene::{Scene, View};
+use crate::{Channel, Picture};
+
+impl Scene {
+    /// Whether every pixel of its picture is sure to be opaque, by the backgrounds alone.
+    #[must_use]
+    pub fn has_opaque_background(&self) -> bool {
+        let is_opaque = |scene: &Self| scene.image.background[3] >= 1.0;
+        is_opaque(self) && self.views.iter().all(|view| is_opaque(&view.scene))
+    }
+}
+
+impl View {
+    /// The part of the view that lies in a region of the picture: in the picture, and in the view.
+    pub(super) fn shown(&self, region: Region) -> Option<[Region; 2]> {
+        let shown = self.area.and(region)?;
+        let own = Region { x: shown.x - self.area.x, y: shown.y - self.area.y, ..shown };
+        Some([shown, own])
+    }
+
+    /// Whether nothing of a region of the picture is seen beside views, as far as is easily told: one fills it, or all do that lie
+    /// beside each other.
+    pub(super) fn fill(views: &[Self], region: Region) -> bool {
+        let shown = views.iter().filter(|view| !view.cyan);
+        let shown: Vec<Region> = shown.filter_map(|view| view.area.and(region)).collect();
+        let (mut apart, mut filled): (Vec<Region>, usize) = (Vec::new(), 0);
+        for part in shown {
+            if apart.iter().all(|other| other.and(part).is_none()) {
+                apart.push(part);
+                filled += part.area();
+            }
+        }
+        filled == region.area()
+            || views.iter().any(|view| view.area.and(region) == Some(region) && !view.cyan)
+    }
+
+    /// Puts pixels of the view that are `shown` in the picture into a region of it.
+    pub(super) fn put<C: Channel>(
+        &self,
+        part: &Picture<C>,
+        shown: Region,
+        region: Region,
+        picture: &mut Picture<C>,
+    ) {
+        let [left, top] = [shown.x - region.x, shown.y - region.y].map(|at| at as usize);
+        let (across, width) = (region.width as usize, shown.width as usize);
+        let rows = picture.pixels.chunks_exact_mut(across).skip(top);
+        for (y, (row, pixels)) in (shown.y..).zip(rows.zip(part.pixels.chunks_exact(width))) {
+            let row = &mut row[left..left + width];
+            for (x, (place, pixel)) in (shown.x..).zip(row.iter_mut().zip(pixels)) {
+                *place = match self.border_at(x, y) {
+                    Some([r, g, b]) => [r, g, b, 255].map(C::of_byte),
+                    None if self.cyan => {
+                        let [_, green, blue, alpha] = *pixel;
+                        let covers = place[3].to_byte() >= alpha.to_byte();
+                        [place[0], green, blue, if covers { place[3] } else { alpha }]
+                    }
+                    None => *pixel,
+                };
+            }
+        }
+    }
+
+    /// The colour of the border in a pixel of the picture, if the border is there.
+    fn border_at(&self, x: u32, y: u32) -> Option<[u8; 3]> {
+        let (ink, width) = self.border?;
+        let is_near = |at: u32, from: u32, side: u32| {
+            let inside = at - from;
+            inside < width || side - 1 - inside < width
+        };
+        let Region { x: left, y: top, width: across, height: down } = self.area;
+        (is_near(x, left, across) || is_near(y, top, down)).then_some(ink)
+    }
+}

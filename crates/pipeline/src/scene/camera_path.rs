@@ -1,0 +1,216 @@
+//! The way of a camera: its keys, and where it is between them.
+
+use super::file::{
+    CameraFile, CameraKeyFile, CurveFile, FieldOfView, ProjectionFile, SceneFile, ViewFile,
+};
+use super::locate::Step::{self, Field, Index};
+use super::number::Triple;
+use super::viewpoint::resolve_shot;
+use super::{ImageSpec, Origin, Placed, SceneError};
+use crate::render::Shot;
+
+/// The most keys.
+const MOST: usize = 10_000;
+/// The numbers of a key: eye, target, view-up vector, opening angle in degrees.
+type Numbers = [f64; 10];
+
+/// The way of a camera.
+#[derive(Clone, PartialEq, Debug)]
+pub struct CameraPath {
+    keys: Vec<(f64, Numbers)>,
+    curve: CurveFile,
+    /// The camera whose projection it has.
+    camera: CameraFile,
+}
+
+impl CameraPath {
+    /// The way that a scene file has, if it has one.
+    ///
+    /// # Errors
+    /// If there are too few keys or too many, their times do not grow, or a key has an opening angle and the projection has none; the error
+    /// points at it.
+    pub fn of(origin: &Origin, file: &SceneFile) -> Result<Option<Self>, SceneError> {
+        let Some(path) = &file.camera_path else { return Ok(None) };
+        let fault = |rest: &[Step<'_>], message: String, help: &str| {
+            let at = [&[Field("camera_path"), Field("keys")], rest].concat();
+            origin.fault(&at, message, Some(help.to_owned()))
+        };
+        if !(2..=MOST).contains(&path.keys.len()) {
+            let message = format!("a camera's way cannot have {} keys", path.keys.len());
+            return Err(fault(&[], message, "from 2 to 10,000 are possible"));
+        }
+        for (at, pair) in (1..).zip(path.keys.windows(2)) {
+            let [before, after] = [pair[0].time.value(), pair[1].time.value()];
+            if before >= after {
+                let message =
+                    format!("the key at {after} s does not come after that at {before} s");
+                return Err(fault(
+                    &[Index(at), Field("time")],
+                    message,
+                    "put the keys in the order of their times",
+                ));
+            }
+        }
+        let usual = match &file.camera.projection {
+            None => Some(FieldOfView::USUAL),
+            Some(ProjectionFile::Perspective { fov_y_degrees, .. }) => Some(*fov_y_degrees),
+            Some(_) => None,
+        };
+        let angled = path.keys.iter().position(|key| key.fov_y_degrees.is_some());
+        if let (None, Some(at)) = (usual, angled) {
+            let message = "the scene's projection has no opening angle".to_owned();
+            let help = "leave it out, or choose Perspective()";
+            return Err(fault(&[Index(at), Field("fov_y_degrees")], message, help));
+        }
+        let usual = usual.unwrap_or_default();
+        let keys = path.keys.iter().map(|key| (key.time.value(), numbers(key, usual))).collect();
+        Ok(Some(Self { keys, curve: path.curve, camera: file.camera.clone() }))
+    }
+
+    /// The times of the first and the last key, in seconds.
+    #[must_use]
+    pub fn span(&self) -> [f64; 2] {
+        let time = |key: Option<&(f64, Numbers)>| key.map_or(0.0, |key| key.0);
+        [time(self.keys.first()), time(self.keys.last())]
+    }
+
+    /// The camera at a time in seconds; before the first key it is there, and after the last.
+    #[must_use]
+    pub fn at(&self, time: f64) -> CameraFile {
+        let numbers = self.numbers(time);
+        let triple = |at: usize| Triple([numbers[at], numbers[at + 1], numbers[at + 2]]);
+        let view = ViewFile::LookAt { eye: triple(0), target: triple(3), up: triple(6) };
+        let mut camera = CameraFile { view, ..self.camera.clone() };
+        let projection = camera.projection.get_or_insert(ProjectionFile::PERSPECTIVE);
+        if let ProjectionFile::Perspective { fov_y_degrees, .. } = projection {
+            // A curve may swing beyond its keys.
+            *fov_y_degrees = FieldOfView::new(numbers[9].clamp(0.01, 179.0)).unwrap_or_default();
+        }
+        camera
+    }
+
+    /// The same around models that are loaded, posed and placed.
+    pub(crate) fn shot(
+        &self,
+        origin: &Origin,
+        time: f64,
+        models: &[Placed],
+        image: ImageSpec,
+    ) -> Result<Shot, SceneError> {
+        resolve_shot(origin, &self.at(time), models, image).map_err(|error| {
+            let message = format!("{:.3} s along the camera's way: {}", time, error.message);
+            origin.fault(&[Field("camera_path"), Field("keys")], message, error.help)
+        })
+    }
+
+    fn numbers(&self, time: f64) -> Numbers {
+        let after = self.keys.partition_point(|key| key.0 <= time);
+        let (Some(before), Some(&(end, to))) = (after.checked_sub(1), self.keys.get(after)) else {
+            let nearest = if after == 0 { self.keys.first() } else { self.keys.last() };
+            return nearest.map_or([0.0; 10], |key| key.1);
+        };
+        let (start, from) = self.keys[before];
+        let part = (time - start) / (end - start);
+        std::array::from_fn(|k| match self.curve {
+            CurveFile::Linear => from[k] + (to[k] - from[k]) * part,
+            CurveFile::Smooth => {
+                let slopes = [before, after].map(|at| self.slope(at, k) * (end - start));
+                hermite([from[k], to[k]], slopes, part)
+            }
+        })
+    }
+
+    /// How fast a number changes at a key: as fast as between its neighbours (Catmull and Rom, 1974, at unequal times).
+    fn slope(&self, at: usize, number: usize) -> f64 {
+        let (start, from) = self.keys[at.saturating_sub(1)];
+        let (end, to) = self.keys[(at + 1).min(self.keys.len() - 1)];
+        (to[number] - from[number]) / (end - start)
+    }
+}
+
+fn numbers(key: &CameraKeyFile, usual: FieldOfView) -> Numbers {
+    let [[a, b, c], [d, e, f], [g, h, i]] = [key.eye.0, key.target.0, key.up.0];
+    [a, b, c, d, e, f, g, h, i, key.fov_y_degrees.unwrap_or(usual).value()]
+}
+
+/// The cubic with these values and slopes at 0 and 1 (Hermite).
+fn hermite([from, to]: [f64; 2], [out, into]: [f64; 2], t: f64) -> f64 {
+    let change = to - from;
+    let bend = 3.0 * change - 2.0 * out - into;
+    let twist = out + into - 2.0 * change;
+    from + t * (out + t * (bend + t * twist))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::parse;
+
+    fn path(fields: &str) -> Result<CameraPath, String> {
+        let text = format!("Scene(models: [(path: \"a.glb\")], camera_path: ({fields}))");
+        let file = parse("a.ron", &text).map_err(|error| error.to_string())?;
+        let origin = Origin::of_text("a.ron", text, std::path::PathBuf::new());
+        let path = CameraPath::of(&origin, &file).map_err(|error| error.to_string())?;
+        path.ok_or_else(|| "no way".to_owned())
+    }
+
+    fn eye(path: &CameraPath, time: f64) -> [f64; 3] {
+        match path.at(time).view {
+            ViewFile::LookAt { eye, .. } => eye.0,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    const KEYS: &str = "keys: [
+        (time: 0, eye: (0, 0, 0), target: (0, 0, 9)),
+        (time: 1, eye: (2, 0, 1), target: (0, 0, 9)),
+        (time: 3, eye: (6, 0, 9), target: (0, 0, 9), fov_y_degrees: 55),
+    ]";
+
+    #[test]
+    fn straight_ways_are_straight_and_end_at_their_ends() {
+        let path = path(&format!("{KEYS}, curve: Linear")).expect("a way");
+        assert_eq!(path.span(), [0.0, 3.0]);
+        for (time, expected) in [
+            (-1.0, [0.0; 3]),
+            (0.5, [1.0, 0.0, 0.5]),
+            (2.0, [4.0, 0.0, 5.0]),
+            (9.0, [6.0, 0.0, 9.0]),
+        ] {
+            assert_eq!(eye(&path, time), expected, "{time}");
+        }
+        let Some(ProjectionFile::Perspective { fov_y_degrees, .. }) = path.at(2.0).projection
+        else {
+            panic!("a perspective");
+        };
+        assert_eq!(fov_y_degrees.value(), 45.0);
+    }
+
+    #[test]
+    fn smooth_ways_pass_through_their_keys_at_even_speed_without_jerks() {
+        let path = path(KEYS).expect("a way");
+        for (time, expected) in [(0.0, [0.0; 3]), (1.0, [2.0, 0.0, 1.0]), (3.0, [6.0, 0.0, 9.0])] {
+            assert_eq!(eye(&path, time), expected, "{time}");
+        }
+        // x grows by 2 in each second at all keys: so it does between them.
+        assert!((eye(&path, 2.3)[0] - 4.6).abs() < 1e-12);
+        // z is as fast just before the second key as just after it: 3 in a second.
+        let step = 1e-6;
+        let speed = |from: f64| (eye(&path, from + step)[2] - eye(&path, from)[2]) / step;
+        assert!((speed(1.0 - step) - 3.0).abs() < 1e-4 && (speed(1.0) - 3.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn ways_that_make_no_sense_are_told() {
+        for (fields, told) in [
+            ("keys: []", "cannot have 0 keys"),
+            (
+                "keys: [(time: 0, eye: (0, 0, 0), target: (0, 0, 9)), (time: 0, eye: (0, 0, 0), target: (0, 0, 9))]",
+                "does not come after",
+            ),
+        ] {
+            let error = path(fields).expect_err(fields);
+            assert!(error.contains(told), "{error}");
+        }
+    }
+}

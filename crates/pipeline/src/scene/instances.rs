@@ -1,0 +1,281 @@
+//! The places of a model's copies: grids, circles and lists.
+//!
+//! ```text
+//!   model ─scale, turn─► ─each copy's own way─► ─translate─► world
+//! ```
+
+use super::file::{Finite, InstanceFile, InstancesFile, ModelFile, SceneFile};
+use super::locate::Step::{self, Field, Index};
+use super::number::{Scale, Triple};
+use super::{Origin, Placed, SceneError};
+use crate::model::Model;
+use homog::{Affine, Model as ModelSpace, Vector, World};
+use std::sync::Arc;
+
+/// The most copies of models in a scene.
+pub(super) const MOST: usize = 100_000;
+/// The most vertices of all copies of one model: their places are kept for the framing, 24 bytes each.
+const MOST_VERTICES: usize = 1 << 25;
+
+type Placement = Affine<ModelSpace, ModelSpace>;
+
+/// That the scene has not too many copies, each of its models counted.
+pub(super) fn check_counts(origin: &Origin, file: &SceneFile) -> Result<(), SceneError> {
+    let mut total = 0_usize;
+    for (number, entry) in file.models.iter().enumerate() {
+        let count = counted(origin, number, entry)?;
+        total = total.saturating_add(count);
+        if total > MOST {
+            let message = format!("the scene has {total} copies of models, more than {MOST}");
+            let help = Some("show fewer, or put several into one model".to_owned());
+            return Err(origin.fault(&place(number, &[]), message, help));
+        }
+    }
+    Ok(())
+}
+
+impl ModelFile {
+    /// How often the model is in the scene.
+    #[must_use]
+    pub fn copies(&self) -> usize {
+        match &self.instances {
+            None => 1,
+            Some(InstancesFile::Grid { count: (x, y, z), .. }) => {
+                let sides = [x, y, z].map(|&side| side as usize);
+                sides.iter().fold(1, |product: usize, &side| product.saturating_mul(side))
+            }
+            Some(InstancesFile::Circle { count, .. }) => *count as usize,
+            Some(InstancesFile::List(list)) => list.len(),
+        }
+    }
+}
+
+fn place<'a>(number: usize, rest: &[Step<'a>]) -> Vec<Step<'a>> {
+    [&[Field("models"), Index(number), Field("instances")], rest].concat()
+}
+
+fn counted(origin: &Origin, number: usize, entry: &ModelFile) -> Result<usize, SceneError> {
+    let copies = entry.copies();
+    if copies > 0 {
+        return Ok(copies);
+    }
+    let field = Field("count");
+    let at = match &entry.instances {
+        Some(InstancesFile::List(_)) | None => place(number, &[]),
+        Some(_) => place(number, &[field]),
+    };
+    let help = Some("at least 1; leave `instances` out for one".to_owned());
+    Err(origin.fault(&at, "there is not one copy of the model", help))
+}
+
+/// A model in all places that its entry names.
+pub(super) fn placed(
+    origin: &Origin,
+    number: usize,
+    entry: &ModelFile,
+    model: &Arc<Model>,
+) -> Result<Vec<Placed>, SceneError> {
+    let own = turned(entry.scale, entry.rotate_degrees);
+    let there = Affine::<ModelSpace, World>::translation(Vector::from(entry.translate.0));
+    let Some(instances) = &entry.instances else {
+        return Ok(vec![Placed { model: Arc::clone(model), model_to_world: own.then(there) }]);
+    };
+    let mut vertices = 0_usize;
+    model.for_each_shown_point(|_| vertices += 1);
+    let all = vertices.saturating_mul(entry.copies());
+    if all > MOST_VERTICES {
+        let message = format!("the copies have {all} vertices, more than {MOST_VERTICES}");
+        let help = Some("show fewer, or a simpler model".to_owned());
+        return Err(origin.fault(&place(number, &[]), message, help));
+    }
+    let ways = ways(origin, number, instances)?;
+    let copy = |way: Placement| Placed {
+        model: Arc::clone(model),
+        model_to_world: own.then(way).then(there),
+    };
+    Ok(ways.into_iter().map(copy).collect())
+}
+
+/// Scale, then turns about x, y and z.
+fn turned(scale: Scale, rotate_degrees: Triple) -> Placement {
+    let [sx, sy, sz] = scale.0;
+    let [rx, ry, rz] = rotate_degrees.0.map(f64::to_radians);
+    Placement::scale(sx, sy, sz)
+        .then(Placement::rotation_x(rx))
+        .then(Placement::rotation_y(ry))
+        .then(Placement::rotation_z(rz))
+}
+
+fn moved(by: [f64; 3]) -> Placement {
+    Placement::translation(Vector::from(by))
+}
+
+/// The way of each copy from where the model is.
+fn ways(
+    origin: &Origin,
+    number: usize,
+    instances: &InstancesFile,
+) -> Result<Vec<Placement>, SceneError> {
+    match instances {
+        InstancesFile::Grid { count: (across, up, deep), step } => {
+            Ok(grid([*across, *up, *deep], step.0))
+        }
+        InstancesFile::List(list) => {
+            let way = |copy: &InstanceFile| {
+                turned(copy.scale, copy.rotate_degrees).then(moved(copy.translate.0))
+            };
+            Ok(list.iter().map(way).collect())
+        }
+        InstancesFile::Circle { count, radius, axis, start_degrees, sweep_degrees, turned } => {
+            let at = || {
+                let help = Some("such as (0, 1, 0) for a level circle".to_owned());
+                let message = "the axis of the circle is (0, 0, 0), which is no direction";
+                origin.fault(&place(number, &[Field("axis")]), message, help)
+            };
+            let axis = unit(axis.0).ok_or_else(at)?;
+            let angles = angles(*count, *start_degrees, *sweep_degrees);
+            let ring = Ring { axis, radius: radius.value(), turned: *turned };
+            angles.map(|angle| ring.way(angle).ok_or_else(at)).collect()
+        }
+    }
+}
+
+/// x runs fastest, then y.
+fn grid([across, up, deep]: [u32; 3], step: [f64; 3]) -> Vec<Placement> {
+    let mut ways = Vec::new();
+    for z in 0..deep {
+        for y in 0..up {
+            for x in 0..across {
+                let [dx, dy, dz] = step;
+                ways.push(moved([f64::from(x) * dx, f64::from(y) * dy, f64::from(z) * dz]));
+            }
+        }
+    }
+    ways
+}
+
+/// The angles of copies in radians. The first and the last of a whole turn would be in one place.
+fn angles(count: u32, start: Finite, sweep: Finite) -> impl Iterator<Item = f64> {
+    let (start, sweep) = (start.value(), sweep.value());
+    let is_whole = sweep.abs() >= 360.0;
+    let steps = f64::from(if is_whole { count } else { count.saturating_sub(1).max(1) });
+    (0..count).map(move |at| (start + sweep * (f64::from(at) / steps)).to_radians())
+}
+
+struct Ring {
+    axis: [f64; 3],
+    radius: f64,
+    turned: bool,
+}
+
+impl Ring {
+    /// Out to the circle, then around.
+    fn way(&self, angle: f64) -> Option<Placement> {
+        let turn = Placement::rotation(Vector::from(self.axis), angle)?;
+        let out = self.outwards()?.map(|c| c * self.radius);
+        if self.turned {
+            return Some(moved(out).then(turn));
+        }
+        let there = turn.vector(Vector::from(out)).raw();
+        Some(moved(there.to_array()))
+    }
+
+    /// The direction at 0 degrees: that of x as far as it is at right angles to the axis, of y about the axis x, of z in doubt.
+    fn outwards(&self) -> Option<[f64; 3]> {
+        let [x, y, z] = self.axis;
+        let candidates = [([1.0, 0.0, 0.0], x), ([0.0, 1.0, 0.0], y), ([0.0, 0.0, 1.0], z)];
+        let (from, along) = candidates.into_iter().find(|(_, along)| along.abs() < 0.9)?;
+        unit([from[0] - along * x, from[1] - along * y, from[2] - along * z])
+    }
+}
+
+fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
+    // Scaled first, so that no square leaves the range of numbers.
+    let largest = v.iter().fold(0.0_f64, |most, c| most.max(c.abs()));
+    let v = v.map(|c| c / largest);
+    let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    (largest > 0.0 && length > 0.0).then(|| v.map(|c| c / length))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::parse;
+    use homog::Point;
+
+    /// Where the copies have the point (0, 0, 1) of the model.
+    fn places(model: &str) -> Result<Vec<[f64; 3]>, String> {
+        let text = format!("Scene(models: [(path: \"a.glb\", {model})])");
+        let file = parse("a.ron", &text).map_err(|error| error.to_string())?;
+        let origin = Origin::of_text("a.ron", text, std::path::PathBuf::new());
+        check_counts(&origin, &file).map_err(|error| error.to_string())?;
+        let model = Arc::new(Model::default());
+        let placed =
+            placed(&origin, 0, &file.models[0], &model).map_err(|error| error.to_string())?;
+        assert_eq!(placed.len(), file.models[0].copies());
+        let there = |placed: &Placed| {
+            let point = placed.model_to_world.point(Point::new(0.0, 0.0, 1.0)).raw();
+            point.to_array().map(|c| libm::round(c * 1e9) / 1e9 + 0.0)
+        };
+        Ok(placed.iter().map(there).collect())
+    }
+
+    #[test]
+    fn a_grid_begins_at_the_model_and_runs_along_x_first() {
+        let places = places(
+            "translate: (10, 0, 0), scale: 2, instances: Grid(count: (2, 1, 2), step: (3, 0, -5))",
+        );
+        let expected = [[10.0, 0.0, 2.0], [13.0, 0.0, 2.0], [10.0, 0.0, -3.0], [13.0, 0.0, -3.0]];
+        assert_eq!(places.expect("places"), expected);
+    }
+
+    #[test]
+    fn copies_on_a_circle_turn_with_their_places_unless_they_are_not_to() {
+        // Counter-clockwise from above, x goes to -z; the copy's own front with it.
+        let turned = places("instances: Circle(count: 4, radius: 2)").expect("places");
+        assert_eq!(
+            turned,
+            [[2.0, 0.0, 1.0], [1.0, 0.0, -2.0], [-2.0, 0.0, -1.0], [-1.0, 0.0, 2.0]]
+        );
+        let still =
+            places("translate: (0, 1, 0), instances: Circle(count: 2, radius: 2, turned: false)");
+        assert_eq!(still.expect("places"), [[2.0, 1.0, 1.0], [-2.0, 1.0, 1.0]]);
+        let arc = "instances: Circle(count: 3, radius: 1, axis: (0, 0, 5), sweep_degrees: 180, start_degrees: 90)";
+        let arc = places(arc).expect("places");
+        assert_eq!(arc, [[0.0, 1.0, 1.0], [-1.0, 0.0, 1.0], [0.0, -1.0, 1.0]]);
+    }
+
+    #[test]
+    fn a_listed_copy_is_scaled_then_turned_then_moved() {
+        let list =
+            "instances: List([(scale: 3, rotate_degrees: (0, 90, 0), translate: (0, 0, 1)), ()])";
+        assert_eq!(places(list).expect("places"), [[3.0, 0.0, 1.0], [0.0, 0.0, 1.0]]);
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_told_at_its_place() {
+        for (model, told, mark) in [
+            ("instances: Grid(count: (2, 0, 2), step: (1, 1, 1))", "not one copy", "(2, 0, 2)"),
+            ("instances: Circle(count: 0, radius: 1)", "not one copy", "0"),
+            ("instances: List([])", "not one copy", "List([])"),
+            (
+                "instances: Circle(count: 3, radius: 1, axis: (0, 0, 0))",
+                "no direction",
+                "(0, 0, 0)",
+            ),
+            (
+                "instances: Grid(count: (4294967295, 4294967295, 4294967295), step: (1, 1, 1))",
+                "more than 100000",
+                "Grid(count: (4294967295, 4294967295, 4294967295), step: (1, 1, 1))",
+            ),
+        ] {
+            let error = places(model).expect_err(model);
+            assert!(error.contains(told), "{error}");
+            let underlined = "^".repeat(mark.len());
+            assert!(
+                error.lines().any(|line| line.trim_end().ends_with(&format!(" {underlined}"))),
+                "{error}"
+            );
+        }
+    }
+}
