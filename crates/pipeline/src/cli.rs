@@ -6,8 +6,12 @@ mod batch;
 mod check;
 mod color;
 mod compare;
+mod compare_projections;
+mod curve;
+mod demo;
 mod explain;
 mod failure;
+mod figure;
 mod format;
 mod info;
 mod light;
@@ -27,6 +31,8 @@ mod scene;
 mod section;
 mod sheet;
 mod show;
+mod subject;
+mod sweep;
 mod template;
 
 pub(crate) use args::Args;
@@ -47,6 +53,10 @@ pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
         Command::Check(args) => return check::run(&args),
         Command::Matrix(args) => matrix::run(&args)?,
         Command::Explain(args) => explain::run(&args)?,
+        Command::CompareProjections(args) => compare_projections::run(&args)?,
+        Command::Sweep(args) => sweep::run(&args)?,
+        Command::Curve(args) => curve::run(&args)?,
+        Command::Demo(args) => demo::run(&args)?,
         Command::Animate(args) => animate::run(&args)?,
         Command::Batch(args) => return batch::run(&args),
         Command::Scene(args) => return scene::run(&args),

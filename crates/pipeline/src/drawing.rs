@@ -6,6 +6,7 @@
 //! Everything is computed in f64 from the same stages as the pictures (HL-1); nothing is sampled.
 
 mod chain;
+mod chart;
 mod dashes;
 mod draw;
 mod edges;
@@ -22,6 +23,7 @@ mod options;
 mod overlap;
 mod overlay;
 mod page;
+mod panels;
 mod pdf;
 mod sheet;
 mod sight;
@@ -31,6 +33,7 @@ mod verify;
 mod visibility;
 mod warning;
 
+pub use chart::{Axis, Chart, Curve, Mark, Spacing};
 pub use draw::draw;
 pub use label::{Align, Label};
 pub use layout::Placement;
@@ -43,6 +46,7 @@ pub use page::{
     Cap, Group, Ink, Join, Layer, MILLIMETRES_PER_PIXEL, Page, Pasted, Pen, Place, Polyline,
     micrometres, millimetres,
 };
+pub use panels::{Panel, Panels};
 pub use pdf::to_pdf;
 pub use sheet::{Sheet, SheetError, Titles};
 pub use sight::Sight;

@@ -21,6 +21,7 @@ mod triangle;
 
 pub use chain::Chain;
 pub use conventions::Conventions;
+pub(crate) use factors::formula_of;
 pub use json::{SCHEMA_NAME, SCHEMA_VERSION};
 pub use matrix::explain_matrix;
 pub use node::explain_node;

@@ -21,6 +21,7 @@
 //! | many pictures of one scene | [`film::Film`] | `examples/turntable.rs` |
 //! | picture after picture without allocation | [`Renderer`] | its documentation |
 //! | every step of a point, a triangle, a pixel | [`explain`] | `examples/explain.rs` |
+//! | what lessons show: projections, sweeps, depth curves | [`demonstration`] | its documentation |
 //! | models from memory | [`import::load_bytes`], [`Scene::of_models`] | |
 //! | what a scene file may say | [`scene::reference`] | |
 //!
@@ -32,6 +33,7 @@
 mod cancel;
 mod canvas;
 mod color;
+pub mod demonstration;
 pub mod drawing;
 pub mod explain;
 pub mod film;

@@ -38,6 +38,7 @@ mod views;
 mod wording;
 
 pub use advice::{Advice, advise};
+pub(crate) use bounds::DepthSpan;
 pub use camera_path::CameraPath;
 pub use error::SceneError;
 pub use file::SceneFile;

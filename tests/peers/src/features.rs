@@ -59,7 +59,8 @@ fn frames(scene: Scene) -> Result<Box<dyn FnMut()>, String> {
     // As long as the process: there are few.
     let scene: &'static Scene = Box::leak(Box::new(scene));
     let textures = Textures::of(&scene.models);
-    let (mut renderer, mut picture) = (Renderer::default(), Picture::default());
+    let mut renderer = Renderer::default();
+    let mut picture: Picture = Picture::default();
     let silent = Timings::default();
     renderer.render(scene, &textures, 1, &silent, &mut picture).map_err(|e| e.to_string())?;
     Ok(Box::new(move || {

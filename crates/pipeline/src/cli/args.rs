@@ -4,6 +4,9 @@ use super::animate::AnimateArgs;
 use super::batch::BatchArgs;
 use super::color::ColorArg;
 use super::compare::CompareArgs;
+use super::compare_projections::CompareProjectionsArgs;
+use super::curve::CurveArgs;
+use super::demo::DemoArgs;
 use super::explain::ExplainArgs;
 use super::format::Format;
 use super::loading::LoadArgs;
@@ -16,6 +19,7 @@ use super::pick::PickArgs;
 use super::reference::ReferenceArgs;
 use super::scene::SceneArgs;
 use super::sheet::SheetArgs;
+use super::sweep::SweepArgs;
 use camera::NamedView;
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -44,6 +48,10 @@ Examples:
   alberti check model.glb                         what is wrong with the file
   alberti matrix 1 0 0 0 …                        what sixteen numbers are
   alberti explain model.glb --point 0,1,0         where a point goes, stage by stage
+  alberti compare-projections model.glb           isometric, cavalier, two-point …, side by side
+  alberti sweep model.glb --vary dolly --from 3 --to 12
+  alberti curve depth --near 0.1 --far 1000 -o depth.svg
+  alberti demo tear                               why clipping comes before the divide
   alberti animate model.glb --turntable -o turn.png
   alberti batch models --out thumbs --size 256x256
   alberti scene init model.glb                    a scene file to begin with
@@ -67,6 +75,14 @@ pub(crate) enum Command {
     Matrix(MatrixArgs),
     /// Follow a point, a segment, a vertex or a triangle of a scene through every stage
     Explain(ExplainArgs),
+    /// Draw a subject in every projection of the textbooks, side by side, with formulas and numbers
+    CompareProjections(CompareProjectionsArgs),
+    /// Vary one parameter of camera or lens, and draw the pictures side by side
+    Sweep(SweepArgs),
+    /// Draw a curve of the pipeline, with its table: depth against distance
+    Curve(CurveArgs),
+    /// Show what goes wrong where a stage is left out
+    Demo(DemoArgs),
     /// Make a film: a turntable, or the model's own animation
     Animate(AnimateArgs),
     /// Make pictures of many models: thumbnails, a report, a contact sheet

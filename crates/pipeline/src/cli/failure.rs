@@ -1,6 +1,7 @@
 //! What can go wrong in the program.
 
 use super::color;
+use pipeline::demonstration::DemonstrationError;
 use pipeline::drawing::SheetError;
 use pipeline::import::ImportError;
 use pipeline::{OutputError, RenderError, ResolveError, SceneError};
@@ -19,6 +20,8 @@ pub(crate) enum Failure {
     #[error(transparent)]
     Sheet(#[from] SheetError),
     #[error(transparent)]
+    Demonstration(#[from] DemonstrationError),
+    #[error(transparent)]
     Output(#[from] OutputError),
     #[error("cannot write to the standard output: {0}")]
     Stdout(#[from] std::io::Error),
@@ -30,7 +33,10 @@ impl Failure {
     /// The message as the standard error stream shows it: in colours, if it has them.
     pub(crate) fn told(&self) -> String {
         match self {
-            Self::Resolve(ResolveError::Scene(mistake)) => mistake.told(color::on_stderr()),
+            Self::Resolve(ResolveError::Scene(mistake))
+            | Self::Demonstration(DemonstrationError::Resolve(ResolveError::Scene(mistake))) => {
+                mistake.told(color::on_stderr())
+            }
             other => other.to_string(),
         }
     }

@@ -196,7 +196,7 @@ fn parse_samples(text: &str) -> Result<u32, String> {
     samples.ok_or_else(|| "possible are 1, 4, 8 and 16".to_owned())
 }
 
-fn parse_size(text: &str) -> Result<(u32, u32), String> {
+pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
     let fault = || {
         format!("expected WIDTHxHEIGHT, such as 1920x1080, each from 1 to {}", pipeline::MAX_SIDE)
     };

@@ -158,7 +158,8 @@ fn beside(args: &SheetArgs) -> Result<PathBuf, Failure> {
     Ok(PathBuf::from(stem).with_extension("pdf"))
 }
 
-fn picture(page: &Page) -> Result<Picture, Failure> {
+/// A page as pixels, at 150 dots to the inch.
+pub(super) fn picture(page: &Page) -> Result<Picture, Failure> {
     let size = || {
         let paper = Paper::new(page.size.x, page.size.y).ok()?;
         let [width, height] = paper.pixels(Resolution::dots_per_inch(DOTS_PER_INCH).ok()?)?;

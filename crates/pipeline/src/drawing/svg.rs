@@ -198,7 +198,7 @@ impl Path {
 }
 
 /// A text that is safe between tags and in quotation marks. Characters that XML has no place for are left out.
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

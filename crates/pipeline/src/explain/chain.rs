@@ -128,7 +128,7 @@ impl Chain {
     }
 
     /// A place on the screen in pixels from the upper left corner of the picture, rows running down.
-    pub(super) fn from_upper_left(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub(super) fn below_upper_left(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let border = self.viewport.convention().centres.border();
         let (x, y) = (x - border, y - border);
         [x, if self.rows_go_up() { self.size()[1] - y } else { y }]

@@ -36,6 +36,12 @@ pub(super) fn describe(
     }
 }
 
+/// The formulas behind a projection of the pipeline's, as the chapter numbers them.
+pub(crate) fn formula_of(view_to_clip: Projective<View, Clip>) -> Option<&'static str> {
+    let found = decompose(view_to_clip.raw(), Conventions::Alberti.volume()).ok()?;
+    formula(&found.kind, Conventions::Alberti)
+}
+
 /// The formulas behind a projection in these conventions.
 fn formula(kind: &Decomposed, conventions: Conventions) -> Option<&'static str> {
     let chapter = matches!(conventions, Conventions::Alberti | Conventions::Chapter);

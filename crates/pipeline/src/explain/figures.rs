@@ -159,7 +159,7 @@ fn on_picture(chain: &Chain, picture: &Picture, marks: &[Mark]) -> Figure {
         "<image width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" href=\"data:image/png;base64,{png}\"/>"
     );
     let placed: Vec<[f64; 2]> =
-        marks.iter().map(|mark| chain.from_upper_left([mark.place[0], mark.place[1]])).collect();
+        marks.iter().map(|mark| chain.below_upper_left([mark.place[0], mark.place[1]])).collect();
     svg += &subject(marks, &placed, width / SIZE[0]);
     svg += "</svg>";
     let caption = format!("The picture, {} × {} pixels", number(width), number(height));

@@ -110,7 +110,7 @@ impl Images {
     pub(super) fn runs(&self) -> impl Iterator<Item = (&[Range<usize>], Range<usize>)> {
         let mut rest = self.whole.triangles();
         let cut = self.cut.triangles().iter().cloned();
-        cut.chain([usize::MAX..usize::MAX]).map(move |cut| {
+        cut.chain(std::iter::once(usize::MAX..usize::MAX)).map(move |cut| {
             let before = rest.partition_point(|run| run.start < cut.start);
             let whole;
             (whole, rest) = rest.split_at(before);

@@ -7,7 +7,6 @@ use super::{RenderError, Renderer, Textures};
 use crate::render::assemble::assemble;
 use crate::scene::Scene;
 use crate::shade::{DrawList, ScreenSpace};
-use glam::DMat4;
 use raster::{Frame, Nearest};
 
 /// The nearest surfaces of a frame that holds a scene, if its scene asks for occlusion; in memory that was used before.
@@ -26,7 +25,7 @@ pub(super) fn screen_space(
     nearest.resize(width as usize * height as usize, Nearest::NOTHING);
     frame.nearest(&Casters(draws), threads, &mut nearest);
     let stage = Stage::new(&scene.shot, width, height)?;
-    let world_to_screen = DMat4::from(stage.ndc_to_screen.raw()) * scene.shot.world_to_clip().raw();
+    let world_to_screen = stage.ndc_to_screen.raw() * scene.shot.world_to_clip().raw();
     // The middle of the view volume is near everything that is seen.
     let middle = scene.shot.world_to_clip().raw().inverse() * glam::DVec4::new(0.0, 0.0, 0.0, 1.0);
     let middle = middle.truncate() / middle.w;

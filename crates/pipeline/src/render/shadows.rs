@@ -11,7 +11,6 @@ use crate::shade::{Draw, DrawList, ShadowMap};
 pub(super) use casters::Casters;
 use casters::add_casters;
 use fit::Fit;
-use glam::DMat4;
 use raster::{Frame, Samples};
 
 /// What shadow maps are made in, kept from picture to picture.
@@ -74,7 +73,7 @@ impl ShadowMemory {
         let mut draws = DrawList { draws: Vec::<Draw<'a>>::new() };
         add_casters(scene, textures, &stage, threads, &mut self.images, &mut frame, &mut draws)?;
         let mut map = self.spare.pop().unwrap_or_default();
-        let to_screen = DMat4::from(stage.ndc_to_screen.raw());
+        let to_screen = stage.ndc_to_screen.raw();
         map.restart(to_screen * fit.shot.world_to_clip().raw(), fit.size, fit.middle);
         map.soften(fit.spread, fit.at_infinity);
         frame.nearest(&Casters(&draws), threads, &mut map.texels);

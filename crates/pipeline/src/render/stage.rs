@@ -107,13 +107,13 @@ impl Stage {
     }
 
     /// The divide and the viewport.
-    pub(super) fn to_screen(&self, point: HPoint<Clip>) -> Option<Point<Screen>> {
+    pub(super) fn screen_place(&self, point: HPoint<Clip>) -> Option<Point<Screen>> {
         Some(self.ndc_to_screen.point(point.divide()?))
     }
 
     #[inline]
     pub(super) fn snap(&self, point: HPoint<Clip>) -> Option<ScreenVertex> {
-        ScreenVertex::snap(self.to_screen(point)?, point.w())
+        ScreenVertex::snap(self.screen_place(point)?, point.w())
     }
 
     pub(super) fn snap_all<const N: usize>(

@@ -15,14 +15,14 @@ pub(crate) fn world_points(models: &[Placed]) -> Vec<Point<World>> {
 
 /// How far along the gaze the scene begins and ends.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct DepthSpan {
+pub(crate) struct DepthSpan {
     pub(super) nearest: f64,
     pub(super) farthest: f64,
 }
 
 impl DepthSpan {
     /// The span of `points` as seen by `camera`; from 0 to 1 if there are none.
-    pub(super) fn of(points: &[Point<World>], camera: Camera) -> Self {
+    pub(crate) fn of(points: &[Point<World>], camera: Camera) -> Self {
         let world_to_view = camera.world_to_view();
         let distances = points.iter().map(|&point| -world_to_view.point(point).z());
         let none = Self { nearest: f64::INFINITY, farthest: f64::NEG_INFINITY };
@@ -35,7 +35,7 @@ impl DepthSpan {
 
     /// Near and far planes for an eye in front of which the scene lies or which is inside it: tight, with a hundredth of
     /// room, the near plane no nearer than what depth can still tell apart.
-    pub(super) fn perspective(self, near: Option<f64>, far: Option<f64>) -> (f64, f64) {
+    pub(crate) fn perspective(self, near: Option<f64>, far: Option<f64>) -> (f64, f64) {
         let farthest = far.unwrap_or(if self.farthest > 0.0 { self.farthest * 1.01 } else { 1.0 });
         let near = near.unwrap_or((self.nearest * 0.99).max(farthest * 1e-5));
         let far = far.unwrap_or(if farthest > near { farthest } else { near * 2.0 });
@@ -43,7 +43,7 @@ impl DepthSpan {
     }
 
     /// Near and far planes for a parallel projection; they may lie behind the eye.
-    pub(super) fn parallel(self, near: Option<f64>, far: Option<f64>) -> (f64, f64) {
+    pub(crate) fn parallel(self, near: Option<f64>, far: Option<f64>) -> (f64, f64) {
         let size = self.nearest.abs().max(self.farthest.abs());
         let room = (self.farthest - self.nearest).max(size * 1e-6).max(1e-9) * 0.01;
         let near_plane = near.unwrap_or(self.nearest - room);

@@ -26,7 +26,7 @@ pub(super) fn resolve_ground(
     let Some(GroundFile::Shadow { height }) = file.ground else { return None };
     let bounds = Bounds::of(world_points(models))?;
     let (least, greatest) = (bounds.corners()[0].raw(), bounds.corners()[7].raw());
-    let height = height.map_or(least.y, |height| height.value());
+    let height = height.map_or(least.y, super::number::Finite::value);
     let reach = LONGEST * bounds.diagonal();
     let (mut low, mut high) = (least.min(greatest), least.max(greatest));
     for (light, corner) in lights.iter().flat_map(|light| bounds.corners().map(|c| (light, c))) {

@@ -24,6 +24,6 @@ pub(super) fn resolve_shadow(
         let help = Some("from 64 to 8192 are possible, such as 2048".to_owned());
         return Err(origin.fault(&path, message, help));
     }
-    let degrees = softness_degrees.map_or(USUAL_SOFTNESS, |degrees| degrees.value());
+    let degrees = softness_degrees.map_or(USUAL_SOFTNESS, super::number::Softness::value);
     Ok(Some(Shadow { size, softness: degrees.to_radians() as f32 }))
 }

@@ -24,7 +24,7 @@ impl Shading<'_> {
         let places = blend(&draw.places(&draw.corners(items)), &seen.weights());
         let receivers = Receivers { places, normals: in_all(UP) };
         let (mut all, mut left) = ([0.0; N], [0.0; N]);
-        let everywhere = self.from_everywhere();
+        let everywhere = self.ambient_lux();
         let mut open = [1.0; N];
         if let Some(occlusion) = self.occlusion {
             let views = views(&places, <[f64; 4]>::from(self.viewer).map(|c| c as f32));
@@ -59,7 +59,7 @@ impl Shading<'_> {
     }
 
     /// The illuminance from all around, by light and environment.
-    fn from_everywhere(&self) -> f32 {
+    fn ambient_lux(&self) -> f32 {
         let mut lux = 0.0;
         for [r, g, b] in self.lights.iter().filter_map(Light::ambient) {
             lux += r + g + b;

@@ -96,7 +96,7 @@ impl ScreenSpace {
         };
         let (dx, dy) = (beside[0] - here[0], beside[1] - here[1]);
         let reach = (dx * dx + dy * dy).sqrt().min(FARTHEST);
-        if !(reach > 1.0) {
+        if reach <= 1.0 || reach.is_nan() {
             return 1.0;
         }
         let (mut open, mut all) = (0.0, 0.0);

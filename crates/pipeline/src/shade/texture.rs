@@ -188,7 +188,6 @@ mod tests {
     }
 
     /// Sizes of a pixel from a thirtieth of a texel to all of the image, mixed in each eight.
-    #[expect(clippy::needless_range_loop, reason = "lanes of several arrays are written")]
     fn eight_are_as_one_by_one(chain: &MipChain<'_>) {
         for round in 0..20 {
             let mut uvs = [[[0.0_f32; 8]; 2]; 3];

@@ -81,7 +81,7 @@ fn sun(scene: &Scene, travel: [f64; 3], shadow: Shadow) -> Option<Fit> {
     let camera = Camera::new(Point::ORIGIN, basis).ok()?;
     let mut all = Extent::NONE;
     each_place(&scene.models, camera, |place| all.add(place));
-    if !(all.least.x <= all.greatest.x) {
+    if all.least.x > all.greatest.x {
         return None;
     }
     let depth = (all.greatest.z - all.least.z).max(1e-9 * all.least.abs().max_element()).max(1e-30);

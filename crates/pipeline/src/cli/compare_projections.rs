@@ -1,0 +1,60 @@
+//! `alberti compare-projections`: a subject in every projection of the textbooks, side by side.
+
+use super::Failure;
+use super::args::ProjectionArg;
+use super::figure::{check_panels, write_panels};
+use super::progress::Progress;
+use super::render::{threads, warn};
+use super::subject::SubjectArgs;
+use clap::ValueEnum as _;
+use pipeline::Scene;
+use pipeline::demonstration::{Member, compared};
+use pipeline::scene::ResolveOptions;
+use std::path::PathBuf;
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct CompareProjectionsArgs {
+    /// Where the page goes: .svg, .pdf, .png or .html
+    #[arg(short, long, value_name = "FILE", default_value = "projections.svg")]
+    output: PathBuf,
+    /// The projections, in the order in which they are shown [default: all]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    projections: Vec<ProjectionArg>,
+    /// Pictures in a row [default: as many as make the page about square]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=16))]
+    columns: Option<u8>,
+    #[command(flatten)]
+    subject: SubjectArgs,
+}
+
+pub(crate) fn run(args: &CompareProjectionsArgs) -> Result<(), Failure> {
+    check_panels(&args.output)?;
+    let progress = Progress::start("loading");
+    let (origin, file) = args.subject.open()?;
+    let options = ResolveOptions { import: args.subject.load.options() };
+    let scene = Scene::resolve(&origin, &file, &options)?;
+    progress.stage("drawing");
+    let members = members(&args.projections);
+    let threads = threads(args.subject.threads);
+    let mut panels = compared(&origin, &file, &scene.models, &members, threads)?;
+    panels.columns = args.columns.map_or(panels.columns, usize::from);
+    progress.stage("writing");
+    write_panels(&args.output, &panels)?;
+    drop(progress);
+    warn(&scene, &panels.warnings());
+    Ok(())
+}
+
+/// Those that are wanted, or all; each once.
+fn members(wanted: &[ProjectionArg]) -> Vec<Member> {
+    let all = if wanted.is_empty() { ProjectionArg::value_variants() } else { wanted };
+    let mut members: Vec<Member> = Vec::new();
+    for projection in all {
+        let value = projection.to_possible_value();
+        let name = value.map(|value| value.get_name().to_owned()).unwrap_or_default();
+        if members.iter().all(|member| member.name != name) {
+            members.push(Member { name, projection: (*projection).into() });
+        }
+    }
+    members
+}

@@ -1,0 +1,64 @@
+//! Demonstrations: what lessons show of the viewing pipeline, computed by its stages.
+//!
+//! | what | begin with |
+//! | --- | --- |
+//! | one subject in every projection of the textbooks | [`compared`] |
+//! | one parameter of camera or lens, step by step | [`Sweep`] |
+//! | how distance becomes depth, and how finely (C48, C68) | [`DepthTable`] |
+//! | why clipping comes before the divide (C36) | [`tear`] |
+//!
+//! Each gives [`Panels`](crate::drawing::Panels) or a [`Page`](crate::drawing::Page), to be written as SVG, PDF or PNG; panels go
+//! into a web page as well. None depends on the number of threads.
+
+mod depth;
+mod depth_chart;
+mod family;
+mod number;
+mod sweep;
+mod tear;
+#[cfg(test)]
+mod test_scene;
+
+pub use depth::{DepthRow, DepthTable};
+pub use family::{Member, compared};
+pub use sweep::{Sweep, Vary};
+pub use tear::tear;
+
+use crate::render::RenderError;
+use crate::scene::ResolveError;
+
+/// Why there is no demonstration.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum DemonstrationError {
+    /// The scene makes no sense with a projection.
+    #[error(transparent)]
+    Resolve(#[from] ResolveError),
+    /// A panel cannot be drawn.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// A camera cannot be had.
+    #[error(transparent)]
+    Camera(#[from] camera::CameraError),
+    /// A projection cannot be had.
+    #[error(transparent)]
+    Projection(#[from] projection::ProjectionError),
+    /// The parameter is none of this scene's projection.
+    #[error("`{vary}` cannot be varied: {reason}")]
+    Unsuited {
+        /// The parameter.
+        vary: Vary,
+        /// Why not, and what to do.
+        reason: String,
+    },
+    /// A value makes no sense.
+    #[error("`{vary}` cannot be {value}: {reason}")]
+    Value {
+        /// The parameter.
+        vary: Vary,
+        /// Its value.
+        value: String,
+        /// Why not.
+        reason: String,
+    },
+}

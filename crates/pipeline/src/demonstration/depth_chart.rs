@@ -1,0 +1,194 @@
+//! The depth curve on a page: depth against distance, resolution against distance, and the table.
+
+use super::depth::{DepthRow, DepthTable};
+use super::number::short;
+use crate::drawing::{
+    Align, Axis, Chart, Curve, Group, Ink, Label, Layer, Mark, Page, Pen, Spacing,
+};
+use glam::DVec2;
+use projection::DepthFormat;
+
+const INK: Ink = [26, 31, 38];
+const NORMAL: Ink = [26, 86, 176];
+const REVERSED: Ink = [179, 38, 30];
+
+/// The page, the charts and the table in millimetres; the page is A4 across, or longer for long tables.
+const PAGE: DVec2 = DVec2::new(297.0, 210.0);
+const CHART: DVec2 = DVec2::new(150.0, 66.0);
+const UPPER: DVec2 = DVec2::new(24.0, 38.0);
+const LOWER: DVec2 = DVec2::new(24.0, 126.0);
+const TABLE: DVec2 = DVec2::new(184.0, 36.0);
+
+/// The right ends of the table's columns, from its left.
+const COLUMNS: [f64; 5] = [18.0, 38.0, 59.0, 80.0, 105.0];
+
+/// Heights of letters.
+const HEADING: f64 = 4.5;
+const LETTERS: f64 = 2.3;
+const LEADING: f64 = 2.1;
+
+/// The places of a curve: more than a printer tells apart, and enough for every tooth of a floating-point step.
+const PLACES: u32 = 800;
+
+impl DepthTable {
+    /// Curves and table on a page.
+    #[must_use]
+    pub fn to_page(&self, rows: &[DepthRow]) -> Page {
+        let table_end = TABLE.y + (rows.len() + 2) as f64 * LETTERS * LEADING;
+        let size = DVec2::new(PAGE.x, PAGE.y.max(table_end + 10.0));
+        let title = "Depth after the perspective divide";
+        let mut page = Page::new(size, title, Some([255; 3]));
+        let [depths, steps] = self.charts();
+        page.layers.extend(depths.layers(UPPER, CHART));
+        page.layers.extend(steps.layers(LOWER, CHART));
+        page.layers.extend([heading(title, &self.notes()), table(&self.cells(rows))]);
+        page
+    }
+
+    /// Depth and resolution, both against distance.
+    fn charts(&self) -> [Chart; 2] {
+        let samples = self.samples();
+        let [from, to] = self.range();
+        let x = |title: &str| Axis { title: title.into(), from, to, spacing: Spacing::Logarithmic };
+        let curve = |which: usize, of: &dyn Fn(&DepthRow) -> [f64; 2]| Curve {
+            id: ["normal", "reversed"][which].to_owned(),
+            title: ["normal", "reversed"][which].to_owned(),
+            ink: [NORMAL, REVERSED][which],
+            dashed: which == 1,
+            places: samples.iter().map(|row| [row.distance, of(row)[which]]).collect(),
+        };
+        let curves = |of: &dyn Fn(&DepthRow) -> [f64; 2]| vec![curve(0, of), curve(1, of)];
+        let ends = samples.iter().flat_map(|row| row.depths);
+        let (low, high) = ends.fold((0.0_f64, 1.0_f64), |(l, h), d| (l.min(d), h.max(d)));
+        let half = self.curves()[0].half_range_distance();
+        let [finest, coarsest] = span_of_steps(&samples, self.format());
+        [
+            Chart {
+                id: "depth".to_owned(),
+                x: x("distance"),
+                y: Axis {
+                    title: "depth".to_owned(),
+                    from: low,
+                    to: high,
+                    spacing: Spacing::Linear,
+                },
+                curves: curves(&|row| row.depths),
+                marks: vec![Mark { at: half, text: format!("half at {}", short(half, 4)) }],
+            },
+            Chart {
+                id: "step".to_owned(),
+                x: x("distance"),
+                y: Axis {
+                    title: "smallest step that is told apart".to_owned(),
+                    from: finest,
+                    to: coarsest,
+                    spacing: Spacing::Logarithmic,
+                },
+                curves: curves(&|row| row.steps)
+                    .into_iter()
+                    .map(|curve| at_least(curve, finest))
+                    .collect(),
+                marks: Vec::new(),
+            },
+        ]
+    }
+
+    /// Rows close to each other, in equal ratios.
+    fn samples(&self) -> Vec<DepthRow> {
+        let [near, end] = self.range();
+        let ratio = libm::log(end) - libm::log(near);
+        let distance = |place: u32| match place {
+            0 => near,
+            PLACES => end,
+            place => near * libm::exp(ratio * (f64::from(place) / f64::from(PLACES))),
+        };
+        (0..=PLACES).filter_map(|place| self.row(distance(place)).ok()).collect()
+    }
+}
+
+/// From the finest step to the coarsest. Beside the plane that has depth 0 floating-point steps fall to nothing: the finest
+/// fiftieth is left out, else nothing else could be seen.
+fn span_of_steps(samples: &[DepthRow], format: DepthFormat) -> [f64; 2] {
+    let left_out = if format == DepthFormat::Float32 { 50 } else { usize::MAX };
+    let before_last = samples.len().saturating_sub(1);
+    let before_last = samples[..before_last].iter();
+    let mut steps: Vec<f64> = before_last.flat_map(|row| row.steps).collect();
+    steps.sort_by(f64::total_cmp);
+    let (Some(&finest), Some(&coarsest)) = (steps.get(steps.len() / left_out), steps.last()) else {
+        return [0.5, 2.0];
+    };
+    // Some room where all steps are alike.
+    if coarsest > finest * 2.0 { [finest, coarsest] } else { [finest * 0.5, finest * 4.0] }
+}
+
+/// The part of a curve that is not below a value. The last place is left out too: at the far plane there is no step.
+fn at_least(mut curve: Curve, least: f64) -> Curve {
+    curve.places.pop();
+    curve.places.retain(|[_, step]| *step >= least);
+    curve
+}
+
+fn heading(title: &str, notes: &[String]) -> Layer {
+    let mut layer = Layer::new("heading", "heading", Pen::of_width(LETTERS * 0.1, INK));
+    let left = UPPER.x - 12.0;
+    let mut strokes = Label::new(title, DVec2::new(left, 14.0), HEADING).strokes();
+    let at = DVec2::new(left, 14.0 + HEADING * 1.4);
+    strokes.extend(Label::new(&notes.join(" · "), at, LETTERS).no_wider_than(270.0).strokes());
+    layer.groups.push(Group { strokes, ..Group::default() });
+    layer
+}
+
+/// The rows as text, columns flush right.
+fn table(cells: &[[String; 5]]) -> Layer {
+    let mut layer = Layer::new("table", "table", Pen::of_width(LETTERS * 0.1, INK));
+    for (number, row) in cells.iter().enumerate() {
+        let down = number as f64 * LETTERS * LEADING + if number > 0 { 1.5 } else { 0.0 };
+        let strokes = row.iter().zip(COLUMNS).flat_map(|(cell, end)| {
+            let at = TABLE + DVec2::new(end, down);
+            Label::new(cell, at, LETTERS).aligned(Align::End).strokes()
+        });
+        let strokes = strokes.collect();
+        let id = format!("row-{number}");
+        layer.groups.push(Group { id, title: row[0].clone(), strokes, fills: Vec::new() });
+    }
+    layer
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::millimetres;
+    use projection::Convention;
+
+    /// The drawn curve is the formula, F(D − N)/((F − N)D), to the micrometre of the page.
+    #[test]
+    fn the_curve_is_drawn_where_the_formula_says() {
+        let table = DepthTable::new(2.0, 40.0, Convention::WEBGPU, DepthFormat::Float32);
+        let page = table.expect("a table").to_page(&[]);
+        let layer = page.layers.iter().find(|layer| layer.id == "depth-normal").expect("a curve");
+        let points = &layer.groups[0].strokes[0].points;
+        assert!(points.len() > 500);
+        for &place in points {
+            let [x, y] = ((millimetres(place) - UPPER) / CHART).to_array();
+            let distance = 2.0 * libm::pow(20.0, x);
+            let depth = 40.0 * (distance - 2.0) / (38.0 * distance);
+            assert!((1.0 - y - depth).abs() < 2e-5, "{distance}: {} {depth}", 1.0 - y);
+        }
+    }
+
+    #[test]
+    fn every_range_and_format_has_a_page() {
+        for (near, far) in [(1e-3, f64::INFINITY), (1.0, 1.000_001), (1e-6, 1e9)] {
+            for format in
+                [DepthFormat::Float32, DepthFormat::FixedPoint(1), DepthFormat::FixedPoint(64)]
+            {
+                for convention in [Convention::OPENGL, Convention::WEBGPU] {
+                    let table = DepthTable::new(near, far, convention, format).expect("a table");
+                    let page = table.to_page(&[]);
+                    let curves = page.layers.iter().filter(|layer| layer.id.ends_with("-normal"));
+                    assert_eq!(curves.count(), 2, "{near} {far} {format:?}");
+                }
+            }
+        }
+    }
+}

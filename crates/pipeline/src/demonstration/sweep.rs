@@ -1,0 +1,212 @@
+//! Sweeps: one parameter of camera or lens, from a value to another, a picture for each step (C62, C64, C94).
+//!
+//! Everything else stays as the scene has it. Only where the parameter is a place of the camera are the near and the far plane
+//! fitted anew, since they would cut off what the step is to show.
+
+mod step;
+
+use super::DemonstrationError;
+use super::number::short;
+use crate::drawing::{Overlay, Page, Panel, Panels};
+use crate::render::Shot;
+use crate::scene::Scene;
+use camera::{NamedView, frame_parallel};
+use glam::DVec2;
+use homog::HPoint;
+use projection::{Convention, Orthographic};
+use std::fmt;
+use step::Base;
+
+/// The room between a picture and its view volume, in millimetres.
+const GAP: f64 = 4.0;
+
+/// What is varied.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Vary {
+    /// The vertical opening angle in degrees, the eye where it is: small ones enlarge.
+    Fov,
+    /// The height of the window in a parallel projection, its shape as it is: small ones enlarge.
+    Height,
+    /// Width by height of the window, whatever the picture's: others than that distort.
+    Aspect,
+    /// The distance of the near plane, the angle as it is: it only cuts off.
+    Near,
+    /// The distance of the far plane: it only cuts off.
+    Far,
+    /// The distance of the near plane with the window on it as it is (`glFrustum`): the angle changes.
+    Lens,
+    /// How far the window is moved to the right, in halves of its width: a lens shift.
+    Shift,
+    /// The distance of the eye from the middle of the models, along the line of sight.
+    Distance,
+    /// The same, with the angle such that the middle keeps its size: a dolly zoom.
+    Dolly,
+    /// How far the camera is turned about the upright through the middle of the models, in degrees, counterclockwise as seen
+    /// from above.
+    Angle,
+}
+
+/// A parameter and its values.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Sweep {
+    /// What is varied.
+    pub vary: Vary,
+    /// The first value.
+    pub from: f64,
+    /// The last one.
+    pub to: f64,
+    /// How many pictures there are, at least 1.
+    pub steps: u32,
+    /// Whether the view volume of each picture is shown below it, with the eye, as it stands about the models.
+    pub volumes: bool,
+}
+
+impl Vary {
+    /// All of them.
+    pub const ALL: [Self; 10] = [
+        Self::Fov,
+        Self::Height,
+        Self::Aspect,
+        Self::Near,
+        Self::Far,
+        Self::Lens,
+        Self::Shift,
+        Self::Distance,
+        Self::Dolly,
+        Self::Angle,
+    ];
+
+    /// The name.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Fov => "fov",
+            Self::Height => "height",
+            Self::Aspect => "aspect",
+            Self::Near => "near",
+            Self::Far => "far",
+            Self::Lens => "lens",
+            Self::Shift => "shift",
+            Self::Distance => "distance",
+            Self::Dolly => "dolly",
+            Self::Angle => "angle",
+        }
+    }
+
+    /// What it does to the picture, in the words of the lessons.
+    const fn lesson(self) -> &'static str {
+        match self {
+            Self::Fov => "a smaller angle enlarges",
+            Self::Height => "a smaller window enlarges, wherever the eye is",
+            Self::Aspect => "an aspect that is not the picture's distorts",
+            Self::Near => "the near plane only cuts off",
+            Self::Far => "the far plane only cuts off",
+            Self::Lens => "the distance of a window of fixed size is the angle",
+            Self::Shift => {
+                "a window beside the line of sight moves the picture and keeps its shapes"
+            }
+            Self::Distance => "nearer is larger, and steeper in perspective",
+            Self::Dolly => "distance against angle: the middle keeps its size, all else does not",
+            Self::Angle => "around the models",
+        }
+    }
+}
+
+impl fmt::Display for Vary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl Sweep {
+    /// The values, evenly spaced; the first and the last are exact.
+    #[must_use]
+    pub fn values(&self) -> Vec<f64> {
+        let last = self.steps.max(1) - 1;
+        let value = |step: u32| match step {
+            0 => self.from,
+            step if step == last => self.to,
+            step => self.from + (self.to - self.from) * (f64::from(step) / f64::from(last)),
+        };
+        (0..=last).map(value).collect()
+    }
+
+    /// Camera and projection of each value, with what there is to say of them.
+    ///
+    /// # Errors
+    /// If the scene's projection has no such parameter, or a value makes no sense.
+    pub fn shots(&self, scene: &Scene) -> Result<Vec<(Shot, String)>, DemonstrationError> {
+        let base = Base::of(scene, self.vary)?;
+        self.values().into_iter().map(|value| base.at(self.vary, value)).collect()
+    }
+
+    /// The pictures side by side. The number of threads does not change them.
+    ///
+    /// # Errors
+    /// As for [`shots`](Self::shots); or if a picture has no pixels.
+    pub fn draw(&self, scene: &Scene, threads: usize) -> Result<Panels, DemonstrationError> {
+        let mut scene = scene.clone();
+        scene.image.background = [1.0; 4];
+        let shots = self.shots(&scene)?;
+        let observer = if self.volumes { observer(&scene, &shots) } else { None };
+        let mut panels = Vec::new();
+        for (number, ((shot, note), value)) in shots.iter().zip(self.values()).enumerate() {
+            scene.shot = *shot;
+            let title = format!("{} {}", self.vary, short(value, 4));
+            let mut panel = Panel::of(&scene, format!("step-{}", number + 1), title, threads)?;
+            if let Some(observer) = observer {
+                panel = with_volume(panel, &scene, observer, threads)?;
+            }
+            panels.push(panel.noted(vec![note.clone()]));
+        }
+        let title = format!("{}: {}, {}", scene.title(), self.vary, self.vary.lesson());
+        Ok(Panels::new(title, panels))
+    }
+}
+
+/// A picture, and below it where its view volume stands, seen by one who stands aside.
+fn with_volume(
+    view: Panel,
+    scene: &Scene,
+    observer: Shot,
+    threads: usize,
+) -> Result<Panel, DemonstrationError> {
+    let mut aside = scene.clone();
+    aside.overlays = vec![Overlay::Volume(Box::new(scene.shot))];
+    aside.shot = observer;
+    let volume = Panel::of(&aside, "volume", "view volume", threads)?.page;
+    let size = view.page.size;
+    let below = size.y + GAP;
+    let mut page = Page::new(DVec2::new(size.x, below + size.y), view.page.title.clone(), None);
+    page.paste(&view.page, DVec2::ZERO, "view-");
+    page.paste(&volume, DVec2::new(0.0, below), "volume-");
+    Ok(Panel { page, ..view })
+}
+
+/// A camera that sees the models, all eyes and all windows from a corner, in parallel projection; `None` if there are no models.
+fn observer(scene: &Scene, shots: &[(Shot, String)]) -> Option<Shot> {
+    let mut points = scene.world_points();
+    for (shot, _) in shots {
+        let clip_to_world = shot.world_to_clip().inverse()?;
+        let corners = [-1.0, 1.0].map(|x| [-1.0, 1.0].map(|y| HPoint::new(x, y, 1.0, 1.0)));
+        let near = corners.as_flattened().iter();
+        points.extend(near.filter_map(|&corner| clip_to_world.hpoint(corner).divide()));
+        points.push(shot.camera.eye());
+    }
+    let aspect = f64::from(scene.image.width) / f64::from(scene.image.height);
+    let framed = frame_parallel(points.iter().copied(), NamedView::Trimetric.basis(), aspect, 0.08);
+    let framed = framed.ok()?;
+    let volume = Orthographic::new(
+        framed.left,
+        framed.right,
+        framed.bottom,
+        framed.top,
+        framed.near,
+        framed.far,
+    );
+    let view_to_clip = volume.ok()?.view_to_clip(Convention::CHAPTER);
+    Some(Shot { camera: framed.camera, view_to_clip })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,192 @@
+//! Each parameter does what the lessons say, and nothing else.
+
+use super::*;
+use crate::demonstration::test_scene::house;
+use homog::{Bounds, Point, World};
+
+fn shots(vary: Vary, from: f64, to: f64, steps: u32) -> Vec<(Shot, String)> {
+    let (_, _, scene) = house();
+    Sweep { vary, from, to, steps, volumes: false }.shots(&scene).expect("shots")
+}
+
+fn base() -> (Scene, Shot, Point<World>) {
+    let (_, _, scene) = house();
+    let middle = Bounds::of(scene.world_points()).expect("points").center();
+    let shot = scene.shot;
+    (scene, shot, middle)
+}
+
+/// x and y in the picture.
+fn image(shot: &Shot, point: Point<World>) -> [f64; 2] {
+    let place = shot.world_to_clip().point(point).divide().expect("ahead of the eye");
+    [place.x(), place.y()]
+}
+
+#[track_caller]
+fn assert_near(a: f64, b: f64) {
+    assert!((a - b).abs() <= 1e-9 * a.abs().max(b.abs()).max(1.0), "{a} {b}");
+}
+
+/// A place off the line of sight, at the depth of the middle.
+fn beside(shot: &Shot, middle: Point<World>) -> Point<World> {
+    middle + shot.camera.u() * 1.5 + shot.camera.v()
+}
+
+#[test]
+fn values_are_evenly_spaced_and_end_where_they_are_told() {
+    let sweep = |steps| Sweep { vary: Vary::Fov, from: 20.0, to: 50.1, steps, volumes: false };
+    assert_eq!(sweep(1).values(), [20.0]);
+    assert_eq!(sweep(2).values(), [20.0, 50.1]);
+    let values = sweep(4).values();
+    assert_eq!((values.len(), values[0], values[3]), (4, 20.0, 50.1));
+    assert_near(values[1] - values[0], values[3] - values[2]);
+}
+
+/// C62: sizes in the picture go with 1/tan(θ/2).
+#[test]
+fn a_smaller_angle_enlarges() {
+    let (_, _, middle) = base();
+    let shots = shots(Vary::Fov, 20.0, 60.0, 2);
+    let [narrow, wide] = [0, 1].map(|n| image(&shots[n].0, beside(&shots[n].0, middle)));
+    let tan = |degrees: f64| libm::tan((0.5 * degrees).to_radians());
+    let ratio = tan(60.0) / tan(20.0);
+    assert_near(narrow[0] / wide[0], ratio);
+    assert_near(narrow[1] / wide[1], ratio);
+    assert!(shots[0].1.starts_with("20° high"), "{}", shots[0].1);
+}
+
+/// C62.
+#[test]
+fn a_wrong_aspect_distorts_across_only() {
+    let (_, base, middle) = base();
+    let shot = shots(Vary::Aspect, 2.0, 2.0, 1)[0].0;
+    let [before, after] = [base, shot].map(|shot| image(&shot, beside(&shot, middle)));
+    assert_near(after[0] / before[0], (4.0 / 3.0) / 2.0);
+    assert_near(after[1], before[1]);
+}
+
+/// C62, C64.
+#[test]
+fn near_and_far_move_nothing_in_the_picture() {
+    let (scene, base, _) = base();
+    for (vary, value) in [(Vary::Near, 1.0), (Vary::Far, 1e4)] {
+        let shot = shots(vary, value, value, 1)[0].0;
+        for point in scene.world_points() {
+            let [a, b] = [image(&base, point), image(&shot, point)];
+            assert_near(a[0], b[0]);
+            assert_near(a[1], b[1]);
+        }
+        let depth = |shot: &Shot, distance: f64| {
+            let place = shot.camera.eye() + shot.camera.gaze() * distance;
+            shot.world_to_clip().point(place).divide().expect("ahead").z()
+        };
+        // The canonical volume has the near plane at 1, the far plane at −1.
+        assert_near(depth(&shot, value), if vary == Vary::Near { 1.0 } else { -1.0 });
+    }
+}
+
+/// C64: with the window as it is, half the distance is twice the tangent.
+#[test]
+fn the_distance_of_a_fixed_window_is_a_lens() {
+    let (_, base, middle) = base();
+    let near = |shot: &Shot| {
+        let clip_to_view = shot.view_to_clip.inverse().expect("an inverse");
+        let corner = clip_to_view.hpoint(HPoint::new(1.0, 1.0, 1.0, 1.0)).divide();
+        corner.expect("finite")
+    };
+    let half = -near(&base).z() * 0.5;
+    let shot = shots(Vary::Lens, half, half, 1)[0].0;
+    assert_near(near(&shot).x(), near(&base).x());
+    assert_near(near(&shot).y(), near(&base).y());
+    let [before, after] = [base, shot].map(|shot| image(&shot, beside(&shot, middle)));
+    assert_near(after[0] / before[0], 0.5);
+}
+
+/// C64.
+#[test]
+fn a_shift_moves_the_picture_as_it_is() {
+    let (scene, base, _) = base();
+    let shot = shots(Vary::Shift, 0.25, 0.25, 1)[0].0;
+    for point in scene.world_points() {
+        let [before, after] = [image(&base, point), image(&shot, point)];
+        assert_near(after[0], before[0] - 0.25);
+        assert_near(after[1], before[1]);
+    }
+}
+
+/// C94: what is at the depth of the middle keeps its size, what is before it does not.
+#[test]
+fn a_dolly_zoom_keeps_the_middle() {
+    let (_, base, middle) = base();
+    let shots = shots(Vary::Dolly, 20.0, 80.0, 3);
+    let distances = [20.0, 50.0, 80.0];
+    for ((shot, note), distance) in shots.iter().zip(distances) {
+        assert_near((shot.camera.eye() - middle).dot(shot.camera.w()), distance);
+        let [before, after] =
+            [image(&base, beside(&base, middle)), image(shot, beside(shot, middle))];
+        assert_near(before[0], after[0]);
+        assert_near(before[1], after[1]);
+        assert!(note.contains(&format!("middle at {distance}")), "{note}");
+    }
+    let before = |n: usize| {
+        let shot: &Shot = &shots[n].0;
+        image(shot, beside(shot, middle) + shot.camera.w())
+    };
+    assert!(before(0)[0] > before(1)[0] && before(1)[0] > before(2)[0]);
+}
+
+#[test]
+fn the_camera_is_turned_about_the_middle() {
+    let (_, base, middle) = base();
+    let shot = shots(Vary::Angle, 90.0, 90.0, 1)[0].0;
+    let [before, after] = [base, shot].map(|shot| shot.camera.eye() - middle);
+    assert_near(before.length(), after.length());
+    // From the front (+z) to the right (+x), at the same height.
+    assert_near(after.x(), before.z());
+    assert_near(after.z(), -before.x());
+    assert_near(after.y(), before.y());
+}
+
+#[test]
+fn what_makes_no_sense_is_told() {
+    let (_, _, mut scene) = house();
+    let told = |vary, value: f64, scene: &Scene| {
+        let sweep = Sweep { vary, from: value, to: value, steps: 1, volumes: false };
+        sweep.shots(scene).map(|_| ()).expect_err("an error").to_string()
+    };
+    assert!(told(Vary::Fov, 180.0, &scene).contains("`fov` cannot be 180: it must lie between"));
+    assert!(told(Vary::Near, -1.0, &scene).contains("greater than 0"));
+    assert!(told(Vary::Near, 1e6, &scene).starts_with("`near` cannot be 1e6: "));
+    assert!(told(Vary::Height, 4.0, &scene).contains("a perspective"));
+    let volume = Orthographic::new(-1.0, 1.0, -1.0, 1.0, 1.0, 9.0).expect("a volume");
+    scene.shot.view_to_clip = volume.view_to_clip(Convention::CHAPTER);
+    assert!(told(Vary::Fov, 40.0, &scene).contains("take a perspective"));
+}
+
+/// C94: borders and planes of a parallel view volume, each by itself.
+#[test]
+fn a_parallel_window_is_varied_too() {
+    let (_, _, mut scene) = house();
+    let volume = Orthographic::new(-6.0, 6.0, -4.5, 4.5, 1.0, 30.0).expect("a volume");
+    scene.shot.view_to_clip = volume.view_to_clip(Convention::CHAPTER);
+    let at = |vary, value| {
+        let sweep = Sweep { vary, from: value, to: value, steps: 1, volumes: false };
+        let (shot, note) = sweep.shots(&scene).expect("a shot").remove(0);
+        let place = shot.camera.view_to_world().point(Point::new(1.5, 0.9, -10.0));
+        let image = shot.world_to_clip().point(place).divide().expect("an image");
+        ([image.x(), image.y(), image.z()], note)
+    };
+    // The canonical volume has near at 1 and far at −1.
+    let depth = |near: f64, far: f64| 1.0 - 2.0 * (10.0 - near) / (far - near);
+    for (vary, value, due) in [
+        (Vary::Height, 4.5, [0.5, 0.4, depth(1.0, 30.0)]),
+        (Vary::Aspect, 2.0 / 3.0, [0.5, 0.2, depth(1.0, 30.0)]),
+        (Vary::Shift, 0.25, [0.0, 0.2, depth(1.0, 30.0)]),
+        (Vary::Near, -5.0, [0.25, 0.2, depth(-5.0, 30.0)]),
+        (Vary::Far, 20.0, [0.25, 0.2, depth(1.0, 20.0)]),
+    ] {
+        let (image, note) = at(vary, value);
+        image.iter().zip(due).for_each(|(found, due)| assert_near(*found, due));
+        assert!(note.contains(" high · near "), "{note}");
+    }
+}

@@ -1,0 +1,158 @@
+//! The axes of charts: where a value is, and which values are named.
+
+/// The most ticks of an axis.
+const MOST_TICKS: usize = 9;
+
+/// An axis.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Axis {
+    /// What it measures.
+    pub title: String,
+    /// The value where it begins; with logarithms greater than 0.
+    pub from: f64,
+    /// The value where it ends, greater than that.
+    pub to: f64,
+    /// How values are spaced.
+    pub spacing: Spacing,
+}
+
+/// How the values of an axis are spaced.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Spacing {
+    /// Equal differences.
+    Linear,
+    /// Equal ratios.
+    Logarithmic,
+}
+
+impl Axis {
+    /// Where a value is on the axis: 0 at its begin, 1 at its end. What is beside it is brought to the ends.
+    #[must_use]
+    pub fn part(&self, value: f64) -> f64 {
+        let part = match self.spacing {
+            Spacing::Linear => (value - self.from) / (self.to - self.from),
+            Spacing::Logarithmic => {
+                let [from, to, value] = [self.from, self.to, value].map(libm::log10);
+                (value - from) / (to - from)
+            }
+        };
+        if part.is_nan() { 0.0 } else { part.clamp(0.0, 1.0) }
+    }
+
+    /// The values that are named: round ones, rising, nine at most.
+    #[must_use]
+    pub fn ticks(&self) -> Vec<f64> {
+        match self.spacing {
+            Spacing::Linear => self.linear_ticks(),
+            Spacing::Logarithmic => self.logarithmic_ticks(),
+        }
+    }
+
+    fn linear_ticks(&self) -> Vec<f64> {
+        let span = self.to - self.from;
+        let power = libm::floor(libm::log10(span)) as i32;
+        let steps = [power - 1, power].into_iter().flat_map(|n| [1.0, 2.0, 5.0].map(|d| (d, n)));
+        for (digit, power) in steps {
+            let step = decimal(digit, power);
+            // Half a thousandth of a step beside the ends is at the ends.
+            let first = libm::ceil(self.from / step - 5e-4) as i64;
+            let last = libm::floor(self.to / step + 5e-4) as i64;
+            if last - first < MOST_TICKS as i64 {
+                // By a quotient where the step is a fraction: 3 / 10 is the number that 0.3 is written as.
+                let value = |n: i64| match power {
+                    ..0 => n as f64 * digit / power_of_ten(-power),
+                    _ => n as f64 * step,
+                };
+                return (first..=last).map(value).collect();
+            }
+        }
+        vec![self.from, self.to]
+    }
+
+    fn logarithmic_ticks(&self) -> Vec<f64> {
+        let [low, high] = [self.from, self.to].map(|end| libm::floor(libm::log10(end)) as i32);
+        let fitting = |digits: &[f64], every: i32| -> Vec<f64> {
+            let powers = (low..=high).filter(|power| power.rem_euclid(every) == 0);
+            let values = powers.flat_map(|power| digits.iter().map(move |&d| decimal(d, power)));
+            let range = self.from * (1.0 - 1e-9)..=self.to * (1.0 + 1e-9);
+            values.filter(|value| range.contains(value)).collect()
+        };
+        let fine = fitting(&[1.0, 2.0, 5.0], 1);
+        if fine.len() < 3 {
+            return self.linear_ticks();
+        }
+        let coarser = (1..).map(|every| fitting(&[1.0], every));
+        let mut all = std::iter::once(fine).chain(coarser);
+        all.find(|ticks| ticks.len() <= MOST_TICKS).unwrap_or_default()
+    }
+}
+
+/// The number nearest to a digit times a power of ten: the one that is written so.
+fn decimal(digit: f64, power: i32) -> f64 {
+    format!("{digit}e{power}").parse().unwrap_or(1.0)
+}
+
+/// The number nearest to a power of ten.
+fn power_of_ten(power: i32) -> f64 {
+    decimal(1.0, power)
+}
+
+/// A round number as short as it can be written.
+pub(super) fn tick_text(value: f64) -> String {
+    let value = value + 0.0;
+    let size = value.abs();
+    if size == 0.0 || (1e-3..1e5).contains(&size) {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ticks(from: f64, to: f64, spacing: Spacing) -> Vec<f64> {
+        Axis { title: String::new(), from, to, spacing }.ticks()
+    }
+
+    #[test]
+    fn ticks_are_round_and_few() {
+        use Spacing::{Linear, Logarithmic};
+        assert_eq!(ticks(0.0, 1.0, Linear), [0.0, 0.2, 0.4, 0.6, 0.8, 1.0]);
+        assert_eq!(ticks(-1.0, 1.0, Linear), [-1.0, -0.5, 0.0, 0.5, 1.0]);
+        assert_eq!(ticks(2.0, 40.0, Linear), [5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0, 40.0]);
+        assert_eq!(ticks(2.0, 40.0, Logarithmic), [2.0, 5.0, 10.0, 20.0]);
+        assert_eq!(ticks(0.1, 1000.0, Logarithmic), [0.1, 1.0, 10.0, 100.0, 1000.0]);
+        assert_eq!(ticks(1e-10, 1e5, Logarithmic).len(), 8);
+        assert_eq!(ticks(3.0, 3.5, Logarithmic), [3.0, 3.1, 3.2, 3.3, 3.4, 3.5]);
+    }
+
+    /// However wide or narrow the axis, there are ticks, on it, rising, not too many.
+    #[test]
+    fn every_axis_has_ticks() {
+        for spacing in [Spacing::Linear, Spacing::Logarithmic] {
+            for power in -300..300 {
+                for ratio in [1.001, 1.5, 7.0, 1e3, 1e7] {
+                    let from = power_of_ten(power) * 1.7;
+                    let found = ticks(from, from * ratio, spacing);
+                    assert!((2..=MOST_TICKS).contains(&found.len()), "{from} {ratio} {found:?}");
+                    assert!(found.windows(2).all(|pair| pair[0] < pair[1]), "{found:?}");
+                    if (-9..9).contains(&power) && ratio > 1.4 {
+                        let long = found.iter().map(|tick| tick_text(*tick)).find(|t| t.len() > 7);
+                        assert_eq!(long, None, "{from} {ratio} {spacing:?}");
+                    }
+                    let room = from * (ratio - 1.0) * 1e-3;
+                    let on_axis = from - room..=from * ratio + room;
+                    assert!(found.iter().all(|tick| on_axis.contains(tick)), "{from} {found:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn numbers_are_written_short() {
+        let texts = [0.0, -0.0, 0.3, 1e-7, 2e5, 1000.0].map(tick_text);
+        assert_eq!(texts, ["0", "0", "0.3", "1e-7", "2e5", "1000"]);
+    }
+}

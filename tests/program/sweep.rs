@@ -1,0 +1,148 @@
+//! `alberti sweep`: one parameter, step by step.
+
+use crate::bench::Bench;
+use crate::drawings::{read_svg, succeed, write_box};
+use crate::vectors::bounds;
+
+const RANGES: [(&str, &str, &str); 9] = [
+    ("fov", "20", "60"),
+    ("aspect", "0.5", "2"),
+    ("near", "6", "9"),
+    ("far", "9", "14"),
+    ("lens", "4", "9"),
+    ("shift", "-0.5", "0.5"),
+    ("distance", "8", "30"),
+    ("dolly", "8", "30"),
+    ("angle", "0", "270"),
+];
+
+const PARALLEL_RANGES: [(&str, &str, &str); 6] = [
+    ("height", "5", "20"),
+    ("aspect", "0.5", "2"),
+    ("near", "-20", "-1"),
+    ("far", "13", "20"),
+    ("shift", "-0.5", "0.5"),
+    ("angle", "0", "90"),
+];
+
+/// C62, C64, C94: sheets of every parameter, in perspective and in parallel.
+#[test]
+fn every_parameter_can_be_varied() {
+    let bench = Bench::new("sweep_all");
+    bench.bring("house.glb");
+    let in_perspective = RANGES.map(|range| ("perspective", range));
+    let in_parallel = PARALLEL_RANGES.map(|range| ("orthographic", range));
+    for (projection, (vary, from, to)) in in_perspective.into_iter().chain(in_parallel) {
+        let flags = ["--vary", vary, "--from", from, "--to", to, "--steps", "3", "-o", "out.svg"];
+        let begin = ["sweep", "house.glb", "--projection", projection];
+        succeed(&bench, &[&begin[..], &flags].concat());
+        let text = std::fs::read_to_string(bench.path("out.svg")).expect("an SVG");
+        for (step, value) in [(1, from), (3, to)] {
+            let name = format!("<g id=\"names.step-{step}\">\n<title>{vary} {value}</title>");
+            assert!(text.contains(&name), "{vary}");
+        }
+        let (_, layers) = read_svg(&bench, "out.svg");
+        let shown = (1..=3)
+            .filter(|step| layers.keys().any(|id| id.starts_with(&format!("step-{step}-visible"))));
+        assert_eq!(shown.count(), 3, "{vary}");
+    }
+}
+
+/// The front of a box seen in the middle, at the depth of the middle of a flat box, keeps its size in a dolly zoom and goes with
+/// 1/distance without one.
+#[test]
+fn a_dolly_zoom_keeps_the_size_and_a_walk_does_not() {
+    let bench = Bench::new("sweep_dolly");
+    write_box(&bench, "box", [4.0, 3.0, 1e-6]);
+    let widths = |vary: &str| {
+        let flags = ["--vary", vary, "--from", "10", "--to", "40", "--steps", "4", "-o", "out.svg"];
+        let front = ["sweep", "box.gltf", "--view", "front"];
+        succeed(&bench, &[&front[..], &flags].concat());
+        let (_, layers) = read_svg(&bench, "out.svg");
+        [1, 2, 3, 4].map(|step| {
+            let [low, high] = bounds(&layers, |id| id.starts_with(&format!("step-{step}-visible")));
+            high[0] - low[0]
+        })
+    };
+    let dolly = widths("dolly");
+    assert!(dolly.iter().all(|width| (width - dolly[0]).abs() < 0.005), "{dolly:?}");
+    let walk = widths("distance");
+    for (width, distance) in walk.iter().zip([10.0, 20.0, 30.0, 40.0]) {
+        assert!((width * distance - walk[0] * 10.0).abs() < 0.05, "{walk:?}");
+    }
+}
+
+/// C64: the frustum and its apex.
+#[test]
+fn view_volumes_stand_below_the_pictures() {
+    let bench = Bench::new("sweep_volumes");
+    write_box(&bench, "box", [4.0, 3.0, 2.0]);
+    let sweep =
+        ["sweep", "box.gltf", "--vary", "fov", "--from", "20", "--to", "50", "--steps", "2"];
+    let bytes = |threads: &str| {
+        let flags = ["--volumes", "-o", "out.svg", "--threads", threads];
+        succeed(&bench, &[&sweep[..], &flags].concat());
+        std::fs::read(bench.path("out.svg")).expect("a drawing")
+    };
+    assert!(bytes("1") == bytes("4"), "the number of threads does not matter");
+    let (_, layers) = read_svg(&bench, "out.svg");
+    for step in [1, 2] {
+        let of = |part: &str| bounds(&layers, |id| id.starts_with(&format!("step-{step}-{part}")));
+        assert!(of("view-visible")[1][1] < of("volume-overlay")[0][1], "{step}");
+    }
+    succeed(&bench, &[&sweep[..], &["-o", "out.html"]].concat());
+    let html = std::fs::read_to_string(bench.path("out.html")).expect("a page");
+    assert!(html.contains("<b>fov 20</b><span>20° high"), "{html}");
+}
+
+#[test]
+fn what_cannot_be_varied_so_is_told() {
+    let bench = Bench::new("sweep_mistakes");
+    write_box(&bench, "box", [4.0, 3.0, 2.0]);
+    let run = |vary: &str, from: &str, to: &str, more: &[&str]| {
+        let flags = ["sweep", "box.gltf", "--vary", vary, "--from", from, "--to", to];
+        bench.run(&[&flags[..], more].concat())
+    };
+    for (vary, from, to, more, told) in [
+        (
+            "fov",
+            "20",
+            "180",
+            &[][..],
+            "error: `fov` cannot be 180: it must lie between 0 and 180 degrees",
+        ),
+        ("aspect", "0", "2", &[], "`aspect` cannot be 0: it must be greater than 0"),
+        ("distance", "-3", "9", &[], "`distance` cannot be -3: it must be greater than 0"),
+        ("near", "1e9", "2e9", &[], "`near` cannot be 1e9: "),
+        (
+            "fov",
+            "20",
+            "40",
+            &["--projection", "isometric"],
+            "take a perspective or an orthographic",
+        ),
+        (
+            "dolly",
+            "5",
+            "9",
+            &["--projection", "orthographic"],
+            "the scene's projection is parallel",
+        ),
+    ] {
+        let run = run(vary, from, to, more);
+        assert!(run.code == 1 && run.stderr.contains(told), "{vary}: {}", run.stderr);
+    }
+    for (vary, from, more) in [
+        ("roll", "1", &[][..]),
+        ("fov", "wide", &[]),
+        ("fov", "nan", &[]),
+        ("fov", "30", &["--steps", "0"]),
+        ("fov", "30", &["--steps", "65"]),
+    ] {
+        let run = run(vary, from, "40", more);
+        assert_eq!(run.code, 2, "{vary} {from} {more:?}: {}", run.stderr);
+    }
+    // Around the models goes in parallel too.
+    assert_eq!(run("angle", "0", "90", &["--projection", "orthographic"]).code, 0);
+    assert_eq!(bench.files(), ["box.bin", "box.gltf", "sweep.svg"]);
+}
