@@ -46,6 +46,10 @@ fn the_examples_do_what_the_program_does() {
     let told = run(&bench, "explain", &["crate.glb", "480", "360"]);
     let by_program = bench.run(&["explain", "crate.glb", "--pixel", "480,360"]).stdout;
     assert!(told.starts_with(by_program.trim_end()), "{told}");
+    run(&bench, "depth_map", &["crate.glb", "own.npy"]);
+    program(&["--passes", "depth", "--passes-as", "npy", "-o", "passed.png"]);
+    let bytes = |name: &str| std::fs::read(bench.path(name)).expect(name);
+    assert_eq!(bytes("own.npy"), bytes("passed.depth.npy"));
     std::fs::create_dir(bench.path("frames")).expect("a folder");
     run(&bench, "turntable", &["crate.glb", "frames"]);
     let animate = ["animate", "crate.glb", "--turntable", "--frames", "12", "--size", "320x240"];

@@ -1,0 +1,19 @@
+//! A depth map of a model: for each pixel how far ahead of the eye the surface in it is, in the units of the model.
+//!
+//! Run it with `cargo run -p pipeline --example depth_map -- model.glb depth.npy`.
+#![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
+
+use pipeline::render::passes::{Pass, passes};
+use pipeline::{Origin, Region, Scene, Timings};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut names = std::env::args().skip(1);
+    let (model, output) = names.next().zip(names.next()).ok_or("name a model and a file")?;
+    let (origin, file) = Origin::bare_model(model.as_ref());
+    let scene = Scene::resolve(&origin, &file, &Default::default())?;
+    let whole = Region::whole(scene.image);
+    let depths = passes(&scene, whole, &[Pass::Depth], 2, &Timings::default())?;
+    let [depth] = depths.as_slice() else { return Err("one pass".into()) };
+    println!("{:?} ahead in the middle", depth.floats(depth.width / 2, depth.height / 2));
+    Ok(pipeline::write_file(output.as_ref(), &depth.to_npy())?)
+}
