@@ -89,7 +89,7 @@ fn the_curves_are_drawn_in_every_format() {
         let [low, high] = bounds(&layers, |layer| layer == "depth-axes");
         let mark = layers["depth-marks"][0][0][0];
         let part = (mark - low[0]) / (high[0] - low[0]);
-        assert!((part - 2_f64.log10() / 4.0).abs() < 0.01, "{part}");
+        assert!((part - std::f64::consts::LOG10_2 / 4.0).abs() < 0.01, "{part}");
     }
 }
 
