@@ -11,7 +11,8 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = "Light")]
 pub(crate) struct LightArgs {
-    /// Light from all around: studio, sky, none, or a .hdr file with a picture of all directions
+    /// Light from all around: studio (of strength 0.6, as bare models have it), sky, none, or a .hdr file with a picture of all
+    /// directions
     #[arg(long, value_name = "studio|sky|none|FILE", value_parser = parse_environment)]
     environment: Option<EnvironmentArg>,
     /// The exposure in stops, such as 1 or -0.5: each doubles all light

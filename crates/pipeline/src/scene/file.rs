@@ -79,7 +79,8 @@ pub struct SceneFile {
     pub shadows: Option<ShadowsFile>,
     /// What is below the models. Default: nothing.
     pub ground: Option<GroundFile>,
-    /// Light from all around. Default: none; a bare model without lights of its own stands in the `Studio()`.
+    /// Light from all around. Default: none; a bare model without lights of its own stands in a
+    /// `Studio(strength: 0.6)`.
     pub environment: Option<EnvironmentFile>,
     /// Less light from all around where the picture shows something in its way. Default: none.
     pub ambient_occlusion: Option<AmbientOcclusionFile>,

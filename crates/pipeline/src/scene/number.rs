@@ -125,6 +125,9 @@ impl NonNegative {
     /// 1.
     pub const ONE: Self = Self(1.0);
 
+    /// 0.6, the studio's strength for bare models.
+    pub const SIX_TENTHS: Self = Self(0.6);
+
     /// 5, the usual margin in per cent.
     pub const FIVE: Self = Self(5.0);
 }

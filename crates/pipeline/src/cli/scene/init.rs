@@ -85,7 +85,7 @@ fn starter(path: &str, output: &str, scene: &Scene) -> String {
         text.push_str("lights: [FromModels],\n");
     }
     text.push_str(
-        "// or Sky(), Uniform(), File(path: …)\nenvironment: Studio(),\n\n// or Flat, Wireframe, Lines(hidden: Dashed)\nstyle: Shaded,\n\
+        "// or Sky(), Uniform(), File(path: …)\nenvironment: Studio(strength: 0.6),\n\n// or Flat, Wireframe, Lines(hidden: Dashed)\nstyle: Shaded,\n\
          image: Image(\nsize: (960, 720),\n// or Transparent\nbackground: Color(\"#f4f1ea\"),\n),\n\
          // overlays: [Axes(), Grid()],\n)\n",
     );

@@ -48,8 +48,9 @@ pub enum EnvironmentFile {
 }
 
 impl EnvironmentFile {
-    /// The studio with every default.
-    pub const STUDIO: Self = Self::Studio { strength: NonNegative::ONE, rotate_degrees: None };
+    /// The studio that bare models stand in: matt white, which shows up to 1.4 in the full one, stays below 1.
+    pub const STUDIO: Self =
+        Self::Studio { strength: NonNegative::SIX_TENTHS, rotate_degrees: None };
     /// The sky with every default.
     pub const SKY: Self = Self::Sky { sun: Triple([1.0; 3]), strength: NonNegative::ONE };
 
