@@ -83,7 +83,7 @@ mod tests {
     #[test]
     fn codes_change_at_their_borders_and_nowhere_else() {
         let encoder = DeepEncoder::shared();
-        for (code, &least) in (1..).zip(&encoder.borders) {
+        for (code, &least) in (1..=65_535).zip(&encoder.borders) {
             let below = f32::from_bits(least.to_bits() - 1);
             assert_eq!([encoder.encode(below), encoder.encode(least)], [code - 1, code]);
         }

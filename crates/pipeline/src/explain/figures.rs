@@ -216,7 +216,7 @@ impl Window {
             }
         }
         let scale = |axis: usize| {
-            (SIZE[axis] - 2.0 * MARGIN) / (most[axis] - least[axis]).max(f64::MIN_POSITIVE)
+            (SIZE[axis] - 2.0 * MARGIN) / (most[axis] - least[axis]).max(1e-300)
         };
         let middle = [0, 1].map(|axis| 0.5 * (least[axis] + most[axis]));
         Self { middle, scale: scale(0).min(scale(1)) }
