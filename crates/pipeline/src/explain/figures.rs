@@ -215,9 +215,8 @@ impl Window {
                 most[axis] = most[axis].max(point[axis]);
             }
         }
-        let scale = |axis: usize| {
-            (SIZE[axis] - 2.0 * MARGIN) / (most[axis] - least[axis]).max(1e-300)
-        };
+        let scale =
+            |axis: usize| (SIZE[axis] - 2.0 * MARGIN) / (most[axis] - least[axis]).max(1e-300);
         let middle = [0, 1].map(|axis| 0.5 * (least[axis] + most[axis]));
         Self { middle, scale: scale(0).min(scale(1)) }
     }
