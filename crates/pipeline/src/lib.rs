@@ -19,7 +19,7 @@
 //! | a picture in memory, or a PNG | [`render()`] | `examples/thumbnail.rs` |
 //! | a line drawing as SVG, PDF or PNG | [`draw`], then [`drawing::Page::to_svg`] | `examples/isometric.rs` |
 //! | many pictures of one scene | [`film::Film`] | `examples/turntable.rs` |
-//! | depths, normals, names of each pixel | [`render::passes`] | `examples/depth_map.rs` |
+//! | depths, normals, names of each pixel | [`mod@render::passes`] | `examples/depth_map.rs` |
 //! | picture after picture without allocation | [`Renderer`] | its documentation |
 //! | every step of a point, a triangle, a pixel | [`explain`] | `examples/explain.rs` |
 //! | what lessons show: projections, sweeps, depth curves | [`demonstration`] | its documentation |

@@ -78,7 +78,7 @@ impl StyleFile {
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(rename = "Image", deny_unknown_fields, default)]
 pub struct ImageFile {
-    /// Width and height in pixels, each from 1 to 16384. Default: (960, 720).
+    /// Width and height in pixels, each from 1 to 1048576. Default: (960, 720).
     pub size: (u32, u32),
     /// What is seen where no model is. Default: `Transparent`.
     pub background: BackgroundFile,
