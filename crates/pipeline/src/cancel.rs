@@ -14,7 +14,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// std::thread::scope(|scope| {
 ///     let work = scope.spawn(move || {
 ///         let textures = Textures::of(&scene.models);
-///         renderer.render(scene, &textures, 2, &Timings::default(), &mut Picture::default())
+///         renderer.render(scene, &textures, 2, &Timings::default(), &mut Picture::<u8>::default())
 ///     });
 ///     wait_for_the_window_to_close();
 ///     cancel.cancel();

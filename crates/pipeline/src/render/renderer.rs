@@ -24,7 +24,7 @@ use raster::{Frame, Nearest};
 /// let mut scene = Scene::resolve(&origin.0, &origin.1, &Default::default())?;
 /// let models = scene.models.clone(); // they are shared, not copied
 /// let textures = Textures::of(&models);
-/// let (mut renderer, mut picture) = (Renderer::default(), Picture::default());
+/// let (mut renderer, mut picture) = (Renderer::default(), Picture::<u8>::default());
 /// for step in 0..100 {
 ///     scene.image.background = [0.0, 0.0, 0.01 * step as f32, 1.0];
 ///     renderer.render(&scene, &textures, 2, &Timings::default(), &mut picture)?;
