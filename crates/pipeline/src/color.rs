@@ -21,13 +21,6 @@ pub(crate) fn linear_table() -> &'static [f32; 256] {
     TABLE.get_or_init(|| std::array::from_fn(|code| linear_of(code as f64 / 255.0) as f32))
 }
 
-/// The number, 0 to 1, of each 8-bit code of something that is no colour.
-#[must_use]
-pub(crate) fn unit_table() -> &'static [f32; 256] {
-    static TABLE: OnceLock<[f32; 256]> = OnceLock::new();
-    TABLE.get_or_init(|| std::array::from_fn(|code| (code as f64 / 255.0) as f32))
-}
-
 /// The bits of the least light that the encoder tells from 0: 2⁻¹³, which is less than half of the value 1.
 const LEAST: u32 = 0x3900_0000;
 

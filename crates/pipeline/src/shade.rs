@@ -188,7 +188,7 @@ impl Shading<'_> {
             Role::Ground => return self.ground(draw, items, seen),
         }
         let is_blended = draw.material.alpha_mode == AlphaMode::Blend;
-        let mut inputs = Inputs::of(draw, &draw.corners(items), seen, is_blended);
+        let mut inputs = Inputs::of(draw, &draw.corners(items), seen);
         let mut sums = inputs.emitted;
         let mut passing = [0.0; N];
         if draw.is_lit() {
@@ -353,7 +353,7 @@ impl Draw<'_> {
         }
         if let Some(map) = self.maps.of_base_color() {
             let uvs = self.uvs(&corners, seen, &map.used);
-            let [_, _, _, texel] = map.chain.sample_along(&uvs, true, self.maps.anisotropy);
+            let [_, _, _, texel] = map.chain.sample(&uvs, true, self.maps.anisotropy);
             scale(&mut alpha, &[texel]);
         }
         let [alpha] = alpha;

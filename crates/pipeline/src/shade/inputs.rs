@@ -2,9 +2,8 @@
 
 use super::Draw;
 use super::corners::{Corners, blend};
-use super::maps::Map;
 use super::seen::{Seen, in_all, scale};
-use crate::model::{MaterialExtensions, TextureSlot, TextureUse};
+use crate::model::{MaterialExtensions, TextureSlot};
 
 /// What a material says of a surface at some fragments. All numbers are linear.
 #[derive(Clone, Copy, Debug)]
@@ -55,41 +54,20 @@ pub(super) struct Layers<const N: usize> {
 }
 
 impl<const N: usize> Inputs<N> {
-    /// The inputs at fragments of a draw. Alpha is 1 if it does not count; of an unlit draw only the base colour is there.
+    /// The inputs at fragments of a draw. Texels have an alpha only where materials blend; of an unlit draw only the base colour
+    /// is there.
     #[inline(always)]
-    pub(super) fn of(
-        draw: &Draw<'_>,
-        corners: &Corners<N>,
-        seen: &impl Seen<N>,
-        alpha_counts: bool,
-    ) -> Self {
+    pub(super) fn of(draw: &Draw<'_>, corners: &Corners<N>, seen: &impl Seen<N>) -> Self {
         let mut inputs = Self::factors(draw);
         let weights = seen.weights();
         if let Some(colors) = &draw.colors {
             scale(&mut inputs.base, &blend::<N, 4>(&corners.carried(colors, 0), &weights));
         }
-        let mut last: Option<(&Map<'_>, [[f32; N]; 4])> = None;
-        let mut places: Option<(TextureUse, [[[f32; N]; 2]; 3])> = None;
-        for map in draw.maps.list() {
-            let texels = match last {
-                Some((before, texels)) if before.reads_like(map) && !reads_alpha(map.slot) => {
-                    texels
-                }
-                _ => {
-                    let uvs = match places {
-                        Some((used, uvs)) if lies_like(&used, &map.used) => uvs,
-                        _ => draw.uvs(corners, seen, &map.used),
-                    };
-                    places = Some((map.used, uvs));
-                    let with_alpha = match map.slot {
-                        TextureSlot::BaseColor | TextureSlot::Diffuse => alpha_counts,
-                        slot => reads_alpha(slot),
-                    };
-                    map.chain.sample_along(&uvs, with_alpha, draw.maps.anisotropy)
-                }
-            };
-            last = Some((map, texels));
-            inputs.apply(draw, map.slot, &texels);
+        for maps in draw.maps.together() {
+            let uvs = draw.uvs(corners, seen, &maps[0].used);
+            for (map, texels) in maps.iter().zip(&draw.maps.read(maps, &uvs)) {
+                inputs.apply(draw, map.slot, texels);
+            }
         }
         inputs
     }
@@ -203,21 +181,6 @@ impl<const N: usize> Layers<N> {
             _ => {}
         }
     }
-}
-
-/// Whether the alpha of a texture counts that is no base colour.
-#[inline(always)]
-const fn reads_alpha(slot: TextureSlot) -> bool {
-    matches!(
-        slot,
-        TextureSlot::Specular | TextureSlot::SheenRoughness | TextureSlot::SpecularGlossiness
-    )
-}
-
-/// Whether two textures are read at the same coordinates.
-#[inline(always)]
-fn lies_like(one: &TextureUse, other: &TextureUse) -> bool {
-    one.uv_set == other.uv_set && one.uv_map == other.uv_map
 }
 
 #[inline(always)]

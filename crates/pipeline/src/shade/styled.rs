@@ -9,7 +9,7 @@ use super::normal::Facing;
 use super::seen::{Seen, cross, dot, lane_of};
 use super::{Draw, Role, Shading};
 use crate::color::linear_of;
-use crate::model::{AlphaMode, TextureUse};
+use crate::model::TextureUse;
 use raster::{Fragment, Surface};
 use std::f32::consts::PI;
 
@@ -211,9 +211,7 @@ fn matcap([x, y, z]: [f32; 3]) -> [f32; 3] {
 /// The colour of the material and the light that it gives off.
 fn colors(draw: &Draw<'_>, fragment: &Fragment<'_>) -> ([f32; 3], [f32; 3]) {
     let corners = draw.corners(&draw.items(&[fragment.id], true));
-    let alpha_counts = draw.material.alpha_mode == AlphaMode::Blend;
-    let Inputs { base: [r, g, b, _], emitted, .. } =
-        Inputs::<1>::of(draw, &corners, fragment, alpha_counts);
+    let Inputs { base: [r, g, b, _], emitted, .. } = Inputs::<1>::of(draw, &corners, fragment);
     (lane_of(&[r, g, b], 0), lane_of(&emitted, 0))
 }
 

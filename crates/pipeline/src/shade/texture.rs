@@ -5,10 +5,12 @@
 //! costs more than a few fetches.
 
 mod footprint;
+mod layout;
 mod sample;
 
-use crate::color::{linear_table, unit_table};
+use crate::color::linear_table;
 use crate::model::{Image, Mipmap, Sampler};
+use layout::Layout;
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
@@ -16,9 +18,9 @@ use std::sync::OnceLock;
 #[derive(Clone, Debug)]
 pub struct MipChain<'a> {
     levels: Vec<Level<'a>>,
-    sampler: Sampler,
-    /// The numbers that the codes of texels stand for.
-    to_linear: &'static [f32; 256],
+    layout: Layout,
+    /// The light that the codes of colours stand for.
+    to_linear: Option<&'static [f32; 256]>,
 }
 
 /// What the codes of texels mean.
@@ -54,11 +56,16 @@ impl<'a> MipChain<'a> {
                 levels.push(half);
             }
         }
-        let to_linear = match texels {
-            Texels::Srgb => linear_table(),
-            Texels::Linear => unit_table(),
-        };
-        Self { levels, sampler, to_linear }
+        let last = levels.len() as i32 - 1;
+        let layout = Layout { width: levels[0].width, height: levels[0].height, last, sampler };
+        let to_linear = (texels == Texels::Srgb).then(linear_table);
+        Self { levels, layout, to_linear }
+    }
+
+    /// What decides where it is read.
+    #[inline(always)]
+    pub(super) const fn layout(&self) -> &Layout {
+        &self.layout
     }
 }
 
@@ -139,7 +146,7 @@ mod tests {
 
     /// One fragment, with alpha.
     fn sample(chain: &MipChain<'_>, uvs: [[f32; 2]; 3]) -> [f32; 4] {
-        chain.sample(&uvs.map(|[u, v]| [[u], [v]]), true).map(|[channel]| channel)
+        chain.sample(&uvs.map(|[u, v]| [[u], [v]]), true, 1).map(|[channel]| channel)
     }
 
     #[test]
@@ -199,12 +206,12 @@ mod tests {
                 uvs[1][0][lane] = size;
                 uvs[2][1][lane] = size * [0.7, 0.05, 3.0][lane % 3];
             }
-            let all = chain.sample(&uvs, true);
-            let along = chain.sample_along(&uvs, true, 8);
+            let all = chain.sample(&uvs, true, 1);
+            let along = chain.sample(&uvs, true, 8);
             for lane in 0..8 {
                 let one = uvs.map(|uv| uv.map(|axis| axis[lane]));
                 assert_eq!(sample(chain, one), all.map(|channel| channel[lane]));
-                let one = chain.sample_along(&one.map(|[u, v]| [[u], [v]]), true, 8);
+                let one = chain.sample(&one.map(|[u, v]| [[u], [v]]), true, 8);
                 assert_eq!(one.map(|[channel]| channel), along.map(|channel| channel[lane]));
             }
         }

@@ -10,105 +10,122 @@
 //! So it is read at several places along the longer axis, on the level whose texels are as large as the shorter one (Heckbert,
 //! *Fundamentals of texture mapping and image warping*, 1989; McCormack and others, *Feline*, 1999).
 
-use super::MipChain;
+use super::layout::{Cells, Choice, Layout};
 
-/// How lanes read a texture: places along a line, and what each place stands for.
-struct Footprint<const N: usize> {
+/// How lanes read textures of one layout: places along a line, and what each place stands for.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::shade) struct Footprint<const N: usize> {
+    /// The middle of the line, in texture coordinates.
+    middle: [[f32; N]; 2],
     /// How many places.
     taps: [f32; N],
     /// The line in texture coordinates, from end to end.
     line: [[f32; N]; 2],
-    /// The derivatives that choose the level.
-    steps: [[[f32; N]; 2]; 2],
+    /// The levels that are read at each place.
+    choice: Choice<N>,
 }
 
-impl MipChain<'_> {
-    /// As [`sample`](Self::sample), at up to `most` places along the longer axis of each pixel's footprint.
+/// One of the places, in all lanes.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::shade) struct Tap<const N: usize> {
+    /// The cells of its level, and those of the level behind.
+    pub(super) cells: [Cells<N>; 2],
+    /// How many of the two count.
+    pub(super) count: usize,
+    /// How much they count against those before.
+    pub(super) shares: [[f32; N]; 2],
+    /// How much the place counts: nothing in lanes that have fewer.
+    pub(super) parts: [f32; N],
+}
+
+impl<const N: usize> Footprint<N> {
+    /// The number of places in the lane that has most.
     #[inline(always)]
-    pub(in crate::shade) fn sample_along<const N: usize>(
-        &self,
-        uvs: &[[[f32; N]; 2]; 3],
-        alpha_counts: bool,
-        most: u32,
-    ) -> [[f32; N]; 4] {
-        if most <= 1 || self.levels.len() == 1 {
-            return self.sample(uvs, alpha_counts);
-        }
-        let footprint = self.footprint(uvs, most as f32);
+    pub(in crate::shade) fn count(&self) -> u32 {
         let mut count = 1.0_f32;
-        for taps in footprint.taps {
+        for taps in self.taps {
             count = count.max(taps);
         }
-        if count == 1.0 {
-            return self.sample(uvs, alpha_counts);
-        }
-        self.mean(uvs, alpha_counts, &footprint, count as u32)
+        count as u32
     }
 
-    /// The mean of what is read at the places of a footprint, `count` in the lane that has most.
+    /// The place with this number, from 0 on.
     #[inline(always)]
-    fn mean<const N: usize>(
-        &self,
-        uvs: &[[[f32; N]; 2]; 3],
-        alpha_counts: bool,
-        footprint: &Footprint<N>,
-        count: u32,
-    ) -> [[f32; N]; 4] {
-        let Footprint { taps, line, steps } = footprint;
-        let mut sums = [[0.0; N]; 4];
-        for tap in 0..count {
-            let mut places = [uvs[0], steps[0], steps[1]];
-            for lane in 0..N {
-                let along = (tap as f32 + 0.5) / taps[lane] - 0.5;
-                for axis in 0..2 {
-                    places[0][axis][lane] += line[axis][lane] * along;
-                }
-            }
-            let texels = self.sample(&places, alpha_counts);
-            for lane in 0..N {
-                let share = if (tap as f32) < taps[lane] { 1.0 / taps[lane] } else { 0.0 };
-                for channel in 0..4 {
-                    sums[channel][lane] += texels[channel][lane] * share;
-                }
-            }
-        }
-        sums
-    }
-
-    /// The axes of the ellipse that a pixel covers, from its derivatives in texels: J of the unit circle has the axes of J Jᵀ.
-    #[inline(always)]
-    fn footprint<const N: usize>(&self, uvs: &[[[f32; N]; 2]; 3], most: f32) -> Footprint<N> {
-        let (width, height) = (self.levels[0].width as f32, self.levels[0].height as f32);
-        let mut footprint =
-            Footprint { taps: [1.0; N], line: [[0.0; N]; 2], steps: [uvs[1], uvs[2]] };
+    pub(in crate::shade) fn tap(&self, layout: &Layout, number: u32) -> Tap<N> {
+        let number = number as f32;
+        let (mut place, mut parts) = (self.middle, [0.0; N]);
         for lane in 0..N {
-            let (ru, rv) = (uvs[1][0][lane] * width, uvs[1][1][lane] * height);
-            let (bu, bv) = (uvs[2][0][lane] * width, uvs[2][1][lane] * height);
+            let along = (number + 0.5) / self.taps[lane] - 0.5;
+            parts[lane] = if number < self.taps[lane] { 1.0 / self.taps[lane] } else { 0.0 };
+            for axis in 0..2 {
+                place[axis][lane] += self.line[axis][lane] * along;
+            }
+        }
+        let Choice { near, far, share, is_mixed } = &self.choice;
+        let near = layout.cells(near, &place);
+        let (mut cells, mut count) = ([near; 2], 1);
+        if *is_mixed {
+            cells[1] = layout.cells(far, &place);
+            count = 2;
+        }
+        Tap { cells, count, shares: [[1.0; N], *share], parts }
+    }
+}
+
+impl Layout {
+    /// The footprints of pixels at `uvs[0]`, with the derivatives `uvs[1]` by the column and `uvs[2]` by the row, as at most
+    /// so many places.
+    #[inline(always)]
+    pub(in crate::shade) fn footprint<const N: usize>(
+        &self,
+        [middle, right, below]: &[[[f32; N]; 2]; 3],
+        most: u32,
+    ) -> Footprint<N> {
+        let (mut taps, mut line) = ([1.0; N], [[0.0; N]; 2]);
+        let mut steps = [*right, *below];
+        if most > 1 && self.last > 0 {
+            self.stretch(most as f32, &mut taps, &mut line, &mut steps);
+        }
+        Footprint { middle: *middle, taps, line, choice: self.choice(&steps) }
+    }
+
+    /// Lays long footprints along a line, and leaves steps that stand for each place of it.
+    ///
+    /// The axes of the ellipse that a pixel covers are those of J Jᵀ: J, its derivatives in texels, maps the unit circle to it.
+    #[inline(always)]
+    fn stretch<const N: usize>(
+        &self,
+        most: f32,
+        taps: &mut [f32; N],
+        line: &mut [[f32; N]; 2],
+        [right, below]: &mut [[[f32; N]; 2]; 2],
+    ) {
+        let (width, height) = (self.width as f32, self.height as f32);
+        for lane in 0..N {
+            let (ru, rv) = (right[0][lane] * width, right[1][lane] * height);
+            let (bu, bv) = (below[0][lane] * width, below[1][lane] * height);
             let (uu, vv, uv) = (ru * ru + bu * bu, rv * rv + bv * bv, ru * rv + bu * bv);
             let (sum, area) = (uu + vv, ru * bv - rv * bu);
             let root = ((uu - vv) * (uu - vv) + 4.0 * uv * uv).sqrt();
             let longer = (0.5 * (sum + root)).sqrt();
             let shorter = area.abs() / longer;
             // What is no larger than a texel is read as it is.
-            let taps = floor(longer / shorter.max(1.0) + 0.5).min(most);
-            if !(taps > 1.0 && longer < 1e6) {
-                continue;
-            }
+            let count = floor(longer / shorter.max(1.0) + 0.5).min(most);
+            let is_long = (count > 1.0) & (longer < 1e6);
             // The longer axis is an eigenvector; of its two forms the one that does not vanish.
-            let (x, y) =
-                if uu > vv { (0.5 * (uu - vv + root), uv) } else { (uv, 0.5 * (vv - uu + root)) };
+            let x = if uu > vv { 0.5 * (uu - vv + root) } else { uv };
+            let y = if uu > vv { uv } else { 0.5 * (vv - uu + root) };
             let per = 1.0 / (x * x + y * y).sqrt();
             let (x, y) = (x * per / width, y * per / height);
-            let reach = (longer / taps).max(shorter);
-            footprint.taps[lane] = taps;
-            footprint.line[0][lane] = x * longer;
-            footprint.line[1][lane] = y * longer;
-            footprint.steps[0][0][lane] = x * reach;
-            footprint.steps[0][1][lane] = y * reach;
-            footprint.steps[1][0][lane] = 0.0;
-            footprint.steps[1][1][lane] = 0.0;
+            let reach = (longer / count).max(shorter);
+            taps[lane] = if is_long { count } else { 1.0 };
+            line[0][lane] = if is_long { x * longer } else { 0.0 };
+            line[1][lane] = if is_long { y * longer } else { 0.0 };
+            right[0][lane] = if is_long { x * reach } else { right[0][lane] };
+            right[1][lane] = if is_long { y * reach } else { right[1][lane] };
+            below[0][lane] = if is_long { 0.0 } else { below[0][lane] };
+            below[1][lane] = if is_long { 0.0 } else { below[1][lane] };
         }
-        footprint
     }
 }
 
@@ -120,9 +137,8 @@ fn floor(x: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::model::{Image, Sampler};
-    use crate::shade::Texels;
+    use crate::shade::{MipChain, Texels};
 
     #[test]
     fn a_long_footprint_is_the_ellipse_of_its_derivatives() {
@@ -139,13 +155,14 @@ mod tests {
                 rotated(12.0 * x, 3.0 * y, turn).map(|texels| [texels / 64.0])
             };
             let uvs = [[[0.0], [0.0]], column(1.0, 0.0), column(0.0, 1.0)];
-            let footprint = chain.footprint(&uvs, 8.0);
-            assert_eq!(footprint.taps, [4.0]);
-            let [[x], [y]] = footprint.line;
+            let (mut taps, mut line, mut steps) = ([1.0], [[0.0]; 2], [uvs[1], uvs[2]]);
+            chain.layout().stretch(8.0, &mut taps, &mut line, &mut steps);
+            assert_eq!(taps, [4.0]);
+            let [[x], [y]] = line;
             let [due_x, due_y] = rotated(12.0, 0.0, turn);
             let across = x * due_y - y * due_x;
             assert!(across.abs() < 1e-3 && ((x * x + y * y).sqrt() * 64.0 - 12.0).abs() < 1e-3);
-            let [[x], [y]] = footprint.steps[0];
+            let [[x], [y]] = steps[0];
             assert!(((x * x + y * y).sqrt() * 64.0 - 3.0).abs() < 1e-3);
         }
     }
