@@ -231,16 +231,11 @@ impl Shading<'_> {
         blur: f32,
     ) -> [[f32; N]; 4] {
         let places = blend(&draw.places(&draw.corners(items)), &seen.weights());
-        let ways = views(&places, <[f64; 4]>::from(self.viewer).map(|c| c as f32));
+        let mut ways = views(&places, <[f64; 4]>::from(self.viewer).map(|c| c as f32));
         let mut colors = [[0.0; N]; 3];
         if let Some(environment) = self.environment {
-            for lane in 0..N {
-                let way = [-ways[0][lane], -ways[1][lane], -ways[2][lane]];
-                let color = environment.blurred(way, blur);
-                for channel in 0..3 {
-                    colors[channel][lane] = color[channel];
-                }
-            }
+            turn(&mut ways, &[true; N]);
+            colors = environment.blurred(&ways, &[blur; N]);
         }
         self.develop.apply(&mut colors);
         let [r, g, b] = colors;

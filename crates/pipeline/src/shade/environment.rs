@@ -11,11 +11,11 @@ mod filter;
 mod harmonics;
 mod octahedron;
 
-use super::seen::lane_of;
+use super::seen::dots;
 use filter::LEVELS;
 use harmonics::Harmonics;
-use octahedron::Octahedron;
 pub(in crate::shade) use octahedron::unit;
+use octahedron::{Octahedron, between};
 
 /// Light from all around: radiance, linear.
 #[derive(Clone, PartialEq, Debug)]
@@ -47,28 +47,38 @@ impl Environment {
         views: &[[f32; N]; 3],
         roughness: &[f32; N],
     ) -> [[f32; N]; 3] {
-        let mut light = [[0.0; N]; 3];
+        let cosines = dots(normals, views);
+        let mut ways = [[0.0; N]; 3];
+        for axis in 0..3 {
+            for lane in 0..N {
+                ways[axis][lane] = 2.0 * cosines[lane] * normals[axis][lane] - views[axis][lane];
+            }
+        }
+        self.blurred(&ways, roughness)
+    }
+
+    /// The light from around directions of any length but 0, blurred as by surfaces of these roughnesses.
+    #[inline(always)]
+    pub(super) fn blurred<const N: usize>(
+        &self,
+        ways: &[[f32; N]; 3],
+        roughness: &[f32; N],
+    ) -> [[f32; N]; 3] {
+        let (mut near, mut share) = ([0; N], [0.0; N]);
         for lane in 0..N {
-            let (n, v) = (lane_of(normals, lane), lane_of(views, lane));
-            let twice = 2.0 * (n[0] * v[0] + n[1] * v[1] + n[2] * v[2]);
-            let way = [twice * n[0] - v[0], twice * n[1] - v[1], twice * n[2] - v[2]];
-            let color = self.blurred(way, roughness[lane]);
-            for channel in 0..3 {
-                light[channel][lane] = color[channel];
+            let place = roughness[lane].clamp(0.0, 1.0) * (LEVELS - 1) as f32;
+            let level = (place as i32).min(LEVELS as i32 - 2);
+            near[lane] = level as usize;
+            share[lane] = place - level as f32;
+        }
+        let colors = between(&self.levels, &near, &share, ways);
+        let mut light = [[0.0; N]; 3];
+        for channel in 0..3 {
+            for lane in 0..N {
+                light[channel][lane] = colors[lane][channel];
             }
         }
         light
-    }
-
-    /// The light from around a direction of any length but 0, blurred as by a surface of this roughness.
-    #[inline(always)]
-    pub(super) fn blurred(&self, way: [f32; 3], roughness: f32) -> [f32; 3] {
-        let place = roughness.clamp(0.0, 1.0) * (LEVELS - 1) as f32;
-        let level = (place as usize).min(LEVELS - 2);
-        let share = place - level as f32;
-        let near = self.levels[level].at(way);
-        let far = self.levels[level + 1].at(way);
-        [0, 1, 2].map(|k: usize| near[k] + (far[k] - near[k]) * share)
     }
 }
 
@@ -100,9 +110,10 @@ mod tests {
             assert!((r - 0.5 * (1.0 + cosine)).abs() < 0.06, "{cosine}: {r}");
             assert!((g - 0.5).abs() < 1e-3 && b.abs() < 1e-6);
         }
-        let up = [0.0, 1.0, 0.0];
-        assert!((half.blurred(up, 0.5)[0] - 1.0).abs() < 0.06);
-        let level: Vec<f32> = [0.0, 0.4, 0.8].map(|r| half.blurred([1.0, 0.2, 0.0], r)[0]).to_vec();
+        let up = [[0.0], [1.0], [0.0]];
+        assert!((half.blurred(&up, &[0.5])[0][0] - 1.0).abs() < 0.06);
+        let level: Vec<f32> =
+            [0.0, 0.4, 0.8].map(|r| half.blurred(&[[1.0], [0.2], [0.0]], &[r])[0][0]).to_vec();
         assert!(level[0] > level[1] && level[1] > level[2] && level[2] > 0.5, "{level:?}");
     }
 }

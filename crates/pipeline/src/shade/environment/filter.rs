@@ -4,7 +4,7 @@
 //! by the cosine (Karis 2013). Few half vectors do, for each reads the surroundings as blurred as the gap to the next is wide
 //! (Křivánek and Colbert 2008).
 
-use super::octahedron::{Octahedron, unit};
+use super::octahedron::{Octahedron, between, unit};
 use crate::shade::seen::{cross, dot};
 use std::f32::consts::PI;
 
@@ -23,7 +23,7 @@ pub(super) fn levels(sharp: Octahedron) -> Vec<Octahedron> {
     }
     let blur = |(n, &side): (usize, &usize)| {
         let roughness = (n + 1) as f32 / (LEVELS - 1) as f32;
-        let ways = ways(roughness * roughness, chain[0].side);
+        let ways = ways(roughness * roughness, &chain);
         Octahedron::of(side, |normal| blurred(&chain, normal, &ways))
     };
     let mut levels: Vec<Octahedron> = SIDES.iter().enumerate().map(blur).collect();
@@ -31,16 +31,38 @@ pub(super) fn levels(sharp: Octahedron) -> Vec<Octahedron> {
     levels
 }
 
-/// A direction around the normal, which is z: its weight and how blurred it reads the surroundings.
-struct Way {
-    direction: [f32; 3],
-    level: f32,
+/// How many directions are read at once.
+const LANES: usize = 8;
+
+/// Directions around the normal, which is z, and between which pictures of the chain they read the surroundings.
+struct Ways {
+    count: usize,
+    directions: [[f32; LANES]; 3],
+    near: [usize; LANES],
+    share: [f32; LANES],
+}
+
+impl Ways {
+    /// Some directions, each with how blurred it reads a chain whose last picture has a number.
+    fn of(some: &[([f32; 3], f32)], last: usize) -> Self {
+        let (near, share) = ([0; LANES], [0.0; LANES]);
+        let mut ways = Self { count: some.len(), directions: [[0.0; LANES]; 3], near, share };
+        for (lane, (direction, level)) in some.iter().enumerate() {
+            let place = level.min(last as f32);
+            ways.near[lane] = (place as usize).min(last - 1);
+            ways.share[lane] = place - ways.near[lane] as f32;
+            for axis in 0..3 {
+                ways.directions[axis][lane] = direction[axis];
+            }
+        }
+        ways
+    }
 }
 
 /// Directions in which a surface of this α mirrors somebody who looks straight at it.
-fn ways(alpha: f32, side: usize) -> Vec<Way> {
+fn ways(alpha: f32, chain: &[Octahedron]) -> Vec<Ways> {
     let square = alpha * alpha;
-    let texel = 4.0 * PI / (side * side) as f32;
+    let texel = 4.0 * PI / (chain[0].side * chain[0].side) as f32;
     let way = |n: u32| {
         // The points of Hammersley: even steps, and their numbers with the bits reversed.
         let u = (n as f32 + 0.5) / COUNT as f32;
@@ -53,25 +75,35 @@ fn ways(alpha: f32, side: usize) -> Vec<Way> {
         // The density of directions: that of half vectors, D n·h, over four times v·h.
         let density = square / (PI * width * width) / 4.0;
         let gap = 1.0 / (COUNT as f32 * density.max(1e-9));
-        Way { direction, level: (0.5 * libm::log2f(gap / texel) + 1.0).max(0.0) }
+        (direction, (0.5 * libm::log2f(gap / texel) + 1.0).max(0.0))
     };
-    (0..COUNT).map(way).filter(|way| way.direction[2] > 0.0).collect()
+    let all: Vec<_> = (0..COUNT).map(way).filter(|([_, _, z], _)| *z > 0.0).collect();
+    all.chunks(LANES).map(|some| Ways::of(some, chain.len() - 1)).collect()
 }
 
-fn blurred(chain: &[Octahedron], normal: [f32; 3], ways: &[Way]) -> [f32; 3] {
+fn blurred(chain: &[Octahedron], normal: [f32; 3], ways: &[Ways]) -> [f32; 3] {
     let aside = if normal[1].abs() < 0.9 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] };
     let right = unit(cross(aside, normal));
     let ahead = cross(normal, right);
-    let (mut sum, mut whole) = ([0.0; 3], 0.0);
-    for Way { direction: [x, y, z], level } in ways {
-        let way = [0, 1, 2].map(|k: usize| right[k] * x + ahead[k] * y + normal[k] * z);
-        let place = level.min((chain.len() - 1) as f32);
-        let near = (place as usize).min(chain.len() - 2);
-        let (a, b) = (chain[near].at(way), chain[near + 1].at(way));
-        let share = place - near as f32;
-        let weight = dot(way, normal).max(0.0);
-        sum = [0, 1, 2].map(|k: usize| sum[k] + (a[k] + (b[k] - a[k]) * share) * weight);
-        whole += weight;
+    let (mut sum, mut whole) = ([0.0; 4], 0.0);
+    for Ways { count, directions: [x, y, z], near, share } in ways {
+        let mut turned = [[0.0; LANES]; 3];
+        let mut weights = [0.0; LANES];
+        for lane in 0..LANES {
+            let way = [0, 1, 2]
+                .map(|k: usize| right[k] * x[lane] + ahead[k] * y[lane] + normal[k] * z[lane]);
+            weights[lane] = dot(way, normal).max(0.0);
+            for axis in 0..3 {
+                turned[axis][lane] = way[axis];
+            }
+        }
+        let colors = between(chain, near, share, &turned);
+        for (color, weight) in colors.iter().zip(weights).take(*count) {
+            for k in 0..4 {
+                sum[k] += color[k] * weight;
+            }
+            whole += weight;
+        }
     }
-    sum.map(|sum: f32| sum / whole)
+    [0, 1, 2].map(|k: usize| sum[k] / whole)
 }
