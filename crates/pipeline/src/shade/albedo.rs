@@ -34,29 +34,42 @@ impl<const N: usize> Albedo<N> {
     /// (Rows at the ends, which would be exact, put three of the reference pictures out of their limits.)
     #[inline(always)]
     pub(super) fn of(roughness: &[f32; N], cosines: &[f32; N]) -> Self {
-        let mut albedo = Self { a: [0.0; N], b: [0.0; N] };
+        let (mut rows, mut columns, mut s, mut t) = ([0; N], [0; N], [0.0; N], [0.0; N]);
         for lane in 0..N {
-            let (row, s) = place(roughness[lane] * 16.0 - 0.5);
-            let (column, t) = place(cosines[lane].sqrt() * 15.0);
-            let (upper, lower) = (&TABLE[row], &TABLE[row + 1]);
-            let [a, b] = [0, 1].map(|k: usize| {
-                let left = upper[column][k] + (lower[column][k] - upper[column][k]) * s;
-                let right =
-                    upper[column + 1][k] + (lower[column + 1][k] - upper[column + 1][k]) * s;
-                left + (right - left) * t
-            });
-            albedo.a[lane] = a;
-            albedo.b[lane] = b;
+            (rows[lane], s[lane]) = place(roughness[lane] * 16.0 - 0.5);
+            (columns[lane], t[lane]) = place(cosines[lane].sqrt() * 15.0);
         }
-        albedo
+        // A and B of the entries above on the left and the right, and below.
+        let mut entries = [[[0.0; N]; 2]; 4];
+        for lane in 0..N {
+            let (row, column) = (rows[lane] as usize, columns[lane] as usize);
+            let (upper, lower) = (&TABLE[row], &TABLE[row + 1]);
+            let four = [upper[column], upper[column + 1], lower[column], lower[column + 1]];
+            for corner in 0..4 {
+                for k in 0..2 {
+                    entries[corner][k][lane] = four[corner][k];
+                }
+            }
+        }
+        let mut albedo = [[0.0; N]; 2];
+        for k in 0..2 {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|corner: usize| entries[corner][k]);
+            for lane in 0..N {
+                let left = a[lane] + (c[lane] - a[lane]) * s[lane];
+                let right = b[lane] + (d[lane] - b[lane]) * s[lane];
+                albedo[k][lane] = left + (right - left) * t[lane];
+            }
+        }
+        let [a, b] = albedo;
+        Self { a, b }
     }
 }
 
 /// The entry before a place between the first and the last, and how far it is to the next.
 #[inline(always)]
-pub(super) fn place(x: f32) -> (usize, f32) {
+pub(super) fn place(x: f32) -> (i32, f32) {
     let place = x.clamp(0.0, 15.0);
-    let entry = (place as usize).min(14);
+    let entry = (place as i32).min(14);
     (entry, place - entry as f32)
 }
 

@@ -34,6 +34,7 @@ fn shadow(cosine: f32, alpha: f32) -> f32 {
 pub(super) fn sheen_albedo(cosine: f32, roughness: f32) -> f32 {
     let (row, s) = place(roughness * 15.0);
     let (column, t) = place(cosine.sqrt() * 15.0);
+    let (row, column) = (row as usize, column as usize);
     let (upper, lower) = (&TABLE[row], &TABLE[row + 1]);
     let across = |row: &[f32; 16]| row[column] + (row[column + 1] - row[column]) * t;
     across(upper) + (across(lower) - across(upper)) * s
