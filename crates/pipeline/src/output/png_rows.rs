@@ -49,11 +49,14 @@ impl<W: Write> PngRows<'_, W> {
     /// # Errors
     /// If they cannot be written, or are more than the picture has.
     pub fn write<C: Channel>(&mut self, pixels: &[[C; 4]]) -> io::Result<()> {
-        let count = if self.opaque { 3 } else { 4 };
         for pixels in pixels.chunks(AT_ONCE) {
             self.bytes.clear();
-            for pixel in pixels {
-                pixel[..count].iter().for_each(|channel| channel.write(&mut self.bytes));
+            for &[r, g, b, alpha] in pixels {
+                if self.opaque {
+                    C::write([r, g, b], &mut self.bytes);
+                } else {
+                    C::write([r, g, b, alpha], &mut self.bytes);
+                }
             }
             self.stream.write_all(&self.bytes)?;
         }

@@ -15,8 +15,8 @@ pub trait Channel: sealed::Sealed + Copy + Default + Eq + Send + Sync + 'static 
     fn of_byte(byte: u8) -> Self;
     /// The nearest of 8 bits.
     fn to_byte(self) -> u8;
-    /// Appends the bytes that a PNG has for it: the upper first.
-    fn write(self, bytes: &mut Vec<u8>);
+    /// Appends the bytes that a PNG has for some of them: of each the upper first.
+    fn write<const K: usize>(channels: [Self; K], bytes: &mut Vec<u8>);
     /// A pixel under one of a drawing: sRGB and multiplied by alpha as canvases are, of 8 bits.
     fn under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4];
 }
@@ -45,8 +45,9 @@ impl Channel for u8 {
         self
     }
 
-    fn write(self, bytes: &mut Vec<u8>) {
-        bytes.push(self);
+    #[inline]
+    fn write<const K: usize>(channels: [Self; K], bytes: &mut Vec<u8>) {
+        bytes.extend_from_slice(&channels);
     }
 
     fn under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4] {
@@ -71,8 +72,9 @@ impl Channel for u16 {
         ((u32::from(self) + 128) / 257) as u8
     }
 
-    fn write(self, bytes: &mut Vec<u8>) {
-        bytes.extend(self.to_be_bytes());
+    #[inline]
+    fn write<const K: usize>(channels: [Self; K], bytes: &mut Vec<u8>) {
+        bytes.extend_from_slice(channels.map(Self::to_be_bytes).as_flattened());
     }
 
     fn under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4] {
