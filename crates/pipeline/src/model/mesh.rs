@@ -48,7 +48,7 @@ pub struct Primitive {
     pub variants: Vec<VariantMaterial>,
     /// The edges its maker wants to see, if the file says so.
     pub edges: Option<Box<Edges>>,
-    /// What is worked out of positions and indices when it is first asked for: nothing in a new primitive.
+    /// What is worked out of the other fields when it is first asked for: nothing in a new primitive.
     pub derived: Derived,
 }
 
@@ -57,6 +57,8 @@ pub struct Primitive {
 pub struct Derived {
     /// The clusters of its triangles, without and with cones around their normals.
     clusters: [OnceLock<Clusters>; 2],
+    /// The tangents of its corners for the set of texture coordinates that was asked for first, if they can be derived.
+    pub(super) tangents: OnceLock<(usize, Option<Vec<[f32; 4]>>)>,
 }
 
 /// The material of a primitive in a variant of the model.

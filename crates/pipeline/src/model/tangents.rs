@@ -8,6 +8,7 @@
 use super::{Primitive, Topology};
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
 use glam::DVec3;
+use std::borrow::Cow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 impl Primitive {
@@ -15,9 +16,18 @@ impl Primitive {
     /// bitangent (1 or −1), for a texture that uses a set of texture coordinates.
     ///
     /// Flat normals stand in for missing ones. `None` for points and lines, if there is no such set, and for shapes that the
-    /// algorithm gives up on. Nothing is kept: who needs the tangents of a primitive calls this once.
+    /// algorithm gives up on. Those for one set are kept with the primitive: pictures of a film share them.
     #[must_use]
-    pub fn derived_tangents(&self, uv_set: usize) -> Option<Vec<[f32; 4]>> {
+    pub fn derived_tangents(&self, uv_set: usize) -> Option<Cow<'_, [[f32; 4]]>> {
+        let (kept_set, kept) =
+            self.derived.tangents.get_or_init(|| (uv_set, self.generated_tangents(uv_set)));
+        if *kept_set == uv_set {
+            return kept.as_deref().map(Cow::Borrowed);
+        }
+        self.generated_tangents(uv_set).map(Cow::Owned)
+    }
+
+    fn generated_tangents(&self, uv_set: usize) -> Option<Vec<[f32; 4]>> {
         let uvs = self.uvs.get(uv_set).filter(|_| self.topology == Topology::Triangles)?;
         // What has no direction in the texture keeps this one.
         let tangents = vec![[1.0, 0.0, 0.0, 1.0]; self.indices.len()];
@@ -95,6 +105,7 @@ impl Ops for Portable {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::mesh::Derived;
 
     /// A unit square in the plane z = 0 that faces +z, with these texture coordinates at (0, 0), (1, 0), (1, 1), (0, 1).
     fn square(uvs: [[f32; 2]; 4]) -> Primitive {
@@ -120,13 +131,15 @@ mod tests {
             // A quarter turn: u along y, v falls along −x.
             ([[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]], [0.0, 1.0, 0.0, 1.0]),
         ] {
-            let tangents = square(uvs).derived_tangents(0).unwrap();
-            for found in &tangents {
+            let square = square(uvs);
+            let tangents = square.derived_tangents(0).unwrap();
+            for found in tangents.iter() {
                 let near = found.iter().zip(tangent).all(|(a, b): (_, f32)| (a - b).abs() < 1e-6);
                 assert!(near, "{uvs:?}: {found:?}");
             }
             assert_eq!(tangents.len(), 6);
-            let flat = Primitive { normals: None, ..square(uvs) };
+            let derived = Derived::default();
+            let flat = Primitive { normals: None, derived, ..square.clone() };
             assert_eq!(
                 flat.derived_tangents(0).unwrap(),
                 tangents,
@@ -136,13 +149,30 @@ mod tests {
     }
 
     #[test]
+    fn tangents_are_kept_and_each_set_of_coordinates_has_its_own() {
+        let [along_x, along_y] = [
+            [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]],
+            [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]],
+        ];
+        let both = Primitive { uvs: vec![along_x.to_vec(), along_y.to_vec()], ..square(along_x) };
+        let first = both.derived_tangents(0).unwrap();
+        assert!(matches!(both.derived_tangents(0), Some(Cow::Borrowed(kept)) if kept == &*first));
+        assert_eq!(both.derived_tangents(1), square(along_y).derived_tangents(0));
+        assert_ne!(both.derived_tangents(1).unwrap(), first);
+    }
+
+    #[test]
     fn shapes_without_directions_do_no_harm() {
         let one_point = square([[0.5; 2]; 4]);
         assert_eq!(one_point.derived_tangents(0).map(|tangents| tangents.len()), Some(6));
         assert_eq!(one_point.derived_tangents(1), None);
-        let flat = Primitive { positions: vec![[f32::MAX; 3]; 4], ..one_point };
+        let flat = Primitive {
+            positions: vec![[f32::MAX; 3]; 4],
+            derived: Derived::default(),
+            ..one_point
+        };
         assert_eq!(flat.derived_tangents(0).map(|tangents| tangents.len()), Some(6));
-        let line = Primitive { topology: Topology::Lines, ..flat };
+        let line = Primitive { topology: Topology::Lines, derived: Derived::default(), ..flat };
         assert_eq!(line.derived_tangents(0), None);
     }
 }

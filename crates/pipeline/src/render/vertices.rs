@@ -96,7 +96,9 @@ pub(super) fn tangents(
     let coat = material.extensions.clearcoat.as_deref().and_then(|coat| coat.normal_texture);
     let uv_set = material.normal_texture.or(coat).map_or(0, |normal| normal.texture.uv_set);
     let derived = match (&posed.positions, &posed.normals) {
-        (Cow::Borrowed(_), None | Some(Cow::Borrowed(_))) => primitive.derived_tangents(uv_set),
+        (Cow::Borrowed(_), None | Some(Cow::Borrowed(_))) => {
+            primitive.derived_tangents(uv_set).map(|derived| turned(&derived))
+        }
         (positions, normals) => Primitive {
             indices: primitive.indices.clone(),
             positions: positions.to_vec(),
@@ -104,9 +106,10 @@ pub(super) fn tangents(
             uvs: primitive.uvs.clone(),
             ..Primitive::default()
         }
-        .derived_tangents(uv_set),
+        .derived_tangents(uv_set)
+        .map(|derived| turned(&derived)),
     };
-    derived.map_or(Tangents::None, |derived| Tangents::OfCorners(turned(&derived)))
+    derived.map_or(Tangents::None, Tangents::OfCorners)
 }
 
 /// Tangents in the world. In a mirror the bitangent, which is the product of normal and tangent, is on the other side.
