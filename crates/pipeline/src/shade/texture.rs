@@ -51,8 +51,11 @@ impl<'a> MipChain<'a> {
         };
         let mut levels = vec![full];
         if sampler.mipmap != Mipmap::None {
-            let tables = MeanTables::of(texels);
-            while let Some(half) = levels.last().and_then(|level| level.half(tables)) {
+            let half = |level: &Level<'a>| match texels {
+                Texels::Srgb => level.half(|four| ColorMeans::shared().mean(four)),
+                Texels::Linear => level.half(mean),
+            };
+            while let Some(half) = levels.last().and_then(half) {
                 levels.push(half);
             }
         }
@@ -70,9 +73,9 @@ impl<'a> MipChain<'a> {
 }
 
 impl Level<'_> {
-    /// This level at half size: each texel the mean of four, in linear light; `None` if it is a single texel.
-    /// Of an odd number of rows or columns the last one is left out.
-    fn half<'b>(&self, codes: &MeanTables) -> Option<Level<'b>> {
+    /// This level at half size: each texel the mean of four; `None` if it is a single texel. Of an odd number of rows or
+    /// columns the last one is left out.
+    fn half<'b>(&self, mean: impl Fn([[u8; 4]; 4]) -> [u8; 4]) -> Option<Level<'b>> {
         if self.width == 1 && self.height == 1 {
             return None;
         }
@@ -85,50 +88,50 @@ impl Level<'_> {
         for y in 0..height {
             let (upper, lower) = (row(2 * y), row(2 * y + 1));
             if let ([a], [b]) = (upper, lower) {
-                texels.push(codes.mean([*a, *a, *b, *b]));
+                texels.push(mean([*a, *a, *b, *b]));
                 continue;
             }
             let pairs = upper.as_chunks::<2>().0.iter().zip(lower.as_chunks::<2>().0);
-            texels.extend(pairs.map(|(&[a, b], &[c, d])| codes.mean([a, b, c, d])));
+            texels.extend(pairs.map(|(&[a, b], &[c, d])| mean([a, b, c, d])));
         }
         Some(Level { width, height, texels: Cow::Owned(texels) })
     }
 }
 
-/// Tables for means of texels: 16-bit linear numbers of each code, and back.
+/// The mean of four texels of numbers.
+fn mean(four: [[u8; 4]; 4]) -> [u8; 4] {
+    [0, 1, 2, 3].map(|k: usize| {
+        let sum: u16 = four.iter().map(|texel| u16::from(texel[k])).sum();
+        ((sum + 2) / 4) as u8
+    })
+}
+
+/// Tables for means of colours: 16-bit linear light of each code, and back.
 #[derive(Debug)]
-struct MeanTables {
+struct ColorMeans {
     linear: [u32; 256],
     codes: Vec<u8>,
 }
 
-impl MeanTables {
-    fn of(texels: Texels) -> &'static Self {
-        static SRGB: OnceLock<MeanTables> = OnceLock::new();
-        static LINEAR: OnceLock<MeanTables> = OnceLock::new();
-        let numbers = || 0..=65535_u16;
-        match texels {
-            Texels::Srgb => SRGB.get_or_init(|| {
-                let linear = linear_table().map(|light| (light * 65535.0 + 0.5) as u32);
-                let encoder = crate::color::SrgbEncoder::shared();
-                let codes = numbers().map(|l| encoder.encode(f32::from(l) / 65535.0)).collect();
-                Self { linear, codes }
-            }),
-            Texels::Linear => LINEAR.get_or_init(|| {
-                let linear = std::array::from_fn(|code| code as u32 * 257);
-                let codes = numbers().map(|l| ((u32::from(l) + 128) / 257) as u8).collect();
-                Self { linear, codes }
-            }),
-        }
+impl ColorMeans {
+    fn shared() -> &'static Self {
+        static TABLES: OnceLock<ColorMeans> = OnceLock::new();
+        TABLES.get_or_init(|| {
+            let linear = linear_table().map(|light| (light * 65535.0 + 0.5) as u32);
+            let encoder = crate::color::SrgbEncoder::shared();
+            let code = |light: u16| encoder.encode(f32::from(light) / 65535.0);
+            Self { linear, codes: (0..=65535).map(code).collect() }
+        })
     }
 
+    /// The mean of four colours, in linear light.
     fn mean(&self, four: [[u8; 4]; 4]) -> [u8; 4] {
         let color = |k: usize| {
             let sum: u32 = four.iter().map(|texel| self.linear[usize::from(texel[k])]).sum();
             self.codes[((sum + 2) / 4) as usize]
         };
-        let alpha: u32 = four.iter().map(|texel| u32::from(texel[3])).sum();
-        [color(0), color(1), color(2), ((alpha + 2) / 4) as u8]
+        let [.., alpha] = mean(four);
+        [color(0), color(1), color(2), alpha]
     }
 }
 
