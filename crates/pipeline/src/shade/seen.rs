@@ -3,7 +3,7 @@
 //! Everything on this way is a plain loop over the lanes and is made part of the function that calls it, which is compiled
 //! for the processor's vector instructions. The bits do not depend on the number of lanes.
 
-use raster::{Fragment, Fragments, WIDE, Weights};
+use raster::{Eight, Fragment, Fragments, WIDE};
 
 /// Some fragments that are shaded at once.
 pub(super) trait Seen<const N: usize> {
@@ -29,33 +29,36 @@ impl Seen<1> for Fragment<'_> {
     }
 }
 
-/// Eight fragments with their weights.
+/// Eight fragments with their weights. Textures and normals alike ask for the derivatives, which are worked out once.
 #[derive(Debug)]
-pub(super) struct Wide<'a> {
-    weights: Weights<'a>,
+pub(super) struct Wide {
+    here: [Eight; 3],
+    dx: [Eight; 3],
+    dy: [Eight; 3],
 }
 
-impl<'a> Wide<'a> {
+impl Wide {
     #[inline(always)]
-    pub(super) fn new(fragments: &Fragments<'a>) -> Self {
-        Self { weights: fragments.weights() }
+    pub(super) fn new(fragments: &Fragments<'_>) -> Self {
+        let weights = fragments.weights();
+        Self { here: weights.here, dx: weights.dx(), dy: weights.dy() }
     }
 }
 
-impl Seen<WIDE> for Wide<'_> {
+impl Seen<WIDE> for Wide {
     #[inline(always)]
-    fn weights(&self) -> [[f32; WIDE]; 3] {
-        self.weights.here
+    fn weights(&self) -> [Eight; 3] {
+        self.here
     }
 
     #[inline(always)]
-    fn weights_dx(&self) -> [[f32; WIDE]; 3] {
-        self.weights.dx()
+    fn weights_dx(&self) -> [Eight; 3] {
+        self.dx
     }
 
     #[inline(always)]
-    fn weights_dy(&self) -> [[f32; WIDE]; 3] {
-        self.weights.dy()
+    fn weights_dy(&self) -> [Eight; 3] {
+        self.dy
     }
 }
 
