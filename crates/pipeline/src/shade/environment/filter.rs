@@ -6,6 +6,7 @@
 
 use super::octahedron::{Octahedron, between, unit};
 use crate::shade::seen::{cross, dot};
+use raster::{Instructions, Work};
 use std::f32::consts::PI;
 
 /// How many pictures there are: of roughness 0, 0.2 and so on to 1.
@@ -21,10 +22,11 @@ pub(super) fn levels(sharp: Octahedron) -> Vec<Octahedron> {
     while chain.len() < 7 {
         chain.push(chain[chain.len() - 1].half());
     }
+    let instructions = Instructions::best();
     let blur = |(n, &side): (usize, &usize)| {
         let roughness = (n + 1) as f32 / (LEVELS - 1) as f32;
         let ways = ways(roughness * roughness, &chain);
-        Octahedron::of(side, |normal| blurred(&chain, normal, &ways))
+        Octahedron::of(side, |normal| instructions.run(Blur { chain: &chain, normal, ways: &ways }))
     };
     let mut levels: Vec<Octahedron> = SIDES.iter().enumerate().map(blur).collect();
     levels.insert(0, chain.swap_remove(0));
@@ -81,6 +83,23 @@ fn ways(alpha: f32, chain: &[Octahedron]) -> Vec<Ways> {
     all.chunks(LANES).map(|some| Ways::of(some, chain.len() - 1)).collect()
 }
 
+/// The light around a normal.
+struct Blur<'a> {
+    chain: &'a [Octahedron],
+    normal: [f32; 3],
+    ways: &'a [Ways],
+}
+
+impl Work for Blur<'_> {
+    type Output = [f32; 3];
+
+    #[inline(always)]
+    fn run(self) -> [f32; 3] {
+        blurred(self.chain, self.normal, self.ways)
+    }
+}
+
+#[inline(always)]
 fn blurred(chain: &[Octahedron], normal: [f32; 3], ways: &[Ways]) -> [f32; 3] {
     let aside = if normal[1].abs() < 0.9 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] };
     let right = unit(cross(aside, normal));
