@@ -6,6 +6,7 @@ use super::layers::{Coat, Grain, Sheen};
 use super::light::Light;
 use super::normal::Facing;
 use super::receiver::Receivers;
+use super::seen::in_all;
 use super::shadow::ShadowMap;
 use super::substance::Substance;
 use super::{Draw, Tangents};
@@ -93,11 +94,9 @@ impl<'a, const N: usize> Reflection<'a, N> {
             }
             self.substance.reflect(&self.facing, &arriving, self.grain.as_ref(), &mut self.sums);
         }
-        let mut scattered = [[0.0; N]; 3];
-        for (channel, lux) in everywhere.into_iter().enumerate() {
-            scattered[channel] = [lux * FRAC_1_PI; N];
+        if everywhere != [0.0; 3] {
+            self.scatter(&in_all(everywhere.map(|lux| lux * FRAC_1_PI)));
         }
-        self.scatter(&scattered);
     }
 
     /// Adds what scatters light from everywhere: what a white matt surface would make of it is given.
