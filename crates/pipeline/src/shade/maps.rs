@@ -54,9 +54,7 @@ impl<'a> Maps<'a> {
                 let is_taken = first.lies_like(map) && maps.len() < start + TOGETHER;
                 if is_taken {
                     let before = maps[start..].last();
-                    let repeats =
-                        before.is_some_and(|before| std::ptr::eq(before.chain, map.chain));
-                    let repeats = repeats && !reads_alpha(map.slot);
+                    let repeats = before.is_some_and(|before| before.tells(map));
                     maps.push(Map { joins: before.is_some(), repeats, ..*map });
                 }
                 !is_taken
@@ -104,6 +102,11 @@ impl<'a> Maps<'a> {
 }
 
 impl Map<'_> {
+    /// Whether the texels of this map are all that another one needs, where both are read at the same places.
+    fn tells(&self, other: &Self) -> bool {
+        std::ptr::eq(self.chain, other.chain) && (self.alpha_counts || !other.alpha_counts)
+    }
+
     /// Whether two maps are read at the same places wherever they are.
     fn lies_like(&self, other: &Self) -> bool {
         let (used, others) = (&self.used, &other.used);
@@ -122,4 +125,42 @@ const fn reads_alpha(slot: TextureSlot) -> bool {
         slot,
         TextureSlot::Specular | TextureSlot::SheenRoughness | TextureSlot::SpecularGlossiness
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{Image, NormalTexture, OcclusionTexture, Sampler};
+    use crate::shade::Texels;
+
+    #[test]
+    fn maps_read_together_have_the_bits_of_maps_read_alone() {
+        let used = |texture| TextureUse { texture, uv_set: 0, uv_map: TextureUse::KEEP_UV };
+        let material = Material {
+            base_color_texture: Some(used(0)),
+            metallic_roughness_texture: Some(used(1)),
+            normal_texture: Some(NormalTexture { texture: used(2), scale: 1.0 }),
+            occlusion_texture: Some(OcclusionTexture { texture: used(1), strength: 1.0 }),
+            emissive_texture: Some(used(3)),
+            ..Material::default()
+        };
+        // The last is of another size, and stands alone.
+        let image = |side: u32, factor: u32| {
+            let texel = |n: u32| [n * factor, n * 31, n * 101, n * 59].map(|code| code as u8);
+            Image { width: side, height: side, rgba: (0..side * side).map(texel).collect() }
+        };
+        let images = [image(16, 7), image(16, 11), image(16, 13), image(8, 17)];
+        let kinds = [Texels::Srgb, Texels::Linear, Texels::Linear, Texels::Srgb];
+        let chain = |n: usize| MipChain::new(&images[n], Sampler::default(), kinds[n]);
+        let chains = [0, 1, 2, 3].map(chain);
+        let maps = Maps::of(&material, 4, |_, used| chains.get(used.texture));
+        let counts: Vec<usize> = maps.together().map(<[Map<'_>]>::len).collect();
+        assert_eq!(counts, [4, 1]);
+        let uvs = [[[0.3], [0.7]], [[0.4], [0.1]], [[0.05], [0.02]]];
+        for together in maps.together() {
+            for (map, texels) in together.iter().zip(maps.read(together, &uvs)) {
+                assert_eq!(texels, map.chain.sample(&uvs, false, 4), "{:?}", map.slot);
+            }
+        }
+    }
 }
