@@ -36,6 +36,8 @@ struct Share {
 pub(crate) struct Scratch {
     shares: Vec<Share>,
     colors: Vec<[f32; 4]>,
+    /// What each lets through, in a row with anything translucent.
+    through: Vec<[f32; 3]>,
 }
 
 /// Neighbouring pixels of a row, all in one block, with the layers over them.
@@ -234,22 +236,39 @@ impl<S: Surface> Resolve<'_, S> {
         encode: &impl Encode<P>,
         scratch: &mut Scratch,
     ) {
-        let Scratch { shares, colors } = scratch;
-        self.shade_shares(y, shares, colors);
+        let Scratch { shares, colors, through } = scratch;
+        self.shade_shares(y, shares, colors, through);
         let mut from = 0;
         while let Some(first) = shares.get(from) {
             let same = shares[from..].iter().take_while(|share| share.x == first.x).count();
             let range = from..from + same;
-            let color = self.put_together(&shares[range.clone()], &colors[range]);
+            let last = range.end - 1;
+            let color = if shares[last].translucent {
+                self.put_together_layers(
+                    &shares[range.clone()],
+                    &colors[range.clone()],
+                    &through[range],
+                )
+            } else {
+                self.put_together(&shares[range.clone()], &colors[range])
+            };
             row[(first.x - self.rect.left) as usize] = encode.pixel(color);
             from += same;
         }
     }
 
-    /// The colour of each share, eight shaded at a time.
+    /// The colour of each share, and what it lets through, eight shaded at a time.
     #[inline(always)]
-    fn shade_shares(&self, y: u32, shares: &[Share], colors: &mut Vec<[f32; 4]>) {
+    fn shade_shares(
+        &self,
+        y: u32,
+        shares: &[Share],
+        colors: &mut Vec<[f32; 4]>,
+        through: &mut Vec<[f32; 3]>,
+    ) {
         colors.clear();
+        through.clear();
+        let is_layered = shares.iter().any(|share| share.translucent);
         let is_there = |share: &&Share| share.piece != NOTHING;
         let Some(any) = shares.iter().find(is_there) else {
             colors.resize(shares.len(), self.background);
@@ -271,15 +290,16 @@ impl<S: Surface> Resolve<'_, S> {
                 let color = [r[lane], g[lane], b[lane], alpha];
                 colors.push(if share.piece == NOTHING { self.background } else { color });
             }
+            if is_layered {
+                let [r, g, b] = self.surface.through_eight(&all, &shaded[3]);
+                through.extend((0..eight.len()).map(|lane| [r[lane], g[lane], b[lane]]));
+            }
         }
     }
 
     /// The colour of a pixel, which is the mean of its samples.
     #[inline(always)]
     fn put_together(&self, shares: &[Share], colors: &[[f32; 4]]) -> [f32; 4] {
-        if shares[shares.len() - 1].translucent {
-            return self.put_together_layers(shares, colors);
-        }
         let mut sum = [0.0; 4];
         for (share, color) in shares.iter().zip(colors) {
             let samples = share.mask.count_ones() as f32;
@@ -291,13 +311,21 @@ impl<S: Surface> Resolve<'_, S> {
     }
 
     /// With something translucent over it, a pixel is put together sample by sample.
-    fn put_together_layers(&self, shares: &[Share], colors: &[[f32; 4]]) -> [f32; 4] {
+    fn put_together_layers(
+        &self,
+        shares: &[Share],
+        colors: &[[f32; 4]],
+        through: &[[f32; 3]],
+    ) -> [f32; 4] {
         let mut samples = [[0.0; 4]; 16];
-        for (share, color) in shares.iter().zip(colors) {
-            let through = if share.translucent { 1.0 - color[3] } else { 0.0 };
+        for ((share, color), [r, g, b]) in shares.iter().zip(colors).zip(through) {
+            let mut behind = [0.0; 4];
+            if share.translucent {
+                behind = [*r, *g, *b, 1.0 - color[3]];
+            }
             for (number, sample) in samples.iter_mut().enumerate() {
                 if share.mask & (1 << number) != 0 {
-                    *sample = [0, 1, 2, 3].map(|k| color[k] + sample[k] * through);
+                    *sample = [0, 1, 2, 3].map(|k| color[k] + sample[k] * behind[k]);
                 }
             }
         }
