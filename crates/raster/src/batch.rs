@@ -32,6 +32,8 @@ pub(crate) struct Batch {
     b: [Ints; 3],
     bounds: [Ints; 4],
     slope: [Doubles; 2],
+    /// The same per pixel.
+    step: [Floats; 2],
     least: Floats,
     greatest: Floats,
 }
@@ -78,8 +80,9 @@ impl Batch {
         let bounds = bounds([min_x, min_y, max_x, max_y], tile, reach);
         let (a, b) = (sides(&y, false), sides(&x, true));
         let slope = slopes(&x, &y, &z);
+        let step = slope.map(|slope| slope.map(|slope| (slope * f64::from(SUBPIXELS)) as f32));
         let (least, greatest) = depths(&z);
-        Self { x, y, z: z[0], is_small, a, b, bounds, slope, least, greatest }
+        Self { x, y, z: z[0], is_small, a, b, bounds, slope, step, least, greatest }
     }
 
     /// Whether the triangle was prepared; if not, it is too large.
@@ -97,7 +100,7 @@ impl Batch {
 
     #[inline(always)]
     pub(crate) fn functions(&self, lane: usize) -> Functions {
-        let Self { a, b, bounds: [x0, y0, x1, y1], slope: [dx, dy], .. } = self;
+        let Self { a, b, bounds: [x0, y0, x1, y1], step: [dx, dy], .. } = self;
         Functions {
             a: [a[0][lane], a[1][lane], a[2][lane]],
             b: [b[0][lane], b[1][lane], b[2][lane]],
@@ -105,8 +108,8 @@ impl Batch {
             y0: y0[lane],
             x1: x1[lane],
             y1: y1[lane],
-            dx: (dx[lane] * f64::from(SUBPIXELS)) as f32,
-            dy: (dy[lane] * f64::from(SUBPIXELS)) as f32,
+            dx: dx[lane],
+            dy: dy[lane],
             least: self.least[lane],
             greatest: self.greatest[lane],
         }

@@ -1,13 +1,8 @@
 //! Drawing a frame: visibility tile by tile, then each visible surface shaded once per pixel.
-//!
-//! Tiles know nothing of each other, so threads may take them in any order: the picture is the same for any number.
 
-use crate::bins::Bins;
 use crate::fragments::{Eight, WIDE};
-use crate::grid::Part;
-use crate::memory::{Memory, Worker};
 use crate::resolve::Resolve;
-use crate::threads::share_among;
+use crate::walk::Filled;
 use crate::{Fragment, Fragments, Frame};
 use fearless_simd::dispatch;
 
@@ -89,75 +84,11 @@ impl Frame {
         target: &mut [P],
         encode: impl Encode<P>,
     ) {
-        let Memory { mut bins, mut workers } = self.kept.take();
-        bins.sort(&self.pieces, self.part, threads);
-        workers.resize_with(threads.max(1), Worker::default);
-        let bands = Bands { part: self.part, rows: self.part.rows(), target };
-        share_among(&mut workers, bands, |worker, (row, pixels)| {
-            if self.is_stopped() {
-                return;
-            }
-            // Memory takes whole rows faster than tiles, and what tiles write is then in a cache already.
-            pixels.fill(encode.pixel(background));
-            self.draw_band(row, pixels, &bins, worker, surface, background, &encode);
-        });
-        self.kept.put(Memory { bins, workers });
-    }
-
-    /// Draws a row of tiles into its pixels, which show the background.
-    #[expect(clippy::too_many_arguments, reason = "a row, and all that drawing it depends on")]
-    fn draw_band<S: Surface, P: Copy>(
-        &self,
-        row: u32,
-        pixels: &mut [P],
-        bins: &Bins,
-        Worker { list, tile, scratch }: &mut Worker,
-        surface: &S,
-        background: [f32; 4],
-        encode: &impl Encode<P>,
-    ) {
-        let (left, right) = self.part.columns();
-        for column in left..right {
-            let rect = self.part.tile(column, row);
-            list.clear();
-            bins.list(column, row, list);
-            if list.is_empty() {
-                continue;
-            }
-            tile.fill(self, rect, list, surface);
+        // Memory takes whole rows faster than tiles, and what tiles write is then in a cache already.
+        let begin = |band: &mut [P]| band.fill(encode.pixel(background));
+        self.each_tile(surface, threads, target, begin, |Filled { tile, rect, band, scratch }| {
             let tile = Resolve { frame: self, surface, background, tile, rect };
-            dispatch!(self.instructions.level(), _simd => tile.write(pixels, scratch, encode));
-        }
+            dispatch!(self.instructions.level(), _simd => tile.write(band, scratch, &encode));
+        });
     }
 }
-
-/// The rows of tiles of a part that are left, each with its pixels.
-pub(crate) struct Bands<'a, P> {
-    pub(crate) part: Part,
-    pub(crate) rows: (u32, u32),
-    pub(crate) target: &'a mut [P],
-}
-
-impl<'a, P> Iterator for Bands<'a, P> {
-    type Item = (u32, &'a mut [P]);
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let (row, end) = self.rows;
-        if row == end {
-            return None;
-        }
-        self.rows.0 += 1;
-        let length = self.part.rows_of(row) * self.part.width as usize;
-        let all = std::mem::take(&mut self.target);
-        let (band, rest) = all.split_at_mut(length.min(all.len()));
-        self.target = rest;
-        Some((row, band))
-    }
-
-    fn size_hint(&self) -> (usize, Option<usize>) {
-        let count = (self.rows.1 - self.rows.0) as usize;
-        (count, Some(count))
-    }
-}
-
-impl<P> ExactSizeIterator for Bands<'_, P> {}

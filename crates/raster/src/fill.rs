@@ -11,31 +11,41 @@ use fearless_simd::{Simd, f32x8, i32x8, mask32x8, u32x8};
 /// Triangles that touch no more blocks than this are drawn block by block without sorting these first.
 const FEW: i32 = 4;
 
-impl Plane {
-    /// Draws a solid triangle: where it is nearer than what is there, its depth and number take the place.
-    #[inline(always)]
-    pub(crate) fn fill<S: Simd>(&mut self, simd: S, lanes: &Lanes<S>, start: &Start, piece: u32) {
-        let Functions { x0, y0, x1, y1, .. } = lanes.functions;
-        let (columns, rows) = (x0 / 8..(x1 - 1) / 8 + 1, y0 / 8..(y1 - 1) / 8 + 1);
-        if (columns.end - columns.start) * (rows.end - rows.start) > FEW {
-            for row in rows {
-                self.fill_blocks(simd, lanes, start, row, piece);
+/// Draws a solid triangle into all planes: where it is nearer than what is there, its depth and number take the place. `start`
+/// tells where its functions start in a plane.
+#[inline(always)]
+pub(crate) fn fill<S: Simd>(
+    simd: S,
+    planes: &mut [Plane],
+    lanes: &Lanes<S>,
+    start: impl Fn(usize) -> Start,
+    piece: u32,
+) {
+    let Functions { x0, y0, x1, y1, greatest, .. } = lanes.functions;
+    let (columns, rows) = (x0 / 8..(x1 - 1) / 8 + 1, y0 / 8..(y1 - 1) / 8 + 1);
+    if (columns.end - columns.start) * (rows.end - rows.start) > FEW {
+        for (number, plane) in planes.iter_mut().enumerate() {
+            let start = start(number);
+            for row in rows.clone() {
+                plane.fill_blocks(simd, lanes, &start, row, piece);
             }
-            return;
         }
-        for row in rows {
-            for column in columns.clone() {
-                let block = Block::at(column, row);
-                let hidden = lanes.functions.greatest <= self.farthest[block.number];
-                if !hidden && !lanes.misses(start, block) {
-                    self.fill_part(simd, lanes, start, block, piece);
-                    let nearest = &mut self.nearest[block.number];
-                    *nearest = larger(*nearest, lanes.functions.greatest);
-                }
+        return;
+    }
+    for block in blocks(&lanes.functions) {
+        let along = lanes.depth_along(simd, block);
+        for (number, plane) in planes.iter_mut().enumerate() {
+            let start = start(number);
+            if greatest > plane.farthest[block.number] && !lanes.misses(&start, block) {
+                plane.fill_part(simd, lanes, &start, block, along, piece);
+                let nearest = &mut plane.nearest[block.number];
+                *nearest = larger(*nearest, greatest);
             }
         }
     }
+}
 
+impl Plane {
     /// Draws what of a large triangle lies in a row of blocks.
     #[inline(always)]
     fn fill_blocks<S: Simd>(
@@ -70,7 +80,8 @@ impl Plane {
             } else if full >> column & 1 != 0 {
                 self.fill_block(simd, lanes, start, block, piece);
             } else {
-                self.fill_part(simd, lanes, start, block, piece);
+                let along = lanes.depth_along(simd, block);
+                self.fill_part(simd, lanes, start, block, along, piece);
                 if lanes.bounds_hold(block) {
                     self.farthest[block.number] = self.least_of(simd, block);
                     self.came_nearer(1);
@@ -116,7 +127,7 @@ impl Plane {
         }
     }
 
-    /// A block that an edge may run through.
+    /// A block that an edge may run through; `along` is the depth along its columns.
     #[inline(always)]
     fn fill_part<S: Simd>(
         &mut self,
@@ -124,11 +135,11 @@ impl Plane {
         lanes: &Lanes<S>,
         start: &Start,
         block: Block,
+        along: f32x8<S>,
         piece: u32,
     ) {
         let rows = lanes.rows(block);
         let mut edges = lanes.edges(simd, start, block, rows.start);
-        let along = lanes.depth_along(simd, block);
         for row in rows {
             let inside = (edges[0] | edges[1] | edges[2]).simd_ge(i32x8::splat(simd, 0));
             let depth = along + lanes.depth_at_row(simd, start, block, row);
@@ -266,6 +277,8 @@ pub(crate) struct Lanes<S: Simd> {
     functions: Functions,
     /// 0 … 7.
     steps: i32x8<S>,
+    /// What each edge grows by from the first of eight pixels to each.
+    across: [i32x8<S>; 3],
     /// 0 … 7.
     iota: f32x8<S>,
     dx: f32x8<S>,
@@ -276,10 +289,12 @@ pub(crate) struct Lanes<S: Simd> {
 impl<S: Simd> Lanes<S> {
     #[inline(always)]
     pub(crate) fn new(simd: S, functions: &Functions) -> Self {
-        let Functions { dx, least, greatest, .. } = *functions;
+        let Functions { a, dx, least, greatest, .. } = *functions;
+        let steps: i32x8<S> = [0, 1, 2, 3, 4, 5, 6, 7].simd_into(simd);
         Self {
             functions: *functions,
-            steps: [0, 1, 2, 3, 4, 5, 6, 7].simd_into(simd),
+            steps,
+            across: a.map(|a| steps * i32x8::splat(simd, a)),
             iota: [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0].simd_into(simd),
             dx: f32x8::splat(simd, dx),
             least: f32x8::splat(simd, least),
@@ -298,7 +313,7 @@ impl<S: Simd> Lanes<S> {
     fn edges(&self, simd: S, start: &Start, block: Block, row: usize) -> [i32x8<S>; 3] {
         let edge = |k: usize| {
             let first = self.edge(k, start, block.x, block.y + row as i32);
-            self.steps * i32x8::splat(simd, self.functions.a[k]) + i32x8::splat(simd, first)
+            self.across[k] + i32x8::splat(simd, first)
         };
         [edge(0), edge(1), edge(2)]
     }

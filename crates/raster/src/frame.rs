@@ -1,9 +1,9 @@
 //! A frame: the primitives of one picture, in the order in which they were given.
 
 use crate::edge::signed_area;
-use crate::grid::Part;
+use crate::grid::{Grid, Part, Tiles};
 use crate::memory::Kept;
-use crate::pieces::{CHUNK, Pieces};
+use crate::pieces::{CHUNK, Chunk, Pieces};
 use crate::primitive::{Piece, Source, line_pieces, point_pieces, with_usual_w};
 use crate::threads::share;
 use crate::vertex::SUBPIXEL_BITS;
@@ -163,7 +163,7 @@ impl Frame {
         cover: Cover,
         cull: Cull,
     ) {
-        let mesh = Mesh { vertices, triangles, first_id, reach: self.samples.reach(), cover, cull };
+        let mesh = Mesh { vertices, triangles, first_id, keep: self.keep(), cover, cull };
         let count: usize = runs.iter().map(ExactSizeIterator::len).sum();
         if self.threads > 1 && count >= MANY {
             let first = self.pieces.used();
@@ -232,8 +232,9 @@ impl Frame {
     }
 
     fn push_whole(&mut self, corners: [ScreenVertex; 3], area: i64, id: u32, cover: Cover) {
-        if let Some(piece) = whole(corners, area, id, cover, self.samples.reach()) {
-            self.pieces.push(piece);
+        let Some(tiles) = self.keep().tiles(corners) else { return };
+        if let Some(piece) = whole(corners, area, id, cover) {
+            self.pieces.push(piece, tiles);
         }
     }
 
@@ -244,17 +245,20 @@ impl Frame {
         id: u32,
         cover: Cover,
     ) {
+        let Some(tiles) = self.keep().tiles(corners) else { return };
         let [p, q, r] = corners;
         let (corners, weights) = match signed_area(corners) {
             0 => return,
             1.. => (corners, [at_p, at_q, at_r]),
             _ => ([p, r, q], [at_p, at_r, at_q]),
         };
-        if may_touch_a_sample(corners, self.samples.reach()) {
-            let source = Source::Weights(self.source_weights.len() as u32);
-            self.source_weights.push(weights);
-            self.pieces.push(Piece { corners: with_usual_w(corners), id, source, cover });
-        }
+        let source = Source::Weights(self.source_weights.len() as u32);
+        self.source_weights.push(weights);
+        self.pieces.push(Piece { corners: with_usual_w(corners), id, source, cover }, tiles);
+    }
+
+    fn keep(&self) -> Keep {
+        Keep { grid: Grid::of(self.part), reach: self.samples.reach() }
     }
 }
 
@@ -275,57 +279,64 @@ struct Mesh<'a> {
     vertices: &'a [Option<ScreenVertex>],
     triangles: &'a [[u32; 3]],
     first_id: u32,
-    reach: (i32, i32),
+    keep: Keep,
     cover: Cover,
     cull: Cull,
 }
 
 impl Mesh<'_> {
     /// Appends the pieces of some of its triangles.
-    fn pieces(&self, run: Range<usize>, pieces: &mut Vec<Piece>) {
+    fn pieces(&self, run: Range<usize>, chunk: &mut Chunk) {
         let vertex = |n: u32| self.vertices.get(n as usize).copied().flatten();
         let first_id = self.first_id.wrapping_add(run.start as u32);
         let end = run.end.min(self.triangles.len());
         let triangles = self.triangles.get(run.start..end).unwrap_or_default();
-        pieces.reserve(triangles.len());
+        chunk.reserve(triangles.len());
         for (id, &[p, q, r]) in (first_id..).zip(triangles) {
             let (Some(p), Some(q), Some(r)) = (vertex(p), vertex(q), vertex(r)) else { continue };
             let area = signed_area([p, q, r]);
             if !self.cull.keeps(area) {
                 continue;
             }
-            if let Some(piece) = whole([p, q, r], area, id, self.cover, self.reach) {
-                pieces.push(piece);
+            let Some(tiles) = self.keep.tiles([p, q, r]) else { continue };
+            if let Some(piece) = whole([p, q, r], area, id, self.cover) {
+                chunk.push(piece, tiles);
             }
         }
     }
 }
 
-/// A whole triangle as a piece; `None` if it can hold no sample.
+/// A whole triangle as a piece; `None` if it has no area.
 #[inline(always)]
-fn whole(
-    [p, q, r]: [ScreenVertex; 3],
-    area: i64,
-    id: u32,
-    cover: Cover,
-    reach: (i32, i32),
-) -> Option<Piece> {
-    if area == 0 || !may_touch_a_sample([p, q, r], reach) {
-        return None;
-    }
-    let (corners, source) =
-        if area > 0 { ([p, q, r], Source::Whole) } else { ([p, r, q], Source::Turned) };
+fn whole([p, q, r]: [ScreenVertex; 3], area: i64, id: u32, cover: Cover) -> Option<Piece> {
+    let (corners, source) = match area {
+        0 => return None,
+        1.. => ([p, q, r], Source::Whole),
+        _ => ([p, r, q], Source::Turned),
+    };
     Some(Piece { corners: with_usual_w(corners), id, source, cover })
 }
 
-/// Whether the triangle's bounds may hold a sample, by the least and the greatest offset of samples: of meshes finer than the
-/// pixels most triangles hold none.
-#[inline(always)]
-fn may_touch_a_sample([p, q, r]: [ScreenVertex; 3], (least, greatest): (i32, i32)) -> bool {
-    let holds = |a: i32, b: i32, c: i32| {
-        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+/// Which triangles are kept: those that may cover a sample of the picture's part.
+#[derive(Clone, Copy)]
+struct Keep {
+    grid: Grid,
+    /// The least and the greatest offset of samples.
+    reach: (i32, i32),
+}
+
+impl Keep {
+    /// The tiles of the part that a triangle's bounds touch; `None` if it touches none, or if its bounds hold no sample: of meshes
+    /// finer than the pixels most triangles hold none.
+    #[inline(always)]
+    fn tiles(&self, [p, q, r]: [ScreenVertex; 3]) -> Option<Tiles> {
+        let (least, greatest) = self.reach;
         // Pixels from the first whose last sample is not before the bounds to the last whose first is not behind.
-        (low - greatest + 255) >> SUBPIXEL_BITS <= (high - least) >> SUBPIXEL_BITS
-    };
-    holds(p.x, q.x, r.x) && holds(p.y, q.y, r.y)
+        let holds = |[low, high]: [i32; 2]| {
+            (low - greatest + 255) >> SUBPIXEL_BITS <= (high - least) >> SUBPIXEL_BITS
+        };
+        let x = [p.x.min(q.x).min(r.x), p.x.max(q.x).max(r.x)];
+        let y = [p.y.min(q.y).min(r.y), p.y.max(q.y).max(r.y)];
+        if holds(x) & holds(y) { self.grid.tiles(x, y) } else { None }
+    }
 }

@@ -1,12 +1,9 @@
 //! What is nearest in each pixel, layers and holes included: the visibility of a picture without its colours.
 
-use crate::bins::Bins;
-use crate::draw::Bands;
 use crate::grid::TILE;
-use crate::memory::{Memory, Worker};
 use crate::plane::index_of;
-use crate::threads::share_among;
 use crate::tile::{Layer, Tile};
+use crate::walk::Filled;
 use crate::{Fragment, Frame, Surface};
 
 /// The layers of one pixel of a filled tile, the farthest first, and its place.
@@ -67,34 +64,8 @@ impl Frame {
         target: &mut [P],
         each: impl Fn(&Pixel<'_>, &mut P) + Sync,
     ) {
-        let Memory { mut bins, mut workers } = self.kept.take();
-        bins.sort(&self.pieces, self.part, threads);
-        workers.resize_with(threads.max(1), Worker::default);
-        let bands = Bands { part: self.part, rows: self.part.rows(), target };
-        share_among(&mut workers, bands, |worker, (row, pixels)| {
-            self.each_of_band(row, pixels, &bins, worker, surface, &each);
-        });
-        self.kept.put(Memory { bins, workers });
-    }
-
-    fn each_of_band<S: Surface, P>(
-        &self,
-        row: u32,
-        pixels: &mut [P],
-        bins: &Bins,
-        Worker { list, tile, .. }: &mut Worker,
-        surface: &S,
-        each: &impl Fn(&Pixel<'_>, &mut P),
-    ) {
-        let (left, right) = self.part.columns();
-        for column in left..right {
-            let rect = self.part.tile(column, row);
-            list.clear();
-            bins.list(column, row, list);
-            if list.is_empty() {
-                continue;
-            }
-            tile.fill(self, rect, list, surface);
+        let nothing = |_: &mut [P]| {};
+        self.each_tile(surface, threads, target, nothing, |Filled { tile, rect, band, .. }| {
             for y in rect.top..rect.bottom {
                 let first =
                     ((y - rect.top) * self.part.width + rect.x + rect.left - self.part.x) as usize;
@@ -110,11 +81,11 @@ impl Frame {
                         place: [rect.x + x, rect.y + y],
                     };
                     let at = first + (x - rect.left) as usize;
-                    if let Some(target) = pixels.get_mut(at) {
+                    if let Some(target) = band.get_mut(at) {
                         each(&pixel, target);
                     }
                 }
             }
-        }
+        });
     }
 }

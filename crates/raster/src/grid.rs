@@ -3,6 +3,9 @@
 //! Tiles are counted from the upper left corner of the whole picture, also where a frame is a part of it. A tile then sees
 //! the same triangles in the same numbers whichever part is drawn, and parts fit together bit for bit.
 
+use crate::MAX_SIDE;
+use crate::vertex::SUBPIXEL_BITS;
+
 /// The side of a tile in pixels: its depth and names stay in the nearest caches while it is filled.
 pub(crate) const TILE: u32 = 64;
 
@@ -62,6 +65,64 @@ impl TileRect {
     pub(crate) fn shows(&self, x: usize, y: usize) -> bool {
         let within = |at: usize, from: u32, to: u32| (from as usize..to as usize).contains(&at);
         within(x, self.left, self.right) && within(y, self.top, self.bottom)
+    }
+}
+
+/// The tiles that a part touches.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Grid {
+    /// The first column, and the one behind the last.
+    columns: (u32, u32),
+    rows: (u32, u32),
+}
+
+/// A rectangle of tiles: the first and the last of its columns and of its rows.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tiles {
+    columns: [u8; 2],
+    rows: [u8; 2],
+}
+
+const _: () = assert!(MAX_SIDE / TILE == 256, "columns and rows are kept in eight bits");
+
+impl Grid {
+    pub(crate) fn of(part: Part) -> Self {
+        Self { columns: part.columns(), rows: part.rows() }
+    }
+
+    /// How many there are.
+    pub(crate) fn count(self) -> usize {
+        ((self.columns.1 - self.columns.0) * (self.rows.1 - self.rows.0)) as usize
+    }
+
+    /// The place of a tile among all, row by row.
+    #[inline(always)]
+    pub(crate) fn place(self, column: u32, row: u32) -> usize {
+        ((row - self.rows.0) * (self.columns.1 - self.columns.0) + column - self.columns.0) as usize
+    }
+
+    /// Those that bounds touch, given by the least and the greatest coordinates in grid steps; `None` if there are none.
+    #[inline(always)]
+    pub(crate) fn tiles(self, x: [i32; 2], y: [i32; 2]) -> Option<Tiles> {
+        const TILE_BITS: u32 = SUBPIXEL_BITS + TILE.ilog2();
+        let span = |[low, high]: [i32; 2], (begin, end): (u32, u32)| {
+            [(low >> TILE_BITS).max(begin as i32), (high >> TILE_BITS).min(end as i32 - 1)]
+        };
+        let (columns, rows) = (span(x, self.columns), span(y, self.rows));
+        let is_there = (columns[0] <= columns[1]) & (rows[0] <= rows[1]);
+        let bytes = |span: [i32; 2]| span.map(|tile| tile as u8);
+        is_there.then(|| Tiles { columns: bytes(columns), rows: bytes(rows) })
+    }
+
+    /// The places of some tiles among all.
+    #[inline(always)]
+    pub(crate) fn places(self, tiles: Tiles) -> impl Iterator<Item = usize> {
+        let Tiles { columns: [left, right], rows: [top, bottom] } = tiles;
+        let rows = u32::from(top)..u32::from(bottom) + 1;
+        rows.flat_map(move |row| {
+            let first = self.place(u32::from(left), row);
+            first..first + usize::from(right - left) + 1
+        })
     }
 }
 

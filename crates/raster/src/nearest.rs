@@ -1,11 +1,8 @@
 //! The nearest surface of each pixel as a plane: what shadow maps and ambient occlusion read.
 
-use crate::bins::Bins;
-use crate::draw::Bands;
-use crate::memory::{Memory, Worker};
 use crate::plane::index_of;
 use crate::setup::slopes;
-use crate::threads::share_among;
+use crate::walk::Filled;
 use crate::{Frame, Surface};
 
 /// How near the nearest surface is at a pixel's centre, and how that changes from pixel to pixel.
@@ -30,37 +27,10 @@ impl Frame {
     /// `height` of them. Masked primitives count where `surface` keeps them, translucent ones not at all. Uses up to `threads`
     /// threads, whose number does not matter.
     pub fn nearest<S: Surface>(&self, surface: &S, threads: usize, target: &mut [Nearest]) {
-        let Memory { mut bins, mut workers } = self.kept.take();
-        bins.sort(&self.pieces, self.part, threads);
-        workers.resize_with(threads.max(1), Worker::default);
-        let bands = Bands { part: self.part, rows: self.part.rows(), target };
-        share_among(&mut workers, bands, |worker, (row, nearest)| {
-            nearest.fill(Nearest::NOTHING);
-            self.band_of_nearest(row, nearest, &bins, worker, surface);
-        });
-        self.kept.put(Memory { bins, workers });
-    }
-
-    /// Writes a row of tiles, of which nothing is known yet.
-    fn band_of_nearest<S: Surface>(
-        &self,
-        row: u32,
-        target: &mut [Nearest],
-        bins: &Bins,
-        Worker { list, tile, .. }: &mut Worker,
-        surface: &S,
-    ) {
-        let (left, right) = self.part.columns();
-        let first = self.samples.offsets().next().unwrap_or((128, 128));
+        let first = self.samples.offset(0);
         let to_center = [first.0, first.1].map(|at| 0.5 - at as f32 / 256.0);
-        for column in left..right {
-            let rect = self.part.tile(column, row);
-            list.clear();
-            bins.list(column, row, list);
-            if list.is_empty() {
-                continue;
-            }
-            tile.fill(self, rect, list, surface);
+        let begin = |band: &mut [Nearest]| band.fill(Nearest::NOTHING);
+        self.each_tile(surface, threads, target, begin, |Filled { tile, rect, band, .. }| {
             // Neighbours are most often of one piece.
             let (mut last, mut slope) = (None, [0.0; 2]);
             for (y, x) in
@@ -74,13 +44,13 @@ impl Frame {
                 }
                 let place = (y - rect.top) as usize * self.part.width as usize
                     + (rect.x + x - self.part.x) as usize;
-                if let Some(nearest) = target.get_mut(place) {
+                if let Some(nearest) = band.get_mut(place) {
                     let [dx, dy] = slope;
                     let depth = tile.depth(0, at) + dx * to_center[0] + dy * to_center[1];
                     *nearest = Nearest { depth, dx, dy };
                 }
             }
-        }
+        });
     }
 }
 

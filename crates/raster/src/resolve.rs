@@ -1,10 +1,13 @@
 //! From a filled tile to colours: each visible piece is shaded once per pixel, eight fragments at a time.
 //!
-//! Most rows of eight neighbouring pixels show one piece in each pixel: they are shaded as they lie. What is left of a row, the
-//! pixels on edges and under layers, is gathered, fragment by fragment, shaded eight at a time and put together by samples.
+//! Most rows of eight neighbouring pixels show one piece in each pixel: they are shaded as they lie. Of pixels on edges only the
+//! pieces that others than the first sample see are left over ([`Edges`]). What lies under layers is gathered fragment by
+//! fragment, shaded eight at a time and put together sample by sample.
 
+use crate::edges::Edges;
 use crate::fragments::{Eight, WIDE};
 use crate::grid::{Part, TILE, TileRect};
+use crate::layered::Layered;
 use crate::plane::{NOTHING, index_of};
 use crate::primitive::Piece;
 use crate::tile::{Layer, Tile};
@@ -21,36 +24,34 @@ pub(crate) struct Resolve<'a, S> {
 
 /// What a piece adds to a pixel.
 #[derive(Clone, Copy, Debug)]
-struct Share {
+pub(crate) struct Share {
     /// The pixel's column within the tile.
-    x: u32,
-    piece: u32,
+    pub(crate) x: u32,
+    pub(crate) piece: u32,
     /// The samples it is seen by, bit by bit.
-    mask: u16,
+    pub(crate) mask: u16,
     /// Whether it lets through what is behind it.
-    translucent: bool,
+    pub(crate) translucent: bool,
 }
 
-/// The fragments of a row of pixels that show several pieces, and their colours; kept so that its memory is used again.
+/// What a row of the tile shows that cannot be written at once; kept so that its memory is used again.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
-    shares: Vec<Share>,
-    colors: Vec<[f32; 4]>,
-    /// What each lets through, in a row with anything translucent.
-    through: Vec<[f32; 3]>,
+    edges: Edges,
+    layered: Layered,
 }
 
 /// Neighbouring pixels of a row, all in one block, with the layers over them.
-struct Run<'a> {
-    y: u32,
+pub(crate) struct Run<'a> {
+    pub(crate) y: u32,
     /// The columns within the tile.
-    lanes: std::ops::Range<u32>,
-    over: &'a [Layer],
+    pub(crate) lanes: std::ops::Range<u32>,
+    pub(crate) over: &'a [Layer],
 }
 
 impl Run<'_> {
     /// The first column of the block.
-    fn block(&self) -> u32 {
+    pub(crate) fn block(&self) -> u32 {
         self.lanes.start / WIDE as u32 * WIDE as u32
     }
 }
@@ -74,13 +75,12 @@ impl<S: Surface> Resolve<'_, S> {
             let over;
             (over, layers) = split_before(layers, ((y + 1) * TILE) as usize);
             self.write_row(y, over, row, empty, encode, scratch);
-            if !scratch.shares.is_empty() {
-                self.write_mixed(y, row, encode, scratch);
-            }
+            self.write_edges(y, row, encode, &mut scratch.edges);
+            self.write_layered(y, row, encode, &mut scratch.layered);
         }
     }
 
-    /// Writes those pixels of a row that show one piece each, and gathers the shares of the others.
+    /// Writes those pixels of a row that show one piece each, and gathers what the others show.
     #[inline(always)]
     fn write_row<P: Copy>(
         &self,
@@ -92,7 +92,9 @@ impl<S: Surface> Resolve<'_, S> {
         scratch: &mut Scratch,
     ) {
         let TileRect { left, right, .. } = self.rect;
-        scratch.shares.clear();
+        let Scratch { edges, layered } = scratch;
+        layered.shares.clear();
+        edges.clear();
         let mut rest = row;
         let wide = WIDE as u32;
         for block in left / wide..right.div_ceil(wide) {
@@ -102,18 +104,21 @@ impl<S: Surface> Resolve<'_, S> {
             let over;
             (over, layers) = split_before(layers, (y * TILE + lanes.end) as usize);
             let run = Run { y, lanes, over };
-            match self.uniform(index_of((block * wide) as usize, y as usize)) {
-                Some(pieces) if run.over.is_empty() => {
-                    self.write_uniform(&run, pieces, targets, empty, encode);
-                }
-                _ => self.gather(&run, &mut scratch.shares),
+            if !run.over.is_empty() {
+                self.gather(&run, &mut layered.shares);
+                continue;
+            }
+            match self.uniform(&run) {
+                Some(pieces) => self.write_uniform(&run, pieces, targets, empty, encode),
+                None => self.begin_edges(&run, edges),
             }
         }
     }
 
-    /// The pieces that eight neighbouring pixels see, if each pixel sees just one.
+    /// The pieces that the pixels of a run see, if each pixel sees just one.
     #[inline(always)]
-    fn uniform(&self, at: usize) -> Option<[u32; WIDE]> {
+    fn uniform(&self, run: &Run<'_>) -> Option<[u32; WIDE]> {
+        let at = index_of(run.block() as usize, run.y as usize);
         let first = self.tile.pieces(0, at);
         let mut differs = 0;
         for sample in 1..self.frame.samples.count() {
@@ -123,6 +128,21 @@ impl<S: Surface> Resolve<'_, S> {
             }
         }
         (differs == 0).then_some(first)
+    }
+
+    /// The pieces that the samples of a run see.
+    #[inline(always)]
+    pub(crate) fn planes<'p>(
+        &self,
+        run: &Run<'_>,
+        planes: &'p mut [[u32; WIDE]; 16],
+    ) -> &'p [[u32; WIDE]] {
+        let at = index_of(run.block() as usize, run.y as usize);
+        let planes = &mut planes[..self.frame.samples.count()];
+        for (sample, pieces) in planes.iter_mut().enumerate() {
+            *pieces = self.tile.pieces(sample, at);
+        }
+        planes
     }
 
     /// Writes neighbouring pixels with one piece each.
@@ -135,22 +155,13 @@ impl<S: Surface> Resolve<'_, S> {
         empty: P,
         encode: &impl Encode<P>,
     ) {
-        let mut differs = 0;
-        for piece in pieces {
-            differs |= piece ^ pieces[0];
-        }
-        if differs == 0 && pieces[0] == NOTHING {
+        let differs = differ(pieces);
+        if !differs && pieces[0] == NOTHING {
             return;
         }
-        let (x, y) = (self.rect.x + run.block(), self.rect.y + run.y);
-        let [r, g, b, _] = if differs == 0 {
-            let piece = self.piece(pieces[0]);
-            self.surface.shade_eight(&Fragments::of_one(piece, &self.frame.source_weights, x, y))
-        } else {
-            self.shade_several(pieces, x, y)
-        };
+        let [r, g, b] = self.shade_neighbours(run, pieces, differs);
         let mut pixels = encode.eight(&[r, g, b, [1.0; WIDE]]);
-        if differs != 0 {
+        if differs {
             for (pixel, piece) in pixels.iter_mut().zip(pieces) {
                 *pixel = if piece == NOTHING { empty } else { *pixel };
             }
@@ -161,6 +172,19 @@ impl<S: Surface> Resolve<'_, S> {
             let first = (run.lanes.start - run.block()) as usize;
             targets.copy_from_slice(&pixels[first..first + targets.len()]);
         }
+    }
+
+    /// The colours of a run with one piece for each pixel, and whether they differ. Pixels that show nothing get any colour.
+    #[inline(always)]
+    fn shade_neighbours(&self, run: &Run<'_>, pieces: [u32; WIDE], differs: bool) -> [Eight; 3] {
+        let (x, y) = (self.rect.x + run.block(), self.rect.y + run.y);
+        let [r, g, b, _] = if differs {
+            self.shade_several(pieces, x, y)
+        } else {
+            let piece = self.piece(pieces[0]);
+            self.surface.shade_eight(&Fragments::of_one(piece, &self.frame.source_weights, x, y))
+        };
+        [r, g, b]
     }
 
     /// Shades eight pixels from (x, y) to the right, not all of which show the same; those that show nothing get any colour.
@@ -191,161 +215,98 @@ impl<S: Surface> Resolve<'_, S> {
         self.frame.pieces.at(number)
     }
 
-    /// Lists what is seen in each pixel of a run: each solid piece once, then the layers, the farthest first. A pixel where
-    /// nothing is seen gets a share of nothing, so that it is written.
+    /// Shades what the first samples of a run see, and takes note of what the others see.
     #[inline(always)]
-    fn gather(&self, run: &Run<'_>, shares: &mut Vec<Share>) {
-        let count = self.frame.samples.count();
-        let at = index_of(run.block() as usize, run.y as usize);
+    fn begin_edges(&self, run: &Run<'_>, edges: &mut Edges) {
         let mut planes = [[NOTHING; WIDE]; 16];
-        for (sample, pieces) in planes[..count].iter_mut().enumerate() {
-            *pieces = self.tile.pieces(sample, at);
-        }
-        let mut layers = run.over;
-        for x in run.lanes.clone() {
-            let lane = (x - run.block()) as usize;
-            let mut left = self.all_samples();
-            while left != 0 {
-                let piece = planes[left.trailing_zeros() as usize][lane];
-                let mut mask = 0;
-                for (sample, pieces) in planes[..count].iter().enumerate() {
-                    mask |= u16::from(pieces[lane] == piece) << sample;
-                }
-                left &= !mask;
-                shares.push(Share { x, piece, mask, translucent: false });
+        let planes = self.planes(run, &mut planes);
+        let first = planes[0];
+        let differs = differ(first);
+        let [r, g, b] = if differs || first[0] != NOTHING {
+            self.shade_neighbours(run, first, differs)
+        } else {
+            [[0.0; WIDE]; 3]
+        };
+        let mut colors = [r, g, b, [1.0; WIDE]];
+        for (color, background) in colors.iter_mut().zip(self.background) {
+            for lane in 0..WIDE {
+                color[lane] = if first[lane] == NOTHING { background } else { color[lane] };
             }
-            let over;
-            (over, layers) = split_before(layers, (run.y * TILE + x + 1) as usize);
-            shares.extend(over.iter().map(|layer| {
-                let Layer { piece, mask, .. } = *layer;
-                Share { x, piece, mask, translucent: true }
-            }));
         }
+        let lanes = run.lanes.start - run.block()..run.lanes.end - run.block();
+        let lanes = lanes.start as usize..lanes.end as usize;
+        edges.add_eight(run.block() as usize / WIDE, lanes, planes, &colors);
     }
 
-    fn all_samples(&self) -> u16 {
-        (u32::MAX >> (32 - self.frame.samples.count())) as u16
-    }
-
-    /// Writes the pixels of a row whose shares were gathered.
+    /// Adds what is left of the pixels on the edges of a row, and writes them.
     #[inline(always)]
-    fn write_mixed<P: Copy>(
+    fn write_edges<P: Copy>(
         &self,
         y: u32,
         row: &mut [P],
         encode: &impl Encode<P>,
-        scratch: &mut Scratch,
+        edges: &mut Edges,
     ) {
-        let Scratch { shares, colors, through } = scratch;
-        self.shade_shares(y, shares, colors, through);
-        let mut from = 0;
-        while let Some(first) = shares.get(from) {
-            let same = shares[from..].iter().take_while(|share| share.x == first.x).count();
-            let range = from..from + same;
-            let last = range.end - 1;
-            let color = if shares[last].translucent {
-                self.put_together_layers(
-                    &shares[range.clone()],
-                    &colors[range.clone()],
-                    &through[range],
-                )
-            } else {
-                self.put_together(&shares[range.clone()], &colors[range])
-            };
-            row[(first.x - self.rect.left) as usize] = encode.pixel(color);
-            from += same;
+        for from in (0..edges.others().len()).step_by(WIDE) {
+            let end = edges.others().len().min(from + WIDE);
+            let colors = self.shade_shares(y, &edges.others()[from..end]);
+            edges.add_others(from..end, &colors);
+        }
+        let (left, right) = (self.rect.left as usize, self.rect.right as usize);
+        for (block, means) in edges.means(self.frame.samples) {
+            let pixels = encode.eight(&means);
+            let (first, end) = ((block * WIDE).max(left), ((block + 1) * WIDE).min(right));
+            row[first - left..end - left]
+                .copy_from_slice(&pixels[first - block * WIDE..end - block * WIDE]);
         }
     }
 
-    /// The colour of each share, and what it lets through, eight shaded at a time.
+    /// The fragments of up to eight shares of a row, not all of nothing; those of nothing repeat another.
     #[inline(always)]
-    fn shade_shares(
-        &self,
-        y: u32,
-        shares: &[Share],
-        colors: &mut Vec<[f32; 4]>,
-        through: &mut Vec<[f32; 3]>,
-    ) {
-        colors.clear();
-        through.clear();
-        let is_layered = shares.iter().any(|share| share.translucent);
-        let is_there = |share: &&Share| share.piece != NOTHING;
-        let Some(any) = shares.iter().find(is_there) else {
-            colors.resize(shares.len(), self.background);
-            return;
-        };
-        for eight in shares.chunks(WIDE) {
-            let mut seen = [self.piece(any.piece); WIDE];
-            let mut columns = [self.rect.x + any.x; WIDE];
-            for (lane, share) in eight.iter().enumerate().filter(|(_, s)| s.piece != NOTHING) {
-                seen[lane] = self.piece(share.piece);
-                columns[lane] = self.rect.x + share.x;
-            }
-            let weights = &self.frame.source_weights;
-            let all = Fragments::of_each(seen, weights, columns, self.rect.y + y);
-            let shaded = self.surface.shade_eight(&all);
-            for (lane, share) in eight.iter().enumerate() {
-                let [r, g, b, alpha] = &shaded;
-                let alpha = if share.translucent { alpha[lane] } else { 1.0 };
-                let color = [r[lane], g[lane], b[lane], alpha];
-                colors.push(if share.piece == NOTHING { self.background } else { color });
-            }
-            if is_layered {
-                let [r, g, b] = self.surface.through_eight(&all, &shaded[3]);
-                through.extend((0..eight.len()).map(|lane| [r[lane], g[lane], b[lane]]));
-            }
+    pub(crate) fn fragments(&self, y: u32, shares: &[Share]) -> Option<Fragments<'_>> {
+        let any = shares.iter().find(|share| share.piece != NOTHING)?;
+        let mut seen = [self.piece(any.piece); WIDE];
+        let mut columns = [self.rect.x + any.x; WIDE];
+        for (lane, share) in shares.iter().enumerate().filter(|(_, share)| share.piece != NOTHING) {
+            seen[lane] = self.piece(share.piece);
+            columns[lane] = self.rect.x + share.x;
         }
+        Some(Fragments::of_each(seen, &self.frame.source_weights, columns, self.rect.y + y))
     }
 
-    /// The colour of a pixel, which is the mean of its samples.
+    /// The colours of up to eight shares of a row; those of nothing have the background's.
     #[inline(always)]
-    fn put_together(&self, shares: &[Share], colors: &[[f32; 4]]) -> [f32; 4] {
-        let mut sum = [0.0; 4];
-        for (share, color) in shares.iter().zip(colors) {
-            let samples = share.mask.count_ones() as f32;
-            for (sum, channel) in sum.iter_mut().zip(color) {
-                *sum += channel * samples;
-            }
+    pub(crate) fn shade_shares(&self, y: u32, shares: &[Share]) -> [Eight; 4] {
+        let mut colors = [[0.0; WIDE]; 4];
+        if let Some(fragments) = self.fragments(y, shares) {
+            colors = self.surface.shade_eight(&fragments);
         }
-        self.mean(sum)
-    }
-
-    /// With something translucent over it, a pixel is put together sample by sample.
-    fn put_together_layers(
-        &self,
-        shares: &[Share],
-        colors: &[[f32; 4]],
-        through: &[[f32; 3]],
-    ) -> [f32; 4] {
-        let mut samples = [[0.0; 4]; 16];
-        for ((share, color), [r, g, b]) in shares.iter().zip(colors).zip(through) {
-            let mut behind = [0.0; 4];
-            if share.translucent {
-                behind = [*r, *g, *b, 1.0 - color[3]];
-            }
-            for (number, sample) in samples.iter_mut().enumerate() {
-                if share.mask & (1 << number) != 0 {
-                    *sample = [0, 1, 2, 3].map(|k| color[k] + sample[k] * behind[k]);
+        for (lane, share) in shares.iter().enumerate() {
+            if share.piece == NOTHING {
+                for (color, background) in colors.iter_mut().zip(self.background) {
+                    color[lane] = background;
                 }
+            } else if !share.translucent {
+                colors[3][lane] = 1.0;
             }
         }
-        let mut sum = [0.0; 4];
-        for sample in &samples[..self.frame.samples.count()] {
-            sum = [0, 1, 2, 3].map(|k| sum[k] + sample[k]);
-        }
-        self.mean(sum)
+        colors
     }
+}
 
-    #[inline(always)]
-    fn mean(&self, sum: [f32; 4]) -> [f32; 4] {
-        let count = self.frame.samples.count() as f32;
-        sum.map(|channel| channel / count)
+/// Whether not all are the same.
+#[inline(always)]
+fn differ(pieces: [u32; WIDE]) -> bool {
+    let mut differs = 0;
+    for piece in pieces {
+        differs |= piece ^ pieces[0];
     }
+    differs != 0
 }
 
 /// Splits layers, which are sorted by pixel, into those of pixels before `end` and the rest.
 #[inline]
-fn split_before(layers: &[Layer], end: usize) -> (&[Layer], &[Layer]) {
+pub(crate) fn split_before(layers: &[Layer], end: usize) -> (&[Layer], &[Layer]) {
     let count = layers.iter().take_while(|layer| usize::from(layer.pixel) < end).count();
     layers.split_at(count)
 }

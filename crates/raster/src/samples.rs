@@ -79,11 +79,15 @@ impl Samples {
 
     /// The samples' offsets from the pixel's upper left corner in grid steps.
     pub(crate) fn offsets(self) -> impl Iterator<Item = (i64, i64)> {
-        let steps = i64::from(SUBPIXELS / 16);
-        let half = i64::from(SUBPIXELS / 2);
-        self.sixteenths()
-            .iter()
-            .map(move |&(x, y)| (half + i64::from(x) * steps, half + i64::from(y) * steps))
+        (0..self.count()).map(move |sample| self.offset(sample))
+    }
+
+    /// The offset of one of the samples.
+    #[inline(always)]
+    pub(crate) fn offset(self, sample: usize) -> (i64, i64) {
+        let (x, y) = self.sixteenths()[sample];
+        let steps = |sixteenths: i32| i64::from(SUBPIXELS / 2 + sixteenths * (SUBPIXELS / 16));
+        (steps(x), steps(y))
     }
 }
 

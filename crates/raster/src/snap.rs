@@ -150,9 +150,9 @@ fn snap_eight([x, y, z, w]: [Eight; 4], to_screen: DMat4) -> [Option<ScreenVerte
     }
     let mut vertices = [None; COUNT];
     for (lane, vertex) in vertices.iter_mut().enumerate() {
-        if is_x[lane] & is_y[lane] & w[lane].is_finite() {
-            *vertex = ScreenVertex::new(x[lane], y[lane], depth[lane], inv_w[lane]);
-        }
+        // Within the guard band is on the grid.
+        let on_grid = is_x[lane] & is_y[lane] & w[lane].is_finite();
+        *vertex = ScreenVertex::if_drawable(on_grid, x[lane], y[lane], depth[lane], inv_w[lane]);
     }
     vertices
 }

@@ -1,7 +1,7 @@
 //! Visibility in one tile: for each sample, how near the nearest solid surface is and which it is.
 
 use crate::batch::{self, Batch, Starts};
-use crate::fill::Lanes;
+use crate::fill::{Lanes, fill};
 use crate::fragments::WIDE;
 use crate::grid::{TILE, TileRect};
 use crate::plane::{LANES, NOTHING, Plane};
@@ -115,12 +115,13 @@ impl Tile {
         indices: &'a mut [u32; batch::COUNT],
         translucent: &mut bool,
     ) -> &'a [u32] {
+        let nothing_is_hidden = self.hidden == f32::NEG_INFINITY;
         let mut count = 0;
         for &index in list {
             let piece = frame.pieces.at(index);
             if piece.cover == Cover::Translucent {
                 *translucent = true;
-            } else if piece.nearest() > self.hidden {
+            } else if nothing_is_hidden || piece.nearest() > self.hidden {
                 indices[count] = index;
                 count += 1;
                 if count == batch::COUNT {
@@ -139,9 +140,7 @@ impl Tile {
             return;
         }
         let lanes = Lanes::new(simd, &functions);
-        for (plane, starts) in self.planes.iter_mut().zip(&self.starts) {
-            plane.fill(simd, &lanes, &starts.of(lane), index);
-        }
+        fill(simd, &mut self.planes, &lanes, |plane| self.starts[plane].of(lane), index);
     }
 
     #[inline(always)]
@@ -153,8 +152,14 @@ impl Tile {
         let Some(setup) = Setup::new(piece, rect, frame.samples.reach()) else { return };
         let lanes = Lanes::new(simd, &setup.functions);
         let mut hidden = f32::INFINITY;
-        for (plane, offset) in self.planes.iter_mut().zip(frame.samples.offsets()) {
-            plane.fill(simd, &lanes, &setup.start(offset), index);
+        fill(
+            simd,
+            &mut self.planes,
+            &lanes,
+            |plane| setup.start(frame.samples.offset(plane)),
+            index,
+        );
+        for plane in &self.planes {
             hidden = hidden.min(plane.farthest_of_all());
         }
         self.hidden = hidden;

@@ -39,9 +39,22 @@ impl ScreenVertex {
     #[must_use]
     pub fn new(x: i32, y: i32, depth: f32, inv_w: f32) -> Option<Self> {
         let on_grid = GRID.contains(&x) & GRID.contains(&y);
-        let is_drawable = on_grid & (depth.abs() <= MAX_DEPTH) & (inv_w > 0.0) & inv_w.is_finite();
-        let inv_w = NonZeroU32::new(inv_w.to_bits())?;
-        is_drawable.then_some(Self { x, y, depth, inv_w })
+        Self::if_drawable(on_grid, x, y, depth, inv_w)
+    }
+
+    /// A vertex, if it is `on_grid` and otherwise drawable. Without a branch, so that many are made at once.
+    #[inline(always)]
+    pub(crate) fn if_drawable(
+        on_grid: bool,
+        x: i32,
+        y: i32,
+        depth: f32,
+        inv_w: f32,
+    ) -> Option<Self> {
+        let is_drawable =
+            on_grid & (depth.abs() <= MAX_DEPTH) & (inv_w > 0.0) & (inv_w < f32::INFINITY);
+        let bits = if is_drawable { inv_w.to_bits() } else { 0 };
+        NonZeroU32::new(bits).map(|inv_w| Self { x, y, depth, inv_w })
     }
 
     /// Snaps a point of the screen (pixels, y down; z is the depth) with the clip-space w it was divided by.
