@@ -139,9 +139,6 @@ fn no_light_leaks_through_closed_models() {
             hold(name, &model, &body, DVec3::from(travel), &mut found);
         }
         let Found { away, dark, light, spots } = found;
-        println!(
-            "{name}: {away} pixels face away, {dark} are dark and {light} light by rays, {spots} of them spots"
-        );
         assert!(away > 100 && dark > 60 && light > 60, "{name}: {away} {dark} {light}");
         // Where a surface is a saddle, single pixels lie below the planes of triangles beside theirs.
         assert!(spots * 100 <= light, "{name}: {spots} spots in the light of {light} pixels");

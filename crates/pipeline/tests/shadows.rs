@@ -369,7 +369,6 @@ fn occlusion_has_no_stripes_beside_sharp_edges() {
         step = step.max((code(x, y) - 0.5 * (code(x - 1, y) + code(x + 1, y))).abs());
         back = back.max(code(x + 1, y) - code(x, y));
     }
-    println!("bends by {step:.3}, back by {back:.3} codes");
     let fall = code(0, 30) - code(100, 30);
     assert!(fall > 8.0, "it is darker beside the box, by {fall}");
     assert!(step < 0.5 && back < 0.25, "step {step}, back {back}");
