@@ -56,7 +56,7 @@ impl Tile {
         frame: &Frame,
         rect: TileRect,
         bin: &[u32],
-        surface: &impl Surface,
+        surface: &dyn Surface,
     ) {
         self.planes.resize_with(frame.samples.count(), Plane::new);
         self.planes.iter_mut().for_each(|plane| plane.clear(rect));
@@ -73,7 +73,7 @@ impl Tile {
         frame: &Frame,
         rect: TileRect,
         bin: &[u32],
-        surface: &impl Surface,
+        surface: &dyn Surface,
     ) {
         let mut translucent = false;
         let mut rest = bin.iter();
@@ -172,7 +172,7 @@ impl Tile {
         frame: &Frame,
         rect: TileRect,
         index: u32,
-        surface: &impl Surface,
+        surface: &dyn Surface,
     ) {
         let piece = frame.pieces.at(index);
         let Some(setup) = Setup::new(piece, rect, frame.samples.reach()) else { return };
