@@ -15,6 +15,7 @@ mod examples;
 mod explain;
 mod files;
 mod info;
+mod leaks;
 mod light;
 mod manual;
 mod matrix;

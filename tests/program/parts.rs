@@ -36,6 +36,52 @@ fn crops_and_tiles_are_the_pixels_of_the_whole() {
     assert_eq!(united, whole);
 }
 
+/// All that looks beyond a pixel: shadows of two kinds of light, a ground that catches them, occlusion, an environment, textures.
+const EVERYTHING: &str = r#"Scene(
+    models: [
+        (path: "crate.glb"),
+        (path: "panes.glb", translate: (1.5, 0.3, 0), scale: 0.5),
+    ],
+    camera: (view: Frame(from: ThreeQuarter)),
+    lights: [
+        Sun(direction: (-1, -1.4, -0.4), lux: 2, shadows: On(size: 256, softness_degrees: 4)),
+        Spot(position: (3, 4, 3), direction: (-3, -4, -3), candela: 50, shadows: On(size: 256)),
+    ],
+    ground: Shadow(),
+    environment: Studio(),
+    ambient_occlusion: (radius: 0.5),
+)"#;
+
+#[test]
+fn parts_with_shadows_and_occlusion_unite_byte_for_byte() {
+    let bench = bench("everything");
+    bench.bring("panes.glb");
+    bench.write("scene.ron", EVERYTHING);
+    // The tall one is drawn in two bands.
+    for (size, columns, rows) in [("96x80", 96, 80), ("60x2100", 60, 2100)] {
+        let draw = |output: &str, flags: &[&str]| {
+            let usual = ["render", "scene.ron", "-o", output, "--size", size];
+            let run = bench.run(&[&usual[..], flags].concat());
+            assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{size} {flags:?}");
+            bench.picture(output).2
+        };
+        let whole = draw("whole.png", &[]);
+        let shades = whole.iter().filter(|p| p[..3] == [0; 3] && (1..255).contains(&p[3]));
+        assert!(shades.count() > 100, "the ground catches shadows");
+        let mut tiled = Vec::new();
+        for tile in ["1/3", "2/3", "3/3"] {
+            tiled.extend(draw("tile.png", &["--tile", tile]));
+        }
+        assert!(tiled == whole, "{size} in tiles");
+        // Left and right of a line, put together row by row.
+        let left = draw("left.png", &["--crop", &format!("0,0,37,{rows}")]);
+        let right = draw("right.png", &["--crop", &format!("37,0,{},{rows}", columns - 37)]);
+        let pairs = left.chunks(37).zip(right.chunks(columns - 37));
+        let united: Vec<_> = pairs.flat_map(|(left, right)| [left, right].concat()).collect();
+        assert!(united == whole, "{size} in crops");
+    }
+}
+
 #[test]
 fn parts_that_are_none_are_refused() {
     let bench = bench("no-parts");

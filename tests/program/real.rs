@@ -8,7 +8,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 /// The file of a model; `None`, told on the error stream, if there are no assets.
-fn asset(name: &str) -> Option<PathBuf> {
+pub(crate) fn asset(name: &str) -> Option<PathBuf> {
     let chosen = std::env::var_os("ASSETS").map(PathBuf::from);
     let beside = alberti_tests::root().join("../shared/assets");
     let folder = chosen.unwrap_or(beside).join("models");

@@ -27,6 +27,7 @@ mod styled;
 mod substance;
 mod surroundings;
 mod texture;
+mod transmission;
 
 pub use corners::Vertex;
 pub(crate) use corners::{NORMAL, PLACE, UV};
@@ -50,6 +51,7 @@ use raster::{Eight, Fragment, Fragments, Instructions, Surface, WIDE, Work};
 use receiver::Receivers;
 use reflection::Reflection;
 use seen::{Seen, Wide, scale};
+use transmission::ThroughEight;
 
 /// What the fragments of a frame are shaded with.
 #[derive(Debug)]
@@ -92,6 +94,10 @@ impl Surface for Shading<'_> {
     fn shade_eight(&self, fragments: &Fragments<'_>) -> [Eight; 4] {
         self.instructions.run(ShadeEight { shading: self, fragments })
     }
+
+    fn through_eight(&self, fragments: &Fragments<'_>, alphas: &Eight) -> [Eight; 3] {
+        self.instructions.run(ThroughEight { shading: self, fragments, alphas })
+    }
 }
 
 /// The question whether eight fragments of one masked primitive are there.
@@ -127,6 +133,27 @@ impl DrawList<'_> {
     ) -> [bool; WIDE] {
         instructions.run(KeepEight { draws: self, fragments })
     }
+
+    /// The draw of one of eight fragments, the names of those that are of it, and which these are. The others, which have the first one's
+    /// name, are shaded as if they were of its primitive, and not looked at.
+    #[inline(always)]
+    fn lanes_of(
+        &self,
+        fragments: &Fragments<'_>,
+        first: usize,
+    ) -> (&Draw<'_>, [u32; WIDE], [bool; WIDE]) {
+        let name = fragments.id(first);
+        let (draw, end) = self.of(name);
+        let (mut ids, mut own) = ([name; WIDE], [true; WIDE]);
+        if !fragments.are_of_one() {
+            for lane in 0..WIDE {
+                let id = fragments.id(lane);
+                own[lane] = (draw.first_id..end).contains(&id);
+                ids[lane] = if own[lane] { id } else { name };
+            }
+        }
+        (draw, ids, own)
+    }
 }
 
 /// The shading of eight fragments.
@@ -147,17 +174,7 @@ impl Work for ShadeEight<'_> {
         let mut done = [false; WIDE];
         // One draw after the other: most often there is only one.
         while let Some(first) = done.iter().position(|&is_done| !is_done) {
-            let name = fragments.id(first);
-            let (draw, end) = shading.draws.of(name);
-            // Fragments of other draws are shaded as if they were of this primitive, and not looked at.
-            let (mut ids, mut own) = ([name; WIDE], [true; WIDE]);
-            if !is_one {
-                for lane in 0..WIDE {
-                    let id = fragments.id(lane);
-                    own[lane] = (draw.first_id..end).contains(&id);
-                    ids[lane] = if own[lane] { id } else { name };
-                }
-            }
+            let (draw, ids, own) = shading.draws.lanes_of(fragments, first);
             let of_draw = shading.colors(draw, &draw.items(&ids, is_one), &wide);
             for (color, of_draw) in colors.iter_mut().zip(&of_draw) {
                 for lane in 0..WIDE {

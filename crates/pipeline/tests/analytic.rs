@@ -3,7 +3,7 @@
 use base64::Engine;
 use pipeline::import::{ImportOptions, load_bytes};
 use pipeline::scene::{Placed, parse};
-use pipeline::{Origin, Picture, Scene, render};
+use pipeline::{Origin, Paint, Picture, Region, Scene, Timings, render};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -87,6 +87,15 @@ fn sphere(material: &str) -> Part {
 
 /// The picture of some parts by the rest of a scene file, from (0, 0, 5) with a picture of 2.2 units' height.
 fn draw(parts: &[Part], rest: &str) -> Picture {
+    draw_larger(parts, 1.0, rest)
+}
+
+/// The same with everything so many times as large.
+fn draw_larger(parts: &[Part], size: f64, rest: &str) -> Picture {
+    render(&scene(parts, size, rest), 2).expect("a picture")
+}
+
+fn scene(parts: &[Part], size: f64, rest: &str) -> Scene {
     let text = format!(
         r#"Scene(models: [(path: "made")],
         camera: (view: LookTo(eye: (0, 0, 5), gaze: (0, 0, -1)), projection: Orthographic(height: 2.2)),
@@ -95,10 +104,10 @@ fn draw(parts: &[Part], rest: &str) -> Picture {
     let file = parse("made.ron", &text).expect("a scene");
     let loaded =
         load_bytes("made.gltf", &model(parts), &ImportOptions::default()).expect("a model");
-    let placed = Placed { model: Arc::new(loaded), model_to_world: homog::Affine::IDENTITY };
+    let model_to_world = homog::Affine::scale(size, size, size);
+    let placed = Placed { model: Arc::new(loaded), model_to_world };
     let origin = Origin::of_text("made.ron", text, ".".into());
-    let scene = Scene::of_models(&origin, &file, vec![placed]).expect("a scene that makes sense");
-    render(&scene, 2).expect("a picture")
+    Scene::of_models(&origin, &file, vec![placed]).expect("a scene that makes sense")
 }
 
 fn srgb(light: f64) -> f64 {
@@ -224,31 +233,95 @@ fn three_translucent_squares_are_laid_over_each_other_by_depth_whatever_their_or
 #[test]
 fn a_transparent_picture_laid_over_a_colour_is_the_opaque_one_over_it() {
     let parts = || [sphere(MATT), square(1.2, &pane(PANES[0])), square(-1.5, &pane(PANES[2]))];
-    let over = |background: &str| {
+    let rest = |background: &str| {
         let lights = "lights: [Sun(direction: (-1, -2, -2), lux: 2.5), Ambient(lux: 0.5)]";
-        let image = format!("image: (size: (60, 60), background: {background}, samples: 4)");
-        draw(&parts(), &format!("{lights}, {image}"))
+        format!("{lights}, image: (size: (60, 60), background: {background}, samples: 4)")
     };
-    let clear = over("Transparent");
+    // In 16 bits, for where sRGB is steep half a code of an alpha of 8 bits is more than one of colour.
+    let clear = scene(&parts(), 1.0, &rest("Transparent"));
+    let timings = Timings::default();
+    let mut paint = Paint::new(&clear, 2, &timings).expect("a scene");
+    let clear: Picture<u16> = paint.region(Region::whole(clear.image)).expect("a picture");
     for (text, color) in [("#fff", [1.0; 3]), ("#000", [0.0; 3]), ("#ff0000", [1.0, 0.0, 0.0])] {
-        let solid = over(&format!("Color(\"{text}\")"));
+        let solid = draw(&parts(), &rest(&format!("Color(\"{text}\")")));
         for (clear, solid) in clear.pixels.iter().zip(&solid.pixels) {
-            let alpha = f64::from(clear[3]) / 255.0;
-            for k in 0..3 {
-                let code = f64::from(clear[k]) / 255.0;
-                let light = if code <= 0.04045 {
-                    code / 12.92
+            let clear = clear.map(|code| f64::from(code) / 65535.0);
+            let alpha = clear[3];
+            let due = [0, 1, 2].map(|k: usize| {
+                let light = if clear[k] <= 0.04045 {
+                    clear[k] / 12.92
                 } else {
-                    libm::pow((code + 0.055) / 1.055, 2.4)
+                    libm::pow((clear[k] + 0.055) / 1.055, 2.4)
                 };
-                let due = srgb(light * alpha + color[k] * (1.0 - alpha));
-                let found = f64::from(solid[k]);
-                // Codes of colour and alpha are each rounded; where sRGB is steep, half a code of alpha is more than one of colour.
-                let steep = if due < 60.0 { 6.0 } else { 1.0 };
-                assert!((found - due).abs() <= steep, "{text}: {clear:?} {solid:?} {due}");
-            }
+                light * alpha + color[k] * (1.0 - alpha)
+            });
+            assert_near(*solid, due, &format!("{clear:?} over {text}"));
         }
     }
+}
+
+/// Glass that mirrors nothing, with more in the extension of its body.
+fn glass(color: [f64; 3], volume: &str) -> String {
+    let [r, g, b] = color;
+    format!(
+        r#"{{"extensions":{{"KHR_materials_transmission":{{"transmissionFactor":1}},
+            "KHR_materials_specular":{{"specularFactor":0}},"KHR_materials_volume":{{{volume}}}}},
+            "pbrMetallicRoughness":{{"metallicFactor":0,"baseColorFactor":[{r},{g},{b},1]}}}}"#
+    )
+}
+
+#[test]
+fn glass_tints_what_is_behind_it_by_channels() {
+    // Over white, a product of what each lets through, in whatever order; over colours, of theirs as well.
+    let colors = [[0.9, 0.3, 0.2], [0.5, 0.8, 1.0], [0.7, 0.7, 0.7]];
+    let mut due = [1.0; 3];
+    for color in colors {
+        due = [0, 1, 2].map(|k: usize| due[k] * color[k]);
+    }
+    let behind = [0.2, 0.9, 0.6];
+    let opaque = pane([0.2, 0.9, 0.6, 1.0]);
+    let rest = r##"lights: [], image: (size: (40, 40), background: Color("#fff"), samples: 4)"##;
+    for order in [[0, 1, 2], [2, 0, 1], [2, 1, 0]] {
+        let mut parts: Vec<Part> =
+            order.map(|n: usize| square(n as f32 * 0.3, &glass(colors[n], ""))).into();
+        let middle = draw(&parts, rest).pixel(20, 20).unwrap();
+        assert_near(middle, due, &format!("{order:?} over white"));
+        parts.push(square(-0.5, &opaque));
+        let middle = draw(&parts, rest).pixel(20, 20).unwrap();
+        let due = [0, 1, 2].map(|k: usize| due[k] * behind[k]);
+        assert_near(middle, due, &format!("{order:?} over a colour"));
+    }
+}
+
+#[test]
+fn bodies_of_glass_tint_by_their_thickness_in_the_world() {
+    // Beer's law: the attenuation colour to the power of thickness over distance, times the base colour.
+    let volume =
+        r#""thicknessFactor":0.5,"attenuationDistance":0.8,"attenuationColor":[0.9,0.5,0.1]"#;
+    let base = [1.0, 0.8, 0.9];
+    for size in [0.5, 1.0, 3.0] {
+        let rest = r##"lights: [], image: (size: (40, 40), background: Color("#fff"))"##;
+        let picture = draw_larger(&[square(0.0, &glass(base, volume))], size, rest);
+        let kept = |color: f64| libm::pow(color, 0.5 * size / 0.8);
+        let due = [base[0] * kept(0.9), base[1] * kept(0.5), base[2] * kept(0.1)];
+        assert_near(picture.pixel(20, 20).unwrap(), due, &format!("size {size}"));
+    }
+}
+
+#[test]
+fn glass_that_is_partly_there_lets_the_rest_pass_untinted() {
+    // KHR_materials_transmission: alpha is coverage; what is not covered is seen as it is.
+    let material = glass([0.9, 0.3, 0.2], "")
+        .replace(r#"{"extensions""#, r#"{"alphaMode":"BLEND","extensions""#);
+    let material = material.replace(",1]", ",0.6]");
+    let rest = r##"lights: [], image: (size: (40, 40), background: Color("#fff"))"##;
+    let found = draw(&[square(0.0, &material)], rest).pixel(20, 20).unwrap();
+    assert_near(found, [0.9, 0.3, 0.2].map(|c| 0.4 + 0.6 * c), "coverage 0.6");
+    // Over nothing there is one alpha: that of a grey as bright.
+    let rest = "lights: [], image: (size: (40, 40))";
+    let found = draw(&[square(0.0, &glass([0.9, 0.3, 0.2], ""))], rest).pixel(20, 20).unwrap();
+    let grey = 0.2126 * 0.9 + 0.7152 * 0.3 + 0.0722 * 0.2;
+    assert_eq!(found, [0, 0, 0, (255.0 * (1.0 - grey) + 0.5) as u8]);
 }
 
 /// The light that surroundings of 1 leave a sphere with: none is made, and little lost.

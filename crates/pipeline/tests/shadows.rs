@@ -3,7 +3,7 @@
 use homog::Affine;
 use pipeline::model::{AlphaMode, Material, Mesh, Model, Node, Primitive};
 use pipeline::scene::{Placed, parse};
-use pipeline::{Origin, Picture, Scene, render};
+use pipeline::{Origin, Paint, Picture, Region, Scene, Timings, render};
 use std::sync::Arc;
 
 type Place = [f32; 3];
@@ -343,4 +343,33 @@ fn occlusion_darkens_corners_and_nothing_that_is_open() {
     // What a sun gives stays.
     let (without, with) = draw_both(parts, "Sun(direction: (0, -1, -1), lux: 3)");
     assert!(without == with);
+}
+
+#[test]
+fn occlusion_has_no_stripes_beside_sharp_edges() {
+    // A box in 1080 lines, whose surroundings reach far over the screen; on the ground to the left of it.
+    let parts = vec![
+        (floor(6.0), matt(0.8, 0.8, 0.8)),
+        (sides([-0.5, 0.0, -0.5], [0.5, 1.0, 0.5], true), matt(0.8, 0.8, 0.8)),
+    ];
+    let scene = scene(
+        parts,
+        "camera: (view: LookAt(eye: (2.2, 2.6, 3.6), target: (0, 0.3, 0)), projection: Perspective(fov_y_degrees: 32)),
+        lights: [Ambient(lux: 3.14159)], ambient_occlusion: (radius: 1), image: (size: (1920, 1080), samples: 1)",
+    );
+    let timings = Timings::default();
+    let mut paint = Paint::new(&scene, 2, &timings).expect("a scene");
+    let region = Region { x: 545, y: 570, width: 110, height: 60 };
+    let picture: Picture<u16> = paint.region(region).expect("a region");
+    let code =
+        |x: u32, y: u32| f64::from(picture.pixels[(y * region.width + x) as usize][0]) / 257.0;
+    let (mut step, mut back) = (0.0_f64, 0.0_f64);
+    for (x, y) in (0..region.height).flat_map(|y| (1..region.width - 1).map(move |x| (x, y))) {
+        // How far a pixel is from the mean of its neighbours, and how much lighter than the one farther away.
+        step = step.max((code(x, y) - 0.5 * (code(x - 1, y) + code(x + 1, y))).abs());
+        back = back.max(code(x + 1, y) - code(x, y));
+    }
+    let fall = code(0, 30) - code(100, 30);
+    assert!(fall > 8.0, "it is darker beside the box, by {fall}");
+    assert!(step < 0.5 && back < 0.25, "step {step}, back {back}");
 }

@@ -38,6 +38,13 @@ pub trait Surface: Sync {
         }
         colors
     }
+
+    /// The shares of what is behind that eight translucent fragments with these alphas let through: all reds, all greens, all blues.
+    /// It need not be written where all colours pass alike: 1 − alpha of each. Some of the fragments may be solid, and do not count.
+    #[inline(always)]
+    fn through_eight(&self, _: &Fragments<'_>, alphas: &Eight) -> [Eight; 3] {
+        [alphas.map(|alpha| 1.0 - alpha); 3]
+    }
 }
 
 /// How colours are kept: what becomes of a linear colour (multiplied by alpha) in the target.

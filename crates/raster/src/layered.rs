@@ -12,6 +12,8 @@ use crate::{Encode, Surface};
 pub(crate) struct Layered {
     pub(crate) shares: Vec<Share>,
     colors: Vec<[f32; 4]>,
+    /// The shares of what is behind that they let through; without meaning where they are solid.
+    through: Vec<[f32; 3]>,
 }
 
 impl<S: Surface> Resolve<'_, S> {
@@ -56,17 +58,24 @@ impl<S: Surface> Resolve<'_, S> {
         encode: &impl Encode<P>,
         layered: &mut Layered,
     ) {
-        let Layered { shares, colors } = layered;
+        let Layered { shares, colors, through } = layered;
         colors.clear();
+        through.clear();
         for eight in shares.chunks(WIDE) {
             let [r, g, b, alpha] = self.shade_shares(y, eight);
             colors.extend((0..eight.len()).map(|k| [r[k], g[k], b[k], alpha[k]]));
+            let [r, g, b] = match self.fragments(y, eight) {
+                Some(fragments) => self.surface.through_eight(&fragments, &alpha),
+                None => [[0.0; WIDE]; 3],
+            };
+            through.extend((0..eight.len()).map(|k| [r[k], g[k], b[k]]));
         }
         let mut from = 0;
         while let Some(first) = shares.get(from) {
             let same = shares[from..].iter().take_while(|share| share.x == first.x).count();
             let range = from..from + same;
-            let color = self.put_together(&shares[range.clone()], &colors[range]);
+            let (shares, colors) = (&shares[range.clone()], &colors[range.clone()]);
+            let color = self.put_together(shares, colors, &through[range]);
             row[(first.x - self.rect.left) as usize] = encode.pixel(color);
             from += same;
         }
@@ -74,9 +83,14 @@ impl<S: Surface> Resolve<'_, S> {
 
     /// The colour of a pixel, which is the mean of its samples.
     #[inline(always)]
-    fn put_together(&self, shares: &[Share], colors: &[[f32; 4]]) -> [f32; 4] {
+    fn put_together(
+        &self,
+        shares: &[Share],
+        colors: &[[f32; 4]],
+        through: &[[f32; 3]],
+    ) -> [f32; 4] {
         if shares[shares.len() - 1].translucent {
-            return self.put_together_layers(shares, colors);
+            return self.put_together_layers(shares, colors, through);
         }
         let mut sum = [0.0; 4];
         for (share, color) in shares.iter().zip(colors) {
@@ -89,13 +103,21 @@ impl<S: Surface> Resolve<'_, S> {
     }
 
     /// With something translucent over it, a pixel is put together sample by sample.
-    fn put_together_layers(&self, shares: &[Share], colors: &[[f32; 4]]) -> [f32; 4] {
+    fn put_together_layers(
+        &self,
+        shares: &[Share],
+        colors: &[[f32; 4]],
+        through: &[[f32; 3]],
+    ) -> [f32; 4] {
         let mut samples = [[0.0; 4]; 16];
-        for (share, color) in shares.iter().zip(colors) {
-            let through = if share.translucent { 1.0 - color[3] } else { 0.0 };
+        for ((share, color), [r, g, b]) in shares.iter().zip(colors).zip(through) {
+            let mut behind = [0.0; 4];
+            if share.translucent {
+                behind = [*r, *g, *b, 1.0 - color[3]];
+            }
             for (number, sample) in samples.iter_mut().enumerate() {
                 if share.mask & (1 << number) != 0 {
-                    *sample = [0, 1, 2, 3].map(|k| color[k] + sample[k] * through);
+                    *sample = [0, 1, 2, 3].map(|k| color[k] + sample[k] * behind[k]);
                 }
             }
         }

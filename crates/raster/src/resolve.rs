@@ -261,24 +261,28 @@ impl<S: Surface> Resolve<'_, S> {
         }
     }
 
+    /// The fragments of up to eight shares of a row, not all of nothing; those of nothing repeat another.
+    #[inline(always)]
+    pub(crate) fn fragments(&self, y: u32, shares: &[Share]) -> Option<Fragments<'_>> {
+        let any = shares.iter().find(|share| share.piece != NOTHING)?;
+        let mut seen = [self.piece(any.piece); WIDE];
+        let mut columns = [self.rect.x + any.x; WIDE];
+        for (lane, share) in shares.iter().enumerate().filter(|(_, share)| share.piece != NOTHING) {
+            seen[lane] = self.piece(share.piece);
+            columns[lane] = self.rect.x + share.x;
+        }
+        Some(Fragments::of_each(seen, &self.frame.source_weights, columns, self.rect.y + y))
+    }
+
     /// The colours of up to eight shares of a row; those of nothing have the background's.
     #[inline(always)]
     pub(crate) fn shade_shares(&self, y: u32, shares: &[Share]) -> [Eight; 4] {
         let mut colors = [[0.0; WIDE]; 4];
-        let is_there = |share: &Share| share.piece != NOTHING;
-        if let Some(any) = shares.iter().find(|share| is_there(share)) {
-            let mut seen = [self.piece(any.piece); WIDE];
-            let mut columns = [self.rect.x + any.x; WIDE];
-            for (lane, share) in shares.iter().enumerate().filter(|(_, share)| is_there(share)) {
-                seen[lane] = self.piece(share.piece);
-                columns[lane] = self.rect.x + share.x;
-            }
-            let weights = &self.frame.source_weights;
-            let all = Fragments::of_each(seen, weights, columns, self.rect.y + y);
-            colors = self.surface.shade_eight(&all);
+        if let Some(fragments) = self.fragments(y, shares) {
+            colors = self.surface.shade_eight(&fragments);
         }
         for (lane, share) in shares.iter().enumerate() {
-            if !is_there(share) {
+            if share.piece == NOTHING {
                 for (color, background) in colors.iter_mut().zip(self.background) {
                     color[lane] = background;
                 }

@@ -52,13 +52,11 @@ const KNOWN: [(&str, Support); 36] = [
     ("KHR_materials_specular", Full),
     (
         "KHR_materials_transmission",
-        Without(
-            "drawn as thin grey glass: light that passes is neither bent, blurred nor coloured",
-        ),
+        Without("drawn as thin tinted glass: light that passes is neither bent nor blurred"),
     ),
     ("KHR_materials_unlit", Full),
     ("KHR_materials_variants", Full),
-    ("KHR_materials_volume", Without("light that passes is dimmed by the body but not bent")),
+    ("KHR_materials_volume", Without("light that passes is tinted by the body but not bent")),
     ("KHR_mesh_quantization", Full),
     ("KHR_meshopt_compression", Full),
     ("KHR_node_visibility", Without("hidden nodes are shown")),

@@ -101,7 +101,8 @@ pub struct Sheen {
     pub roughness_texture: Option<TextureUse>,
 }
 
-/// Light that passes through the surface and is tinted by the base colour (KHR_materials_transmission).
+/// Light that passes through the surface and is tinted by the base colour (KHR_materials_transmission). It is shown straight and sharp, as
+/// through a thin pane: neither `ior` bends it nor roughness blurs it.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Transmission {
     /// The share of the light that is not reflected and passes through, in [0, 1]. Default: 0.

@@ -125,6 +125,7 @@ impl<'a> Assembler<'a> {
             colors: model.posed_colors(instance, primitive),
             role: Role::Surface,
             mirrored: model_to_world.determinant() < 0.0,
+            scale: libm::cbrt(model_to_world.determinant().abs()) as f32,
         };
         self.submit(&draw);
         let uvs = draw.uv_set.and_then(|set| model.posed_uvs(instance, primitive, set));

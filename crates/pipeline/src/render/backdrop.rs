@@ -71,6 +71,7 @@ impl Assembler<'_> {
             colors: None,
             role,
             mirrored: false,
+            scale: 1.0,
         });
         let triangles = primitive.indices.as_chunks::<3>().0;
         self.memory.frame.mesh(&corners, triangles, first_id, cover, Cull::Nothing);

@@ -37,6 +37,7 @@ impl Assembler<'_> {
             colors: None,
             role: Role::Ground,
             mirrored: false,
+            scale: 1.0,
         };
         let cull = self.cull(&draw);
         let Memory { images, frame, .. } = &mut self.memory;

@@ -1,7 +1,8 @@
 //! Pictures of scenes, whole or region by region.
 //!
-//! What all regions need is made once: mip chains, the page of a line drawing, the layers of overlays. Each region is then drawn
-//! from the models on, so that memory is bounded by the region and not by the picture.
+//! What all regions need is made once: mip chains, shadow maps, the nearest surfaces that occlusion is told from, the page of a
+//! line drawing, the layers of overlays. Each region is then drawn from the models on, so that memory is bounded by the region and
+//! not by the picture.
 
 use super::occlusion::whole_screen_space;
 use super::region::Region;
@@ -27,6 +28,8 @@ pub struct Paint<'a> {
     page: Option<Page>,
     /// What is drawn over surfaces.
     layers: Vec<Layer>,
+    /// Whether the renderer has the shadow maps of the scene.
+    has_shadows: bool,
     /// The nearest surfaces of the whole picture, when regions need them.
     occlusion: Option<ScreenSpace>,
     warnings: Vec<Warning>,
@@ -86,6 +89,7 @@ impl<'a> Paint<'a> {
             renderer,
             page,
             layers,
+            has_shadows: false,
             occlusion,
             warnings,
             views,
@@ -128,16 +132,19 @@ impl<'a> Paint<'a> {
 
     /// A region of the picture without its views.
     fn own_region<C: Channel>(&mut self, region: Region) -> Result<Picture<C>, RenderError> {
-        let Self { scene, threads, timings, textures, renderer, page, layers, occlusion, .. } =
-            self;
+        let Self { scene, threads, timings, textures, renderer, layers, occlusion, .. } = self;
         let size = [scene.image.width, scene.image.height];
-        if let Some(page) = page {
+        if let Some(page) = &self.page {
             return Ok(timings.measure("pixels", || page.to_region(size, region)));
         }
         let mut picture = Picture::default();
         let is_part = region != Region::whole(scene.image);
         if is_part && occlusion.is_none() {
             *occlusion = whole_screen_space(scene, textures, *threads)?;
+        }
+        if !self.has_shadows {
+            renderer.cast_shadows(scene, textures, *threads, timings)?;
+            self.has_shadows = true;
         }
         let occlusion = occlusion.as_ref().filter(|_| is_part);
         renderer.render_part(

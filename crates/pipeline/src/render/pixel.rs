@@ -13,7 +13,7 @@ use super::textures::Textures;
 use crate::color::SrgbEncoder;
 use crate::model::Model;
 use crate::scene::Scene;
-use raster::{Fragment, Frame, Surface};
+use raster::{Eight, Fragment, Fragments, Frame, Surface};
 use std::sync::{Mutex, PoisonError};
 
 /// What one pixel of a picture is made of.
@@ -117,6 +117,10 @@ impl<S: Surface> Surface for Witness<'_, S> {
             seen.push((fragment.id, fragment.weights, color));
         }
         color
+    }
+
+    fn through_eight(&self, fragments: &Fragments<'_>, alphas: &Eight) -> [Eight; 3] {
+        self.surface.through_eight(fragments, alphas)
     }
 }
 

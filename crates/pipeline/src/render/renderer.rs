@@ -96,10 +96,29 @@ impl Renderer {
         let is_part = region != Region::whole(scene.image);
         let whole = || whole_screen_space(scene, textures, threads);
         let occlusion = if is_part { whole()? } else { None };
+        self.cast_shadows(scene, textures, threads, timings)?;
         self.render_part(scene, textures, region, threads, timings, occlusion.as_ref(), picture)
     }
 
-    /// The same with the nearest surfaces of the whole picture, if they are needed and the region is a part of it.
+    /// Makes the shadow maps of a scene, which every part of its picture is shaded with: they depend on the scene and on the size of
+    /// the whole picture, and not on the part.
+    pub(super) fn cast_shadows(
+        &mut self,
+        scene: &Scene,
+        textures: &Textures<'_>,
+        threads: usize,
+        timings: &Timings,
+    ) -> Result<(), RenderError> {
+        if scene.lights.iter().any(|light| light.shadow().is_some()) {
+            timings.measure("shadows", || self.shadows.render(scene, textures, threads))
+        } else {
+            self.shadows.clear();
+            Ok(())
+        }
+    }
+
+    /// Renders a part with the shadow maps that [were made](Self::cast_shadows) of its scene, and the nearest surfaces of the whole
+    /// picture, if they are needed and the region is a part of it.
     #[expect(clippy::too_many_arguments, reason = "a region, and all that drawing it depends on")]
     pub(super) fn render_part<C: Channel>(
         &mut self,
@@ -113,12 +132,6 @@ impl Renderer {
     ) -> Result<(), RenderError> {
         region.check(scene.image)?;
         picture.resize(region.width, region.height);
-        let shadows = || self.shadows.render(scene, textures, threads);
-        if scene.lights.iter().any(|light| light.shadow().is_some()) {
-            timings.measure("shadows", shadows)?;
-        } else {
-            self.shadows.clear();
-        }
         let parts = sheets(scene.image, region);
         if let [part] = parts[..] {
             let pixels = &mut picture.pixels;

@@ -6,7 +6,7 @@ use super::renderer::Memory;
 use super::{Renderer, Textures};
 use crate::scene::{Origin, Scene, Style, parse};
 use crate::shade::Shading;
-use raster::{Fragment, Samples, Surface};
+use raster::{Eight, Fragment, Fragments, Samples, Surface};
 use std::path::Path;
 
 /// Shades as `Shading` does, but one fragment after the other.
@@ -19,6 +19,10 @@ impl Surface for OneByOne<'_> {
 
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
         self.0.shade(fragment)
+    }
+
+    fn through_eight(&self, fragments: &Fragments<'_>, alphas: &Eight) -> [Eight; 3] {
+        self.0.through_eight(fragments, alphas)
     }
 }
 

@@ -36,6 +36,8 @@ pub struct Draw<'a> {
     pub role: Role,
     /// Whether the way to the world mirrors, so that triangles run the other way round.
     pub mirrored: bool,
+    /// How much longer things are in the world than in the mesh; the mean of all directions where they differ.
+    pub scale: f32,
 }
 
 /// What a draw stands for.

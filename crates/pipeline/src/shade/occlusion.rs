@@ -11,6 +11,16 @@
 //!
 //! The planes and steps are the same at every pixel, so there is no noise to be blurred away, and depths are read as planes, so
 //! that flat surfaces do not occlude themselves.
+//!
+//! The rule against stripes: what a pixel finds must move with the pixel, without a step. With fixed steps alone it does not, in four
+//! ways, and each has its answer.
+//! - A step lands somewhere below the upper border of a wall, elsewhere from pixel to pixel, and draws copies of the border on the
+//!   ground. The border is therefore sought around the highest step, by halves, until it is known to a part of a pixel.
+//! - A wall that is left at the last step leaves with all that it hides. Nothing is therefore cut off on the screen: steps go as far as
+//!   the radius does, however large that is in pixels, and at the radius nothing counts any more.
+//! - Of a wall that leads away only the near end is within the radius, and steps pass it by. What is beyond the radius or below the
+//!   surface is therefore ranked too, by how far it is from hiding something, and its border sought when nothing ranks above it.
+//! - A plane passes a wall's corner at once. Each of many planes counts little.
 
 use super::seen::{cross, dot, lane_of};
 use glam::DMat4;
@@ -18,13 +28,18 @@ use raster::Nearest;
 use std::f32::consts::{FRAC_PI_2, PI};
 
 /// How many planes through the view are looked along.
-const SLICES: usize = 8;
-/// The most steps to either side, and how many pixels there are to each where things are near enough: fewer steps show as copies of
-/// the borders of what is in the way.
-const STEPS: f32 = 32.0;
-const PER_STEP: f32 = 5.0;
-/// No step is farther away than so many pixels.
-const FARTHEST: f32 = 200.0;
+const SLICES: usize = 12;
+/// The least and the most steps to either side, and how many pixels there are to each between.
+const STEPS: [f32; 2] = [6.0, 20.0];
+const PER_STEP: f32 = 8.0;
+/// A height that nothing has.
+const NOWHERE: f32 = -2.0;
+/// How far below the surface, as a difference of cosines, something is the surface itself.
+const LEVEL: f32 = 0.002;
+/// How many radii away something is too far for its border to be within one.
+const BEYOND: f32 = 2.0;
+/// How often the border of the highest thing is looked for between two steps.
+const HALVES: usize = 6;
 
 /// What a picture shows of its scene, to tell occlusion from.
 #[derive(Clone, Debug)]
@@ -39,8 +54,23 @@ pub struct ScreenSpace {
     /// Across the view, as long as the radius.
     across: [f32; 3],
     radius: f32,
+    /// The diagonal of the picture in pixels: nothing is farther away.
+    diagonal: f32,
     /// The directions of the planes on the screen.
     ways: [[f32; 2]; SLICES],
+}
+
+/// A look from a place in one direction.
+#[derive(Clone, Copy, Debug)]
+struct Look {
+    /// The place, from the origin, and the unit vector to the viewer.
+    p: [f32; 3],
+    v: [f32; 3],
+    /// The place on the screen, and the direction there.
+    here: [f32; 3],
+    way: [f32; 2],
+    /// The cosine of the angle from the view to the surface itself.
+    low: f32,
 }
 
 impl ScreenSpace {
@@ -68,6 +98,7 @@ impl ScreenSpace {
             to_world: rows(moved.inverse()),
             across: (across * radius).as_vec3().to_array(),
             radius: radius as f32,
+            diagonal: (size[0] as f32 * size[0] as f32 + size[1] as f32 * size[1] as f32).sqrt(),
             ways,
         }
     }
@@ -95,7 +126,7 @@ impl ScreenSpace {
             return 1.0;
         };
         let (dx, dy) = (beside[0] - here[0], beside[1] - here[1]);
-        let reach = (dx * dx + dy * dy).sqrt().min(FARTHEST);
+        let reach = (dx * dx + dy * dy).sqrt().min(self.diagonal);
         if reach <= 1.0 || reach.is_nan() {
             return 1.0;
         }
@@ -119,44 +150,72 @@ impl ScreenSpace {
             let share = dot(inside, inside).sqrt();
             let tilt = angle_of(dot(inside, v) / share.max(1e-6));
             let tilt = if dot(inside, flat) < 0.0 { -tilt } else { tilt };
-            let up = self.horizon(p, v, here, way, [reach, shift], (FRAC_PI_2 + tilt).min(PI));
-            let other = [-way[0], -way[1]];
-            let down =
-                self.horizon(p, v, here, other, [reach, 1.0 - shift], (FRAC_PI_2 - tilt).min(PI));
+            let look = Look { p, v, here, way, low: 0.0 };
+            let up = self.horizon(look, [reach, shift], (FRAC_PI_2 + tilt).min(PI));
+            let look = Look { way: [-way[0], -way[1]], ..look };
+            let down = self.horizon(look, [reach, 1.0 - shift], (FRAC_PI_2 - tilt).min(PI));
             open += share * (arc(up, tilt) + arc(-down, tilt));
-            all += share * (arc(tilt + FRAC_PI_2, tilt) + arc(tilt - FRAC_PI_2, tilt));
+            // The same between the two sides of the surface.
+            all += share * (libm::cosf(tilt) + tilt * libm::sinf(tilt));
         }
         if all > 0.0 { (open / all).clamp(0.0, 1.0) } else { 1.0 }
     }
 
     /// The angle from the view down to the highest thing in one direction, no more than that of the surface itself.
     #[inline(always)]
-    fn horizon(
-        &self,
-        p: [f32; 3],
-        v: [f32; 3],
-        here: [f32; 3],
-        way: [f32; 2],
-        [reach, shift]: [f32; 2],
-        lowest: f32,
-    ) -> f32 {
-        let low = libm::cosf(lowest);
-        let mut highest = low;
-        let steps = (reach / PER_STEP).clamp(6.0, STEPS) as i32;
-        for step in 0..steps {
-            let t = (step as f32 + shift) / steps as f32;
-            let far = 1.0 + t * t * (reach - 1.0);
-            let (x, y) = (here[0] + way[0] * far, here[1] + way[1] * far);
-            let Some(depth) = self.depth(x, y) else { continue };
-            let apart = minus(self.placed([x, y, depth]), p);
-            let distance = dot(apart, apart).sqrt();
-            let near = distance / self.radius;
-            if distance > 0.0 && near < 1.0 {
-                let height = dot(apart, v) / distance;
-                highest = highest.max(low + (height - low) * (1.0 - near * near));
+    fn horizon(&self, look: Look, [reach, shift]: [f32; 2], lowest: f32) -> f32 {
+        let look = Look { low: libm::cosf(lowest), ..look };
+        let steps = (reach / PER_STEP).clamp(STEPS[0], STEPS[1]).floor();
+        // Steps are short nearby, where they count most.
+        let far = |step: f32| {
+            let t = (step + shift) / steps;
+            1.0 + t * t * (reach - 1.0)
+        };
+        let (mut highest, mut at) = (NOWHERE, None);
+        for step in 0..steps as i32 {
+            let height = self.height(&look, far(step as f32));
+            if height > highest {
+                (highest, at) = (height, Some(step as f32));
             }
         }
-        if highest > low { angle_of(highest) } else { lowest }
+        let Some(step) = at else { return lowest };
+        // The best place, and the ends of what it is the best of.
+        let (mut from, mut best, mut to) =
+            (far((step - 1.0).max(-shift)), far(step), far(step + 1.0));
+        for _ in 0..HALVES {
+            let is_before = best - from > to - best;
+            let probe = 0.5 * (best + if is_before { from } else { to });
+            let height = self.height(&look, probe);
+            match (height > highest, is_before) {
+                (true, true) => (to, best) = (best, probe),
+                (true, false) => (from, best) = (best, probe),
+                (false, true) => from = probe,
+                (false, false) => to = probe,
+            }
+            highest = highest.max(height);
+        }
+        if highest > look.low { angle_of(highest) } else { lowest }
+    }
+
+    /// The cosine of the angle from the view to what is seen so many pixels away, which is drawn to that of the surface the farther away it
+    /// is. What is below the surface or beyond the radius hides nothing, and is ranked by how far it is from doing so: its border may, between
+    /// two steps.
+    #[inline(always)]
+    fn height(&self, look: &Look, far: f32) -> f32 {
+        let Look { p, v, here, way, low } = *look;
+        let (x, y) = (here[0] + way[0] * far, here[1] + way[1] * far);
+        let Some(depth) = self.depth(x, y) else { return NOWHERE };
+        let apart = minus(self.placed([x, y, depth]), p);
+        let distance = dot(apart, apart).sqrt();
+        let near = distance / self.radius;
+        let above = dot(apart, v) / distance - low;
+        if !(distance > 0.0 && near < BEYOND) || (-LEVEL < above && above <= 0.0) {
+            NOWHERE
+        } else if near < 1.0 && above > 0.0 {
+            low + above * (1.0 - near * near)
+        } else {
+            low + above.min(0.0) - (near - 1.0).max(0.0)
+        }
     }
 
     /// A place on the screen.

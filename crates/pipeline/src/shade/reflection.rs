@@ -52,7 +52,7 @@ impl<'a, const N: usize> Reflection<'a, N> {
         let mut substance = Substance::of(material, inputs, &facing);
         let mut passing = [0.0; N];
         if material.transmits() {
-            passing = substance.pass(extensions, inputs);
+            passing = substance.pass(draw, inputs);
         }
         let sheen = extensions.sheen.as_ref().map(|_| Sheen::of(&inputs.layers, &facing));
         let grain = extensions

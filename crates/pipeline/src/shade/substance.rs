@@ -7,6 +7,7 @@
 //! Highlights are multiplied by what [`Albedo`] says they lack. Light from everywhere loses to the highlights what they reflect
 //! in all, as light from one direction loses F.
 
+use super::Draw;
 use super::albedo::{Albedo, compensation};
 use super::inputs::{Inputs, Layers};
 use super::layers::{Grain, film_f0};
@@ -14,6 +15,7 @@ use super::light::Arriving;
 use super::microfacet::{LEAST_ROUGHNESS, Meeting, alpha_of, fifth};
 use super::normal::Facing;
 use super::seen::lane_of;
+use super::transmission::{grey_of, tint};
 use crate::model::{Material, MaterialExtensions};
 use std::f32::consts::FRAC_1_PI;
 
@@ -129,23 +131,17 @@ impl<const N: usize> Substance<N> {
         }
     }
 
-    /// Lets a share of the light that would be scattered pass, and returns how much of all light does: as through a thin sheet
-    /// whose tint is a grey as bright (KHR_materials_transmission, KHR_materials_volume).
+    /// Lets a share of the light that would be scattered pass, and returns how much of all light does, as through a grey as bright as the
+    /// tint; of colours see [`transmission`](super::transmission).
     #[inline(always)]
-    pub(super) fn pass(&mut self, extensions: &MaterialExtensions, inputs: &Inputs<N>) -> [f32; N] {
-        let volume = extensions.volume.as_deref().copied().unwrap_or_default();
+    pub(super) fn pass(&mut self, draw: &Draw<'_>, inputs: &Inputs<N>) -> [f32; N] {
         let mut passing = [0.0; N];
         for lane in 0..N {
             let share = inputs.layers.transmission[lane];
-            let way = inputs.layers.thickness[lane] / volume.attenuation_distance;
-            let mut tint = [0.0; 3];
             for channel in 0..3 {
                 self.diffuse[channel][lane] *= 1.0 - share;
-                let kept = volume.attenuation_color[channel];
-                let left = if way > 0.0 { libm::powf(kept, way) } else { 1.0 };
-                tint[channel] = inputs.base[channel][lane] * left;
             }
-            let grey = 0.2126 * tint[0] + 0.7152 * tint[1] + 0.0722 * tint[2];
+            let grey = grey_of(tint(&draw.material.extensions, inputs, draw.scale, lane));
             let dielectric = 1.0 - inputs.metallic[lane];
             passing[lane] = (share * dielectric * self.through[lane] * grey).clamp(0.0, 1.0);
         }

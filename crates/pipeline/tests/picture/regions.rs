@@ -1,8 +1,11 @@
 //! Regions, bands and sheets: parts of a picture are the whole, bit for bit, and 16 bits are the 8 bits and more.
 
 use super::scene;
+use pipeline::render::band_rows;
 use pipeline::scene::file::OverlayFile;
-use pipeline::{Channel, Paint, Picture, Region, Scene, Timings};
+use pipeline::scene::{ResolveOptions, parse};
+use pipeline::{Channel, Origin, Paint, Picture, Region, Scene, Timings, render};
+use std::path::Path;
 
 /// Scenes with thin lines, layers, an environment behind everything, overlays, letters and line drawings.
 const SCENES: [&str; 7] =
@@ -123,5 +126,74 @@ fn regions_of_a_giant_picture_unite_across_its_sheets() {
             let within = Region { x: x - whole.x, y: y - whole.y, ..part };
             assert_part(&picture, &found, within, name);
         }
+    }
+}
+
+/// Textures, glass, soft and sharp shadows, a ground that catches them, occlusion, an environment, an overlay, and a view with a
+/// camera of its own: all that looks beyond a pixel, in a tall picture.
+const EVERYTHING: &str = r#"Scene(
+    models: [
+        (path: "models/table.glb"),
+        (path: "models/crate.glb", translate: (-1.2, 0.5, 0), scale: 0.6),
+        (path: "models/panes.glb", translate: (1, 1.2, 1), scale: 0.5),
+        (path: "models/finishes.glb", translate: (0, 2.6, 0), scale: 0.3),
+    ],
+    camera: (
+        view: LookAt(eye: (2, 7, 9), target: (0, 0.6, 0)),
+        projection: Perspective(fov_y_degrees: 50),
+    ),
+    lights: [
+        Sun(direction: (-1, -1.4, -0.4), lux: 2),
+        Spot(position: (3, 5, 4), direction: (-3, -5, -4), candela: 90),
+        Ambient(lux: 0.4),
+    ],
+    shadows: On(size: 512, softness_degrees: 4),
+    ground: Shadow(),
+    environment: Sky(),
+    ambient_occlusion: (radius: 0.7),
+    overlays: [Axes()],
+    viewports: [(
+        at: (0.1, 0.91, 0.8, 0.06),
+        camera: (view: Frame(from: ThreeQuarter)),
+        background: Transparent,
+    )],
+    image: (size: (90, 2200), samples: 4),
+)"#;
+
+#[test]
+fn shadows_and_occlusion_are_those_of_the_whole_in_every_part() {
+    let scene_of = |text: String| {
+        let file = parse("made.ron", &text).expect("a scene");
+        let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+        let origin = Origin::of_text("made.ron", text, scenes);
+        Scene::resolve(&origin, &file, &ResolveOptions::default()).expect("a scene")
+    };
+    let scene = scene_of(EVERYTHING.to_owned());
+    let whole = render(&scene, 2).expect("a picture");
+    for plain in
+        ["shadows: On(size: 512, softness_degrees: 4)", "ambient_occlusion: (radius: 0.7),"]
+    {
+        let without = if plain.ends_with(')') { "shadows: Off" } else { "" };
+        let without = scene_of(EVERYTHING.replace(plain, without));
+        let without = render(&without, 2).expect("a picture");
+        let pairs = whole.pixels.chunks(90).zip(without.pixels.chunks(90));
+        let rows = pairs.filter(|(with, without)| with != without).count();
+        assert!(rows > 600, "{plain} is seen in {rows} rows");
+    }
+    let all = Region::whole(scene.image);
+    let timings = Timings::default();
+    let mut paint = Paint::new(&scene, 2, &timings).expect("a scene");
+    for rows in [band_rows(scene.image.width), 512, 700] {
+        let mut file = Vec::new();
+        paint.write_png(&mut file, all, rows, |_: &Picture| ()).expect("a file");
+        assert!(file == whole.to_png(), "in bands of {rows} rows");
+    }
+    for part in [
+        Region { x: 20, y: 1000, width: 40, height: 120 },
+        Region { x: 31, y: 2030, width: 47, height: 40 },
+        Region { x: 0, y: 1101, width: 1, height: 1 },
+    ] {
+        assert_part(&whole, &region(&scene, part), part, "alone");
+        assert_part(&whole, &paint.region(part).expect("a region"), part, "after others");
     }
 }

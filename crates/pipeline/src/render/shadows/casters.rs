@@ -108,5 +108,6 @@ fn masked<'a>(
         colors: model.posed_colors(instance, primitive),
         role: Role::Surface,
         mirrored: false,
+        scale: 1.0,
     }
 }
