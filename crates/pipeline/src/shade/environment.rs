@@ -12,7 +12,7 @@ mod harmonics;
 mod octahedron;
 
 use super::seen::dots;
-use filter::LEVELS;
+use filter::{LEVELS, Levels};
 use harmonics::Harmonics;
 pub(in crate::shade) use octahedron::unit;
 use octahedron::{Octahedron, between};
@@ -22,7 +22,7 @@ use octahedron::{Octahedron, between};
 pub struct Environment {
     harmonics: Harmonics,
     /// From mirrors to the roughest.
-    levels: Vec<Octahedron>,
+    levels: Levels,
 }
 
 impl Environment {
@@ -30,7 +30,7 @@ impl Environment {
     #[must_use]
     pub fn of(radiance: impl Fn([f32; 3]) -> [f32; 3]) -> Self {
         let sharp = Octahedron::of(257, radiance);
-        Self { harmonics: Harmonics::of(&sharp), levels: filter::levels(sharp) }
+        Self { harmonics: Harmonics::of(&sharp), levels: Levels::of(sharp) }
     }
 
     /// The light that white matt surfaces with these unit normals scatter: irradiance over π.
@@ -71,7 +71,7 @@ impl Environment {
             near[lane] = level as usize;
             share[lane] = place - level as f32;
         }
-        let colors = between(&self.levels, &near, &share, ways);
+        let colors = between(|level| self.levels.level(level), &near, &share, ways);
         let mut light = [[0.0; N]; 3];
         for channel in 0..3 {
             for lane in 0..N {

@@ -65,7 +65,7 @@ impl Work for ThroughEight<'_> {
             let items = draw.items(&ids, fragments.are_of_one());
             let is_blended = draw.material.alpha_mode == AlphaMode::Blend;
             let corners = draw.corners(&items);
-            let inputs = Inputs::of(draw, &corners, &Wide::new(fragments), is_blended);
+            let inputs = Inputs::of(draw, &corners, &Wide::new(fragments));
             for lane in (0..WIDE).filter(|&lane| own[lane]) {
                 let there = if is_blended { inputs.base[3][lane] } else { 1.0 };
                 let tint = tint(&draw.material.extensions, &inputs, draw.scale, lane);

@@ -8,6 +8,7 @@ use super::octahedron::{Octahedron, between, unit};
 use crate::shade::seen::{cross, dot};
 use raster::{Instructions, Work};
 use std::f32::consts::PI;
+use std::sync::OnceLock;
 
 /// How many pictures there are: of roughness 0, 0.2 and so on to 1.
 pub(super) const LEVELS: usize = 6;
@@ -17,20 +18,49 @@ const SIDES: [usize; LEVELS - 1] = [129, 65, 33, 33, 17];
 const COUNT: u32 = 64;
 
 /// The pictures, from sharp to blurred.
-pub(super) fn levels(sharp: Octahedron) -> Vec<Octahedron> {
-    let mut chain = vec![sharp];
-    while chain.len() < 7 {
-        chain.push(chain[chain.len() - 1].half());
+///
+/// Each is made when a surface asks for it first: most models are of few roughnesses, and the sharpest of the blurred ones takes
+/// longer than all the others.
+#[derive(Clone, Debug)]
+pub(super) struct Levels {
+    /// The surroundings, with all sides halved from one to the next.
+    chain: Vec<Octahedron>,
+    blurred: [OnceLock<Octahedron>; LEVELS - 1],
+}
+
+/// The same surroundings have the same pictures, made or not.
+impl PartialEq for Levels {
+    fn eq(&self, other: &Self) -> bool {
+        self.chain == other.chain
     }
-    let instructions = Instructions::best();
-    let blur = |(n, &side): (usize, &usize)| {
-        let roughness = (n + 1) as f32 / (LEVELS - 1) as f32;
-        let ways = ways(roughness * roughness, &chain);
-        Octahedron::of(side, |normal| instructions.run(Blur { chain: &chain, normal, ways: &ways }))
-    };
-    let mut levels: Vec<Octahedron> = SIDES.iter().enumerate().map(blur).collect();
-    levels.insert(0, chain.swap_remove(0));
-    levels
+}
+
+impl Levels {
+    pub(super) fn of(sharp: Octahedron) -> Self {
+        let mut chain = vec![sharp];
+        while chain.len() < 7 {
+            chain.push(chain[chain.len() - 1].half());
+        }
+        Self { chain, blurred: Default::default() }
+    }
+
+    /// The picture with a number, from 0 for mirrors on.
+    #[inline(always)]
+    pub(super) fn level(&self, number: usize) -> &Octahedron {
+        match number.checked_sub(1) {
+            Some(behind) => self.blurred[behind].get_or_init(|| self.blur(number)),
+            None => &self.chain[0],
+        }
+    }
+
+    #[cold]
+    fn blur(&self, number: usize) -> Octahedron {
+        let roughness = number as f32 / (LEVELS - 1) as f32;
+        let (chain, instructions) = (&self.chain, Instructions::best());
+        let ways = ways(roughness * roughness, chain);
+        let color = |normal| instructions.run(Blur { chain, normal, ways: &ways });
+        Octahedron::of(SIDES[number - 1], color)
+    }
 }
 
 /// How many directions are read at once.
@@ -116,7 +146,7 @@ fn blurred(chain: &[Octahedron], normal: [f32; 3], ways: &[Ways]) -> [f32; 3] {
                 turned[axis][lane] = way[axis];
             }
         }
-        let colors = between(chain, near, share, &turned);
+        let colors = between(|level| &chain[level], near, share, &turned);
         for (color, weight) in colors.iter().zip(weights).take(*count) {
             for k in 0..4 {
                 sum[k] += color[k] * weight;

@@ -15,26 +15,32 @@ pub(super) struct Octahedron {
 }
 
 /// What lies between two neighbours of a chain of pictures, the one with the number `near` and the next, in directions of any
-/// length but 0; each lane has its own.
+/// length but 0; each lane has its own. Where the next has no share nobody asks for it.
 #[inline(always)]
-pub(super) fn between<const N: usize>(
-    chain: &[Octahedron],
+pub(super) fn between<'a, const N: usize>(
+    level: impl Fn(usize) -> &'a Octahedron,
     near: &[usize; N],
     share: &[f32; N],
     ways: &[[f32; N]; 3],
 ) -> [Color; N] {
-    let places = square(ways);
+    let mut pictures = [[level(near[0]); N]; 2];
     let mut lasts = [[0.0; N]; 2];
     for lane in 0..N {
-        for (behind, lasts) in lasts.iter_mut().enumerate() {
-            lasts[lane] = (chain[near[lane] + behind].side - 1) as f32;
+        let next = near[lane] + usize::from(share[lane] != 0.0);
+        pictures[0][lane] = level(near[lane]);
+        pictures[1][lane] = level(next);
+    }
+    for (pictures, lasts) in pictures.iter().zip(&mut lasts) {
+        for lane in 0..N {
+            lasts[lane] = (pictures[lane].side - 1) as f32;
         }
     }
+    let places = square(ways);
     let [here, behind] = [Nodes::around(&places, &lasts[0]), Nodes::around(&places, &lasts[1])];
     let mut colors = [[0.0; 4]; N];
     for lane in 0..N {
-        let a = chain[near[lane]].color(&here, lane);
-        let b = chain[near[lane] + 1].color(&behind, lane);
+        let a = pictures[0][lane].color(&here, lane);
+        let b = pictures[1][lane].color(&behind, lane);
         for k in 0..4 {
             colors[lane][k] = a[k] + (b[k] - a[k]) * share[lane];
         }
@@ -166,7 +172,7 @@ mod tests {
     use super::*;
 
     fn at(map: &Octahedron, way: [f32; 3]) -> Color {
-        let [color] = between(&[map.clone(), map.clone()], &[0], &[0.5], &way.map(|c| [c]));
+        let [color] = between(|_| map, &[0], &[0.5], &way.map(|c| [c]));
         color
     }
 
