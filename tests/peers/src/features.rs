@@ -4,40 +4,79 @@
 //! every map of the materials, an environment, no shadows.
 
 use crate::measure::{Contestant, Series, rounds};
+use pipeline::model::{
+    Anisotropy, Clearcoat, Iridescence, MaterialExtensions, Sheen, Transmission, Volume,
+};
 use pipeline::scene::{ResolveOptions, Scene, parse};
 use pipeline::{Origin, Picture, Renderer, Textures, Timings};
 use std::path::Path;
+use std::sync::Arc;
 
 /// The name of the base, which the others are compared with.
 pub const BASE: &str = "usual picture";
 
-/// Each feature with what of the scene is other than in the base: lights and the like, and fields of the image.
-const FEATURES: [(&str, &str, &str); 12] = [
-    (BASE, "", ""),
-    ("flat style", "style: Flat", ""),
-    ("one sun, no environment", "environment: Dark", ""),
-    ("sky", "environment: Sky()", ""),
-    ("sun beside the studio", "lights: [Sun(lux: 2, direction: (-1, -2, -1))]", ""),
-    ("… casting shadows", "lights: [Sun(lux: 2, direction: (-1, -2, -1), shadows: On())]", ""),
-    (
-        "… on the ground",
-        "lights: [Sun(lux: 2, direction: (-1, -2, -1), shadows: On())], ground: Shadow()",
-        "",
-    ),
-    ("ambient occlusion", "ambient_occlusion: AmbientOcclusion()", ""),
-    ("tone curve AgX", "", "tone_mapping: AgX"),
-    ("1 sample", "", "samples: 1"),
-    ("16 samples", "", "samples: 16"),
-    ("anisotropy 1", "", "anisotropy: 1"),
+/// Each feature with what of the scene is other than in the base: lights and the like, fields of the image, and materials.
+const FEATURES: [(&str, &str, &str, Change); 19] = [
+    (BASE, "", "", AS_IT_IS),
+    ("flat style", "style: Flat", "", AS_IT_IS),
+    ("one sun, no environment", "environment: Dark", "", AS_IT_IS),
+    ("sky", "environment: Sky()", "", AS_IT_IS),
+    ("sun beside the studio", "lights: [Sun(lux: 2, direction: (-1, -2, -1))]", "", AS_IT_IS),
+    ("… casting shadows", SUN_WITH_SHADOWS, "", AS_IT_IS),
+    ("… on the ground", SUN_ON_THE_GROUND, "", AS_IT_IS),
+    ("spot casting shadows", SPOT_WITH_SHADOWS, "", AS_IT_IS),
+    ("ambient occlusion", "ambient_occlusion: AmbientOcclusion()", "", AS_IT_IS),
+    ("tone curve AgX", "", "tone_mapping: AgX", AS_IT_IS),
+    ("1 sample", "", "samples: 1", AS_IT_IS),
+    ("16 samples", "", "samples: 16", AS_IT_IS),
+    ("anisotropic textures off", "", "anisotropy: 1", AS_IT_IS),
+    ("clearcoat", "", "", |of| {
+        of.clearcoat = Some(Box::new(Clearcoat { factor: 1.0, ..Default::default() }))
+    }),
+    ("sheen", "", "", |of| {
+        of.sheen = Some(Box::new(Sheen { color: [0.5; 3], roughness: 0.5, ..Default::default() }))
+    }),
+    ("iridescence", "", "", |of| {
+        of.iridescence = Some(Box::new(Iridescence { factor: 1.0, ..Default::default() }))
+    }),
+    ("anisotropy", "", "", |of| {
+        of.anisotropy = Some(Box::new(Anisotropy { strength: 0.7, ..Default::default() }))
+    }),
+    ("grey glass", "", "", |of| of.transmission = Some(Box::new(GLASS))),
+    ("coloured glass", "", "", |of| {
+        of.transmission = Some(Box::new(GLASS));
+        of.volume = Some(Box::new(TINT));
+    }),
 ];
+
+/// What is changed of every material.
+type Change = fn(&mut MaterialExtensions);
+
+const AS_IT_IS: Change = |_| {};
+const SUN_WITH_SHADOWS: &str = "lights: [Sun(lux: 2, direction: (-1, -2, -1), shadows: On())]";
+const SUN_ON_THE_GROUND: &str =
+    "lights: [Sun(lux: 2, direction: (-1, -2, -1), shadows: On())], ground: Shadow()";
+const SPOT_WITH_SHADOWS: &str =
+    "lights: [Spot(position: (1, 1.5, 1), direction: (-1, -1.2, -1), candela: 6, shadows: On())]";
+const GLASS: Transmission = Transmission { factor: 0.6, texture: None };
+const TINT: Volume = Volume {
+    thickness: 0.01,
+    thickness_texture: None,
+    attenuation_distance: 0.01,
+    attenuation_color: [0.3, 0.8, 0.6],
+};
 
 /// Draws every feature in each round; the times, the base's first.
 pub fn features(models: &Path, count: usize) -> Result<Vec<Series>, String> {
     eprintln!("features: FlightHelmet");
     let folder = models.join("flight-helmet");
     let mut contestants = Vec::new();
-    for (name, fields, image) in FEATURES {
-        let scene = scene(fields, image, &folder)?;
+    for (name, fields, image, change) in FEATURES {
+        let mut scene = scene(fields, image, &folder)?;
+        for placed in &mut scene.models {
+            let model = Arc::make_mut(&mut placed.model);
+            model.materials.iter_mut().for_each(|material| change(&mut material.extensions));
+        }
         contestants.push(Contestant { name: name.into(), work: frames(scene)? });
     }
     Ok(rounds(&mut contestants, count))
