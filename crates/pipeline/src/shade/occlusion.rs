@@ -21,6 +21,8 @@
 //! - Of a wall that leads away only the near end is within the radius, and steps pass it by. What is beyond the radius or below the
 //!   surface is therefore ranked too, by how far it is from hiding something, and its border sought when nothing ranks above it.
 //! - A plane passes a wall's corner at once. Each of many planes counts little.
+//!
+//! All directions of all planes take a step at once: plain loops over them become vector instructions.
 
 use super::seen::{cross, dot, lane_of};
 use glam::DMat4;
@@ -29,6 +31,8 @@ use std::f32::consts::{FRAC_PI_2, PI};
 
 /// How many planes through the view are looked along.
 const SLICES: usize = 12;
+/// To either side.
+const DIRECTIONS: usize = 2 * SLICES;
 /// The least and the most steps to either side, and how many pixels there are to each between.
 const STEPS: [f32; 2] = [6.0, 20.0];
 const PER_STEP: f32 = 8.0;
@@ -56,21 +60,26 @@ pub struct ScreenSpace {
     radius: f32,
     /// The diagonal of the picture in pixels: nothing is farther away.
     diagonal: f32,
-    /// The directions of the planes on the screen.
-    ways: [[f32; 2]; SLICES],
+    /// The directions on the screen.
+    ways: [Each; 2],
 }
 
-/// A look from a place in one direction.
+/// A number for each direction: first those to one side, then those to the other.
+type Each = [f32; DIRECTIONS];
+
+/// A look from a place in all directions.
 #[derive(Clone, Copy, Debug)]
 struct Look {
     /// The place, from the origin, and the unit vector to the viewer.
     p: [f32; 3],
     v: [f32; 3],
-    /// The place on the screen, and the direction there.
+    /// The place on the screen, and the directions there.
     here: [f32; 3],
-    way: [f32; 2],
-    /// The cosine of the angle from the view to the surface itself.
-    low: f32,
+    ways: [Each; 2],
+    /// How far the steps of each direction are from full ones.
+    shifts: Each,
+    /// The cosines of the angles from the view to the surface itself.
+    lows: Each,
 }
 
 impl ScreenSpace {
@@ -86,10 +95,15 @@ impl ScreenSpace {
     ) -> Self {
         let moved = world_to_screen * DMat4::from_translation(origin.as_vec3().as_dvec3());
         let rows = |m: DMat4| [0, 1, 2, 3].map(|k| m.row(k).as_vec4().to_array());
-        let ways = std::array::from_fn(|k| {
-            let angle = std::f64::consts::PI * (k as f64 + 0.5) / SLICES as f64;
-            [libm::cos(angle) as f32, libm::sin(angle) as f32]
-        });
+        let mut ways = [[0.0; DIRECTIONS]; 2];
+        for slice in 0..SLICES {
+            let angle = std::f64::consts::PI * (slice as f64 + 0.5) / SLICES as f64;
+            let way = [libm::cos(angle) as f32, libm::sin(angle) as f32];
+            for axis in 0..2 {
+                ways[axis][slice] = way[axis];
+                ways[axis][slice + SLICES] = -way[axis];
+            }
+        }
         Self {
             nearest,
             size,
@@ -119,7 +133,7 @@ impl ScreenSpace {
         open
     }
 
-    #[inline(never)]
+    #[inline(always)]
     fn open_at(&self, place: [f32; 3], n: [f32; 3], v: [f32; 3]) -> f32 {
         let p = minus(place, self.origin);
         let (Some(here), Some(beside)) = (self.seen(p), self.seen(plus(p, self.across))) else {
@@ -130,92 +144,168 @@ impl ScreenSpace {
         if reach <= 1.0 || reach.is_nan() {
             return 1.0;
         }
-        let (mut open, mut all) = (0.0, 0.0);
-        for (number, way) in self.ways.into_iter().enumerate() {
+        let nothing = [0.0; DIRECTIONS];
+        let mut look = Look { p, v, here, ways: self.ways, shifts: nothing, lows: nothing };
+        let (mut shares, mut tilts) = ([0.0; SLICES], [0.0; SLICES]);
+        for slice in 0..SLICES {
             // Steps of one direction lie between those of the others, so that no border is seen several times side by side.
-            let shift = (0.618_034 * number as f32) % 1.0;
-            let ahead = [here[0] + way[0] * reach, here[1] + way[1] * reach, here[2]];
-            let along = minus(self.placed(ahead), p);
-            let back = dot(along, v);
-            let flat = minus(along, v.map(|c| c * back));
-            let length = dot(flat, flat).sqrt();
-            if !(length > 0.0 && length.is_finite()) {
-                continue;
+            let shift = (0.618_034 * slice as f32) % 1.0;
+            (look.shifts[slice], look.shifts[slice + SLICES]) = (shift, 1.0 - shift);
+            (shares[slice], tilts[slice]) = self.lean(&look, n, slice, reach);
+            let [up, down] = lowest(tilts[slice]);
+            (look.lows[slice], look.lows[slice + SLICES]) = (libm::cosf(up), libm::cosf(down));
+        }
+        let highest = self.highest(&look, reach);
+        let (mut open, mut all) = (0.0, 0.0);
+        for slice in 0..SLICES {
+            let (share, tilt) = (shares[slice], tilts[slice]);
+            let mut angles = lowest(tilt);
+            for (angle, direction) in angles.iter_mut().zip([slice, slice + SLICES]) {
+                if highest[direction] > look.lows[direction] {
+                    *angle = angle_of(highest[direction]);
+                }
             }
-            let flat = flat.map(|c| c / length);
-            // The normal within the plane, and its angle from the view.
-            let axis = cross(flat, v);
-            let lean = dot(n, axis);
-            let inside = minus(n, axis.map(|c| c * lean));
-            let share = dot(inside, inside).sqrt();
-            let tilt = angle_of(dot(inside, v) / share.max(1e-6));
-            let tilt = if dot(inside, flat) < 0.0 { -tilt } else { tilt };
-            let look = Look { p, v, here, way, low: 0.0 };
-            let up = self.horizon(look, [reach, shift], (FRAC_PI_2 + tilt).min(PI));
-            let look = Look { way: [-way[0], -way[1]], ..look };
-            let down = self.horizon(look, [reach, 1.0 - shift], (FRAC_PI_2 - tilt).min(PI));
-            open += share * (arc(up, tilt) + arc(-down, tilt));
+            open += share * (arc(angles[0], tilt) + arc(-angles[1], tilt));
             // The same between the two sides of the surface.
             all += share * (libm::cosf(tilt) + tilt * libm::sinf(tilt));
         }
         if all > 0.0 { (open / all).clamp(0.0, 1.0) } else { 1.0 }
     }
 
-    /// The angle from the view down to the highest thing in one direction, no more than that of the surface itself.
+    /// How much of a normal lies within a plane, and its angle from the view there.
     #[inline(always)]
-    fn horizon(&self, look: Look, [reach, shift]: [f32; 2], lowest: f32) -> f32 {
-        let look = Look { low: libm::cosf(lowest), ..look };
-        let steps = (reach / PER_STEP).clamp(STEPS[0], STEPS[1]).floor();
-        // Steps are short nearby, where they count most.
-        let far = |step: f32| {
-            let t = (step + shift) / steps;
-            1.0 + t * t * (reach - 1.0)
-        };
-        let (mut highest, mut at) = (NOWHERE, None);
-        for step in 0..steps as i32 {
-            let height = self.height(&look, far(step as f32));
-            if height > highest {
-                (highest, at) = (height, Some(step as f32));
-            }
+    fn lean(&self, look: &Look, n: [f32; 3], slice: usize, reach: f32) -> (f32, f32) {
+        let Look { p, v, here, ways, .. } = look;
+        let ahead = [here[0] + ways[0][slice] * reach, here[1] + ways[1][slice] * reach, here[2]];
+        let along = minus(self.placed(ahead), *p);
+        let back = dot(along, *v);
+        let flat = minus(along, v.map(|c| c * back));
+        let length = dot(flat, flat).sqrt();
+        if !(length > 0.0 && length.is_finite()) {
+            return (0.0, 0.0);
         }
-        let Some(step) = at else { return lowest };
-        // The best place, and the ends of what it is the best of.
-        let (mut from, mut best, mut to) =
-            (far((step - 1.0).max(-shift)), far(step), far(step + 1.0));
-        for _ in 0..HALVES {
-            let is_before = best - from > to - best;
-            let probe = 0.5 * (best + if is_before { from } else { to });
-            let height = self.height(&look, probe);
-            match (height > highest, is_before) {
-                (true, true) => (to, best) = (best, probe),
-                (true, false) => (from, best) = (best, probe),
-                (false, true) => from = probe,
-                (false, false) => to = probe,
-            }
-            highest = highest.max(height);
-        }
-        if highest > look.low { angle_of(highest) } else { lowest }
+        let flat = flat.map(|c| c / length);
+        let axis = cross(flat, *v);
+        let lean = dot(n, axis);
+        let inside = minus(n, axis.map(|c| c * lean));
+        let share = dot(inside, inside).sqrt();
+        let tilt = angle_of(dot(inside, *v) / share.max(1e-6));
+        (share, if dot(inside, flat) < 0.0 { -tilt } else { tilt })
     }
 
-    /// The cosine of the angle from the view to what is seen so many pixels away, which is drawn to that of the surface the farther away it
-    /// is. What is below the surface or beyond the radius hides nothing, and is ranked by how far it is from doing so: its border may, between
-    /// two steps.
+    /// The height of the highest thing in each direction.
     #[inline(always)]
-    fn height(&self, look: &Look, far: f32) -> f32 {
-        let Look { p, v, here, way, low } = *look;
-        let (x, y) = (here[0] + way[0] * far, here[1] + way[1] * far);
-        let Some(depth) = self.depth(x, y) else { return NOWHERE };
-        let apart = minus(self.placed([x, y, depth]), p);
-        let distance = dot(apart, apart).sqrt();
-        let near = distance / self.radius;
-        let above = dot(apart, v) / distance - low;
-        if !(distance > 0.0 && near < BEYOND) || (-LEVEL < above && above <= 0.0) {
-            NOWHERE
-        } else if near < 1.0 && above > 0.0 {
-            low + above * (1.0 - near * near)
-        } else {
-            low + above.min(0.0) - (near - 1.0).max(0.0)
+    fn highest(&self, look: &Look, reach: f32) -> Each {
+        let steps = (reach / PER_STEP).clamp(STEPS[0], STEPS[1]) as i32;
+        // Steps are short nearby, where they count most.
+        let far = |step: f32, shift: f32| {
+            let t = (step + shift) / steps as f32;
+            1.0 + t * t * (reach - 1.0)
+        };
+        let (mut highest, mut at) = ([NOWHERE; DIRECTIONS], [-1.0; DIRECTIONS]);
+        for step in 0..steps {
+            let mut probes = [0.0; DIRECTIONS];
+            for (probe, &shift) in probes.iter_mut().zip(&look.shifts) {
+                *probe = far(step as f32, shift);
+            }
+            let heights = self.heights(look, &probes);
+            for k in 0..DIRECTIONS {
+                let is_higher = heights[k] > highest[k];
+                at[k] = if is_higher { step as f32 } else { at[k] };
+                highest[k] = if is_higher { heights[k] } else { highest[k] };
+            }
         }
+        // The best place, and the ends of what it is the best of.
+        let mut ends = [[0.0; DIRECTIONS]; 3];
+        for (k, &shift) in look.shifts.iter().enumerate() {
+            let before = at[k] - 1.0;
+            ends[0][k] = far(if before > -shift { before } else { -shift }, shift);
+            ends[1][k] = far(at[k], shift);
+            ends[2][k] = far(at[k] + 1.0, shift);
+        }
+        self.climb(look, ends, &mut highest);
+        for k in 0..DIRECTIONS {
+            highest[k] = if at[k] < 0.0 { NOWHERE } else { highest[k] };
+        }
+        highest
+    }
+
+    /// Looks for higher places between the ends, which are on both sides of the best.
+    #[inline(always)]
+    fn climb(&self, look: &Look, [mut from, mut best, mut to]: [Each; 3], highest: &mut Each) {
+        for _ in 0..HALVES {
+            let (mut probes, mut is_before) = ([0.0; DIRECTIONS], [false; DIRECTIONS]);
+            for k in 0..DIRECTIONS {
+                is_before[k] = best[k] - from[k] > to[k] - best[k];
+                probes[k] = 0.5 * (best[k] + if is_before[k] { from[k] } else { to[k] });
+            }
+            let heights = self.heights(look, &probes);
+            for k in 0..DIRECTIONS {
+                let is_higher = heights[k] > highest[k];
+                // What is nearer on the one side of the new best is the old best, and the probe on its own side otherwise.
+                let near = if is_higher { best[k] } else { probes[k] };
+                let moves_from = is_higher != is_before[k];
+                from[k] = if moves_from { near } else { from[k] };
+                to[k] = if moves_from { to[k] } else { near };
+                best[k] = if is_higher { probes[k] } else { best[k] };
+                highest[k] = if is_higher { heights[k] } else { highest[k] };
+            }
+        }
+    }
+
+    /// The cosine of the angle from the view to what is seen so many pixels away in each direction, which is drawn to that of the
+    /// surface the farther away it is. What is below the surface or beyond the radius hides nothing, and is ranked by how far it is from
+    /// doing so: its border may, between two steps.
+    #[inline(always)]
+    fn heights(&self, look: &Look, far: &Each) -> Each {
+        let Look { p, v, here, ways, lows, .. } = look;
+        let (mut x, mut y) = ([0.0; DIRECTIONS], [0.0; DIRECTIONS]);
+        for k in 0..DIRECTIONS {
+            x[k] = here[0] + ways[0][k] * far[k];
+            y[k] = here[1] + ways[1][k] * far[k];
+        }
+        let depths = self.depths(&x, &y);
+        let mut heights = [0.0; DIRECTIONS];
+        for k in 0..DIRECTIONS {
+            let apart = minus(self.placed([x[k], y[k], depths[k]]), *p);
+            let distance = dot(apart, apart).sqrt();
+            let near = distance / self.radius;
+            let above = dot(apart, *v) / distance - lows[k];
+            let is_seen = (depths[k] > 0.0) & (distance > 0.0) & (near < BEYOND);
+            let is_level = (-LEVEL < above) & (above <= 0.0);
+            let hiding = lows[k] + above * (1.0 - near * near);
+            let below = if above < 0.0 { above } else { 0.0 };
+            let beyond = if near > 1.0 { near - 1.0 } else { 0.0 };
+            let ranked = lows[k] + below - beyond;
+            let height = if (near < 1.0) & (above > 0.0) { hiding } else { ranked };
+            heights[k] = if is_seen & !is_level { height } else { NOWHERE };
+        }
+        heights
+    }
+
+    /// The depths of what is seen somewhere on the screen, not above 0 where nothing is.
+    #[inline(always)]
+    fn depths(&self, x: &Each, y: &Each) -> Each {
+        let [width, height] = self.size.map(|side| side as f32);
+        let (mut columns, mut rows) = ([0; DIRECTIONS], [0; DIRECTIONS]);
+        let mut is_inside = [false; DIRECTIONS];
+        for k in 0..DIRECTIONS {
+            is_inside[k] = (x[k] >= 0.0) & (y[k] >= 0.0) & (x[k] < width) & (y[k] < height);
+            columns[k] = if is_inside[k] { x[k] } else { 0.0 } as i32;
+            rows[k] = if is_inside[k] { y[k] } else { 0.0 } as i32;
+        }
+        let mut seen = [Nearest::NOTHING; DIRECTIONS];
+        for k in 0..DIRECTIONS {
+            let at = rows[k] as usize * self.size[0] as usize + columns[k] as usize;
+            seen[k] = self.nearest.get(at).copied().unwrap_or(Nearest::NOTHING);
+        }
+        let mut depths = [0.0; DIRECTIONS];
+        for k in 0..DIRECTIONS {
+            let (right, down) = (x[k] - columns[k] as f32 - 0.5, y[k] - rows[k] as f32 - 0.5);
+            let depth = seen[k].depth + seen[k].dx * right + seen[k].dy * down;
+            depths[k] = if is_inside[k] { depth } else { 0.0 };
+        }
+        depths
     }
 
     /// A place on the screen.
@@ -232,19 +322,12 @@ impl ScreenSpace {
         let per = 1.0 / image(&self.to_world[3], s);
         [0, 1, 2].map(|k: usize| image(&self.to_world[k], s) * per)
     }
+}
 
-    /// The depth of what is seen somewhere on the screen.
-    #[inline(always)]
-    fn depth(&self, x: f32, y: f32) -> Option<f32> {
-        let [width, height] = self.size;
-        let (column, row) = (x.floor(), y.floor());
-        if !(column >= 0.0 && row >= 0.0 && column < width as f32 && row < height as f32) {
-            return None;
-        }
-        let at = self.nearest.get(row as usize * width as usize + column as usize)?;
-        let depth = at.depth + at.dx * (x - column - 0.5) + at.dy * (y - row - 0.5);
-        (depth > 0.0).then_some(depth)
-    }
+/// The angles from the view down to the surface itself, to either side, in a plane where its normal leans by an angle.
+#[inline(always)]
+fn lowest(tilt: f32) -> [f32; 2] {
+    [(FRAC_PI_2 + tilt).min(PI), (FRAC_PI_2 - tilt).min(PI)]
 }
 
 /// The light between the view and an angle in a plane where the normal leans by another: the integral of the cosine to the normal
