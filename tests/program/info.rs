@@ -66,6 +66,23 @@ fn json_tells_counts_and_places() {
     assert_eq!(status(2), (&json!("KHR_materials_unlit"), &json!("drawn")));
 }
 
+#[test]
+fn glass_is_said_to_be_thin_and_tinted() {
+    let bench = Bench::new("info_glass");
+    let mut document = Document::square();
+    let extensions = ["KHR_materials_transmission", "KHR_materials_volume"];
+    document.json["extensionsUsed"] = json!(extensions);
+    let info = info(&bench, &mut document);
+    for (at, name) in extensions.iter().enumerate() {
+        let told = &info["extensions"][at];
+        assert_eq!((&told["name"], &told["status"]), (&json!(name), &json!("drawn in part")));
+        let note = told["note"].as_str().expect("a note");
+        assert!(note.contains("tinted"), "{note}");
+        let text = bench.run(&["info", "model.gltf"]).stdout;
+        assert!(text.contains(&format!("{name} ({note})")), "{text}");
+    }
+}
+
 /// A material with all that a material can have, some of it out of bounds.
 fn lavish() -> Value {
     let transform = json!({"KHR_texture_transform": {"offset": [0.5, 0], "texCoord": 1}});

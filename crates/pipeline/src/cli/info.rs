@@ -160,10 +160,11 @@ fn lights(model: &Model) -> String {
     or_none(&model.lights.iter().map(describe).collect::<Vec<_>>())
 }
 
-/// The extensions; those that are not drawn are marked.
+/// The extensions; of those that are not drawn as they are meant to be it is said.
 fn extensions(model: &Model) -> String {
     let describe = |name: &String| match extension_use(name) {
         ExtensionUse::Drawn | ExtensionUse::Harmless => name.clone(),
+        ExtensionUse::Partly(how) => format!("{name} ({how})"),
         ExtensionUse::Without(_) => format!("{name} (not drawn)"),
         ExtensionUse::Refused(_) | ExtensionUse::Unknown => format!("{name} (not read)"),
     };

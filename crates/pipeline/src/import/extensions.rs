@@ -11,13 +11,15 @@ enum Support {
     Full,
     /// It changes nothing that is drawn.
     Harmless,
+    /// It is drawn as far as the text says.
+    Partly(&'static str),
     /// The file can be shown without it; the text says what is then missing.
     Without(&'static str),
     /// The text says what it does that is not possible here.
     None(&'static str),
 }
 
-use Support::{Full, Harmless, None as Never, Without};
+use Support::{Full, Harmless, None as Never, Partly, Without};
 
 /// Draco is a feature of this crate that can be left out.
 const DRACO: Support =
@@ -29,11 +31,11 @@ const BASIS: Support =
 
 /// All extensions that are known, by name.
 const KNOWN: [(&str, Support); 36] = [
-    ("CESIUM_primitive_outline", Without("the outlines are drawn in line drawings alone")),
+    ("CESIUM_primitive_outline", Partly("the outlines are drawn in line drawings alone")),
     ("EXT_mesh_features", Harmless),
     ("EXT_mesh_gpu_instancing", Full),
     ("EXT_mesh_manifold", Harmless),
-    ("EXT_mesh_primitive_edge_visibility", Without("the edges are drawn in line drawings alone")),
+    ("EXT_mesh_primitive_edge_visibility", Partly("the edges are drawn in line drawings alone")),
     ("EXT_meshopt_compression", Full),
     ("EXT_structural_metadata", Harmless),
     ("EXT_texture_webp", Full),
@@ -52,11 +54,11 @@ const KNOWN: [(&str, Support); 36] = [
     ("KHR_materials_specular", Full),
     (
         "KHR_materials_transmission",
-        Without("drawn as thin tinted glass: light that passes is neither bent nor blurred"),
+        Partly("drawn as thin tinted glass: light that passes is neither bent nor blurred"),
     ),
     ("KHR_materials_unlit", Full),
     ("KHR_materials_variants", Full),
-    ("KHR_materials_volume", Without("light that passes is tinted by the body but not bent")),
+    ("KHR_materials_volume", Partly("light that passes is tinted by the body but not bent")),
     ("KHR_mesh_quantization", Full),
     ("KHR_meshopt_compression", Full),
     ("KHR_node_visibility", Without("hidden nodes are shown")),
@@ -92,7 +94,7 @@ pub(super) fn check(root: &Root, warnings: &mut Warnings) -> Result<(), Fault> {
         ("extensionsRequired", &root.extensions_required),
     ] {
         for (at, name) in names.iter().enumerate() {
-            if let (Some(Without(reason) | Never(reason)), true) =
+            if let (Some(Partly(reason) | Without(reason) | Never(reason)), true) =
                 (support(name), told.insert(name))
             {
                 warnings.add(&format!("/{list}/{at}"), format!("{name}: {reason}"));
@@ -109,6 +111,8 @@ pub enum ExtensionUse {
     Drawn,
     /// It changes nothing that is drawn.
     Harmless,
+    /// It is drawn as far as the text says.
+    Partly(&'static str),
     /// Files are shown without it; the text says what is then missing.
     Without(&'static str),
     /// A file that requires it is refused; the text says why.
@@ -123,6 +127,7 @@ pub fn extension_use(name: &str) -> ExtensionUse {
     match support(name) {
         Some(Full) => ExtensionUse::Drawn,
         Some(Harmless) => ExtensionUse::Harmless,
+        Some(Partly(how)) => ExtensionUse::Partly(how),
         Some(Without(what)) => ExtensionUse::Without(what),
         Some(Never(why)) => ExtensionUse::Refused(why),
         None => ExtensionUse::Unknown,

@@ -166,6 +166,7 @@ fn extensions(model: &Model) -> Value {
         let (status, note) = match extension_use(name) {
             ExtensionUse::Drawn => ("drawn", None),
             ExtensionUse::Harmless => ("harmless", None),
+            ExtensionUse::Partly(how) => ("drawn in part", Some(how)),
             ExtensionUse::Without(what) => ("not drawn", Some(what)),
             ExtensionUse::Refused(why) => ("not read", Some(why)),
             ExtensionUse::Unknown => ("unknown", None),
