@@ -1,7 +1,7 @@
 //! `alberti compare-projections`: the whole family on one page.
 
 use crate::bench::Bench;
-use crate::drawings::{read_svg, succeed, write_box};
+use crate::drawings::{PROJECTIONS, read_svg, succeed, write_box};
 use crate::vectors::{Layers, bounds, pdf};
 
 const COMMAND: &str = "compare-projections";
@@ -18,21 +18,7 @@ fn a_subject_is_drawn_in_every_projection() {
     bench.bring("house.glb");
     succeed(&bench, &[COMMAND, "house.glb"]);
     let (page, layers) = read_svg(&bench, "projections.svg");
-    let all = [
-        "perspective",
-        "orthographic",
-        "multiview",
-        "isometric",
-        "dimetric",
-        "trimetric",
-        "cavalier",
-        "cabinet",
-        "military",
-        "one-point",
-        "two-point",
-        "three-point",
-    ];
-    for name in all {
+    for name in PROJECTIONS {
         let [low, high] = bounds(&layers, |id| id.starts_with(&format!("{name}-visible-")));
         assert!(low[0] > 0.0 && low[1] > 0.0 && high[0] < page[0] && high[1] < page[1], "{name}");
         // Framed: the drawing takes most of its 84.7 × 63.5 mm, and no more.

@@ -4,6 +4,22 @@ use crate::bench::Bench;
 use crate::document::Document;
 use crate::vectors::{Layers, Place, bounds, pdf, svg};
 
+/// The projections by their names, in the order of the textbooks.
+pub(crate) const PROJECTIONS: [&str; 12] = [
+    "perspective",
+    "orthographic",
+    "multiview",
+    "isometric",
+    "dimetric",
+    "trimetric",
+    "cavalier",
+    "cabinet",
+    "military",
+    "one-point",
+    "two-point",
+    "three-point",
+];
+
 /// A solid box of these sides in metres, one corner at the origin, with a groove so that front and back differ.
 pub(crate) fn write_box(bench: &Bench, name: &str, [w, h, d]: [f32; 3]) {
     let mut document = Document::square();
@@ -187,21 +203,7 @@ fn every_style_has_its_lines_in_every_projection() {
         );
         layers
     };
-    let projections = [
-        "perspective",
-        "orthographic",
-        "multiview",
-        "isometric",
-        "dimetric",
-        "trimetric",
-        "cavalier",
-        "cabinet",
-        "military",
-        "one-point",
-        "two-point",
-        "three-point",
-    ];
-    for projection in projections {
+    for projection in PROJECTIONS {
         let of = |style: &str| {
             let layers = count(style, projection);
             let hidden = layers.keys().filter(|id| id.starts_with("hidden-")).count();

@@ -62,9 +62,10 @@ impl<S: Surface> Resolve<'_, S> {
         colors.clear();
         through.clear();
         for eight in shares.chunks(WIDE) {
-            let [r, g, b, alpha] = self.shade_shares(y, eight);
+            let fragments = self.fragments(y, eight);
+            let [r, g, b, alpha] = self.shade_shares(eight, fragments.as_ref());
             colors.extend((0..eight.len()).map(|k| [r[k], g[k], b[k], alpha[k]]));
-            let [r, g, b] = match self.fragments(y, eight) {
+            let [r, g, b] = match fragments {
                 Some(fragments) => self.surface.through_eight(&fragments, &alpha),
                 None => [[0.0; WIDE]; 3],
             };

@@ -249,7 +249,8 @@ impl<S: Surface> Resolve<'_, S> {
     ) {
         for from in (0..edges.others().len()).step_by(WIDE) {
             let end = edges.others().len().min(from + WIDE);
-            let colors = self.shade_shares(y, &edges.others()[from..end]);
+            let others = &edges.others()[from..end];
+            let colors = self.shade_shares(others, self.fragments(y, others).as_ref());
             edges.add_others(from..end, &colors);
         }
         let (left, right) = (self.rect.left as usize, self.rect.right as usize);
@@ -274,12 +275,16 @@ impl<S: Surface> Resolve<'_, S> {
         Some(Fragments::of_each(seen, &self.frame.source_weights, columns, self.rect.y + y))
     }
 
-    /// The colours of up to eight shares of a row; those of nothing have the background's.
+    /// The colours of up to eight shares of a row, by their [fragments](Self::fragments); those of nothing have the background's.
     #[inline(always)]
-    pub(crate) fn shade_shares(&self, y: u32, shares: &[Share]) -> [Eight; 4] {
+    pub(crate) fn shade_shares(
+        &self,
+        shares: &[Share],
+        fragments: Option<&Fragments<'_>>,
+    ) -> [Eight; 4] {
         let mut colors = [[0.0; WIDE]; 4];
-        if let Some(fragments) = self.fragments(y, shares) {
-            colors = self.surface.shade_eight(&fragments);
+        if let Some(fragments) = fragments {
+            colors = self.surface.shade_eight(fragments);
         }
         for (lane, share) in shares.iter().enumerate() {
             if share.piece == NOTHING {

@@ -2,9 +2,9 @@
 
 use super::Failure;
 use super::args::ProjectionArg;
-use super::figure::{check_panels, write_panels};
+use super::figure::{check_panels, finish_panels};
 use super::progress::Progress;
-use super::render::{threads, warn};
+use super::render::threads;
 use super::subject::SubjectArgs;
 use clap::ValueEnum as _;
 use pipeline::Scene;
@@ -38,11 +38,7 @@ pub(crate) fn run(args: &CompareProjectionsArgs) -> Result<(), Failure> {
     let threads = threads(args.subject.threads);
     let mut panels = compared(&origin, &file, &scene.models, &members, threads)?;
     panels.columns = args.columns.map_or(panels.columns, usize::from);
-    progress.stage("writing");
-    write_panels(&args.output, &panels)?;
-    drop(progress);
-    warn(&scene, &panels.warnings());
-    Ok(())
+    finish_panels(&args.output, &panels, &scene, progress)
 }
 
 /// Those that are wanted, or all; each once.

@@ -2,9 +2,26 @@
 
 use super::Failure;
 use super::format::Format;
+use super::progress::Progress;
+use super::render::warn;
 use super::sheet;
+use pipeline::Scene;
 use pipeline::drawing::{Page, Panels};
 use std::path::Path;
+
+/// Writes the panels of a scene, and then what is to be said of them.
+pub(super) fn finish_panels(
+    output: &Path,
+    panels: &Panels,
+    scene: &Scene,
+    progress: Progress,
+) -> Result<(), Failure> {
+    progress.stage("writing");
+    write_panels(output, panels)?;
+    drop(progress);
+    warn(scene, &panels.warnings());
+    Ok(())
+}
 
 /// Writes panels: .svg, .pdf, .png or .html. No file is touched if they cannot be written so.
 pub(super) fn write_panels(output: &Path, panels: &Panels) -> Result<(), Failure> {

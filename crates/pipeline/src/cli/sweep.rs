@@ -2,10 +2,10 @@
 
 use super::Failure;
 use super::args::ProjectionArg;
-use super::figure::{check_panels, write_panels};
+use super::figure::{check_panels, finish_panels};
 use super::look::named_view;
 use super::progress::Progress;
-use super::render::{threads, warn};
+use super::render::threads;
 use super::subject::SubjectArgs;
 use camera::NamedView;
 use pipeline::Scene;
@@ -89,11 +89,7 @@ pub(crate) fn run(args: &SweepArgs) -> Result<(), Failure> {
     let sweep = Sweep { vary, from: args.from, to: args.to, steps: args.steps, volumes };
     let mut panels = sweep.draw(&scene, threads(args.subject.threads))?;
     panels.columns = args.columns.map_or(panels.columns, usize::from);
-    progress.stage("writing");
-    write_panels(&args.output, &panels)?;
-    drop(progress);
-    warn(&scene, &panels.warnings());
-    Ok(())
+    finish_panels(&args.output, &panels, &scene, progress)
 }
 
 fn number(text: &str) -> Result<f64, String> {
