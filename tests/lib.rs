@@ -24,7 +24,7 @@ pub fn program() -> Result<PathBuf, String> {
     let test = std::env::current_exe().map_err(|error| error.to_string())?;
     let folder = test.ancestors().nth(2).ok_or("the test is in no target folder")?;
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.args(["build", "--quiet", "--package", "pipeline", "--bin", "alberti"]);
+    cargo.args(["build", "--quiet", "--package", "alberti", "--bin", "alberti"]);
     if let Some(target) = folder.parent() {
         cargo.arg("--target-dir").arg(target);
     }

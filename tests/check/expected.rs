@@ -1,7 +1,7 @@
 //! Where the check and the validator differ, and why.
 
 use crate::manifest::Row;
-use pipeline::import::{Report, Severity};
+use model::import::{Report, Severity};
 use std::collections::BTreeSet;
 
 const KTX: &str = "KHR_texture_ktx, for images of several layers, is not read";

@@ -1,7 +1,7 @@
 //! What a lenient reader makes of broken files: everything that others load, and more.
 
 use crate::manifest::Row;
-use pipeline::import::{FaultKind, ImportOptions, load};
+use model::import::{FaultKind, ImportOptions, load};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 

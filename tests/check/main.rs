@@ -16,7 +16,7 @@ mod manifest;
 mod tally;
 
 use manifest::Row;
-use pipeline::import::{ImportOptions, Report, Severity, check};
+use model::import::{ImportOptions, Report, Severity, check};
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};

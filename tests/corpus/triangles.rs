@@ -2,8 +2,8 @@
 
 use crate::expected;
 use crate::manifest::Row;
-use pipeline::import::{ImportOptions, load};
-use pipeline::model::{Model, Primitive, Topology};
+use model::import::{ImportOptions, load};
+use model::{Model, Primitive, Topology};
 use std::path::Path;
 
 /// Counts the triangles of all models that load; gives the number of files that agree with the manifest.

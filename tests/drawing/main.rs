@@ -9,9 +9,9 @@
 
 mod views;
 
-use pipeline::drawing::{Agreement, Hidden, LineDrawing, Options, draw, verify};
-use pipeline::import::{ImportOptions, load};
-use pipeline::model::Model;
+use drawing::{Agreement, Hidden, LineDrawing, Options, draw, verify};
+use model::Model;
+use model::import::{ImportOptions, load};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -145,8 +145,8 @@ fn compare(
 ) -> Result<(Agreement, LineDrawing), String> {
     let scene = scene(model, kind, side)?;
     let agreement = |options: &Options| {
-        let drawing = draw(&scene, options, 1).map_err(|error| error.to_string())?;
-        let agreement = verify(&scene, &drawing).map_err(|error| error.to_string())?;
+        let drawing = draw(&scene.subject(), options, 1).map_err(|error| error.to_string())?;
+        let agreement = verify(&scene.subject(), &drawing).map_err(|error| error.to_string())?;
         Ok::<_, String>((agreement, drawing))
     };
     let (found, drawing) = agreement(&Options::hidden_removed())?;

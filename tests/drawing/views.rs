@@ -1,11 +1,12 @@
 //! The views of a model.
 
+use camera::ViewProjection;
 use camera::{Basis, Slopes, frame_oblique, frame_perspective};
 use homog::{Affine, Point, Vector, View, World};
+use model::Model;
+use model::ModelInstance;
 use pipeline::Scene;
-use pipeline::model::Model;
-use pipeline::render::Shot;
-use pipeline::scene::{ImageSpec, Placed, Style};
+use pipeline::scene::{ImageSpec, Style};
 use projection::{Convention, Frustum, Oblique, Orthographic};
 use std::sync::Arc;
 
@@ -66,7 +67,7 @@ pub fn scene(model: &Arc<Model>, kind: Kind, side: usize) -> Result<Scene, Strin
     let model_to_world = Affine::scale(1.0, 1.0, 1.0);
     let points: Vec<Point<World>> =
         model.shown_points().into_iter().map(|p| model_to_world.point(p)).collect();
-    let shot = match kind {
+    let view_projection = match kind {
         Kind::Perspective => perspective(&points, basis),
         Kind::Isometric => parallel(&points, basis, None),
         Kind::Cavalier => parallel(&points, basis, Some(std::f64::consts::FRAC_PI_4)),
@@ -74,13 +75,13 @@ pub fn scene(model: &Arc<Model>, kind: Kind, side: usize) -> Result<Scene, Strin
     let (width, height) = SIZE;
     let samples = raster::Samples::One;
     Ok(Scene {
-        models: vec![Placed { model: Arc::clone(model), model_to_world }],
-        shot: shot?,
+        models: vec![ModelInstance { model: Arc::clone(model), model_to_world }],
+        view_projection: view_projection?,
         lights: Vec::new(),
         ground: None,
         occlusion_radius: None,
         environment: None,
-        develop: pipeline::shade::Develop::default(),
+        develop: shade::Develop::default(),
         style: Style::Flat,
         image: ImageSpec {
             width,
@@ -97,7 +98,7 @@ pub fn scene(model: &Arc<Model>, kind: Kind, side: usize) -> Result<Scene, Strin
     })
 }
 
-fn perspective(points: &[Point<World>], basis: Basis) -> Result<Shot, String> {
+fn perspective(points: &[Point<World>], basis: Basis) -> Result<ViewProjection, String> {
     let slopes = Slopes { left: -0.4, right: 0.4, bottom: -0.3, top: 0.3 };
     let framing = frame_perspective(points.iter().copied(), basis, slopes, 0.02);
     let framing = framing.map_err(|error| error.to_string())?;
@@ -105,11 +106,15 @@ fn perspective(points: &[Point<World>], basis: Basis) -> Result<Shot, String> {
     let frustum = Frustum::new(-0.4 * near, 0.4 * near, -0.3 * near, 0.3 * near, near, far);
     let frustum = frustum.map_err(|error| error.to_string())?;
     let view_to_clip = frustum.view_to_clip(Convention::CHAPTER);
-    Ok(Shot { camera: framing.camera, view_to_clip })
+    Ok(ViewProjection { camera: framing.camera, view_to_clip })
 }
 
 /// Orthographic, or with depth drawn in full length in a direction.
-fn parallel(points: &[Point<World>], basis: Basis, depth: Option<f64>) -> Result<Shot, String> {
+fn parallel(
+    points: &[Point<World>],
+    basis: Basis,
+    depth: Option<f64>,
+) -> Result<ViewProjection, String> {
     let oblique = depth.map(Oblique::cavalier).transpose().map_err(|error| error.to_string())?;
     let projectors = oblique.map_or(-Vector::<View>::Z, Oblique::direction);
     let aspect = f64::from(SIZE.0) / f64::from(SIZE.1);
@@ -120,5 +125,5 @@ fn parallel(points: &[Point<World>], basis: Basis, depth: Option<f64>) -> Result
     let window = window.map_err(|error| error.to_string())?.view_to_clip(Convention::CHAPTER);
     let upright = Affine::<View, View>::scale(1.0, 1.0, 1.0);
     let shear = oblique.map_or(upright, Oblique::depth_kept);
-    Ok(Shot { camera: f.camera, view_to_clip: shear.then_project(window) })
+    Ok(ViewProjection { camera: f.camera, view_to_clip: shear.then_project(window) })
 }

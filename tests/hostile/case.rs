@@ -2,8 +2,8 @@
 
 use crate::document::Document;
 use crate::promises;
-use pipeline::import::{ImportError, ImportOptions, check_bytes, load, load_bytes};
-use pipeline::model::Model;
+use model::Model;
+use model::import::{ImportError, ImportOptions, check_bytes, load, load_bytes};
 use std::path::Path;
 
 /// A file that wishes the importer ill.

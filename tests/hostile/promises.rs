@@ -1,6 +1,6 @@
 //! What a loaded model promises, checked without mercy.
 
-use pipeline::model::{Model, Primitive};
+use model::{Model, Primitive};
 
 /// Every sentence of the model's documentation that can be checked.
 pub fn check(model: &Model) -> Result<(), String> {
@@ -133,7 +133,7 @@ fn check_nodes(model: &Model) -> Result<(), String> {
 
 fn check_posed(
     model: &Model,
-    instance: pipeline::model::Instance,
+    instance: model::Instance,
     primitive: &Primitive,
 ) -> Result<(), String> {
     let posed = model.posed(instance, primitive);

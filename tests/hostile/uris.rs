@@ -2,7 +2,7 @@
 
 use crate::case::{Expected, judge, judge_loaded};
 use crate::document::Document;
-use pipeline::import::{ImportOptions, Limits, load_bytes};
+use model::import::{ImportOptions, Limits, load_bytes};
 use serde_json::json;
 use std::fs;
 use std::path::Path;

@@ -8,11 +8,12 @@
 use crate::real::asset;
 use glam::DVec3;
 use homog::Affine;
-use pipeline::import::{ImportOptions, load};
-use pipeline::model::{Material, Model};
+use model::ModelInstance;
+use model::import::{ImportOptions, load};
+use model::{Material, Model};
 use pipeline::render::{Pass, passes};
-use pipeline::scene::{Placed, parse};
-use pipeline::{Origin, Picture, Region, Scene, Timings, render};
+use pipeline::scene::parse;
+use pipeline::{Origin, Picture, Scene, Timings, render};
 use std::sync::Arc;
 
 const SIZE: (u32, u32) = (240, 180);
@@ -70,7 +71,7 @@ fn scene(model: &Arc<Model>, travel: DVec3, shadows: &str) -> Scene {
         )"#
     );
     let file = parse("made.ron", &text).expect("a scene");
-    let placed = Placed { model: Arc::clone(model), model_to_world: Affine::IDENTITY };
+    let placed = ModelInstance { model: Arc::clone(model), model_to_world: Affine::IDENTITY };
     let origin = Origin::of_text("made.ron", text, ".".into());
     Scene::of_models(&origin, &file, vec![placed]).expect("a scene that makes sense")
 }
@@ -93,7 +94,7 @@ fn hold(name: &str, model: &Arc<Model>, body: &Body, travel: DVec3, found: &mut 
     let shaded = scene(model, travel, &format!("On(size: {TEXELS}, softness_degrees: 0)"));
     let with = render(&shaded, 2).expect("a picture");
     let without = render(&scene(model, travel, "Off"), 2).expect("a picture");
-    let whole = Region::whole(shaded.image);
+    let whole = shaded.image.rect();
     let wanted = [Pass::Position, Pass::Normal];
     let told = passes(&shaded, whole, &wanted, 2, &Timings::default()).expect("passes");
     let vector = |pass: usize, x: u32, y: u32| {

@@ -107,8 +107,8 @@ fn points_through(chain: &Chain, case: &Value, out: &Value) -> Result<(), String
         let world = point(p)?.into();
         one_point(chain, world, theirs)?;
         if matches!(text(&case["projection"], "kind")?, "per" | "orth") {
-            let shot = (chain.camera, chain.view_to_clip.raw(), chain.kind.sign);
-            explained(shot, &chain.viewport, world, theirs)?;
+            let view_projection = (chain.camera, chain.view_to_clip.raw(), chain.kind.sign);
+            explained(view_projection, &chain.viewport, world, theirs)?;
         }
     }
     Ok(())

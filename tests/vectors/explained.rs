@@ -1,10 +1,10 @@
 //! `explain` tells of a point what the vectors have computed: clip space, the divide, the screen.
 
 use crate::numbers::{close, close_all, point, point4};
+use camera::ViewProjection;
 use glam::DMat4;
 use homog::{Point, Projective};
 use pipeline::explain::{Chain, Conventions, explain_place};
-use pipeline::render::Shot;
 use serde_json::Value;
 use viewport::{DepthRange, PixelConvention, Viewport};
 
@@ -16,9 +16,11 @@ pub fn explained(
     world: Point<homog::World>,
     out: &Value,
 ) -> Result<(), String> {
-    let shot = Shot { camera, view_to_clip: Projective::from_raw(forth * sign) };
+    let view_projection =
+        ViewProjection { camera, view_to_clip: Projective::from_raw(forth * sign) };
     let size = (viewport.area().width() as u32, viewport.area().height() as u32);
-    let chain = Chain::of(&shot, size, Conventions::Alberti).map_err(|error| error.to_string())?;
+    let chain = Chain::of(&view_projection, size, Conventions::Alberti)
+        .map_err(|error| error.to_string())?;
     let told = explain_place(&chain, world).to_json();
     let clip = point4(&item(&told, "clip"))?.map(|x| x * sign);
     close_all("explained clip", &clip, &point4(&out["clip"])?, 1e-11)?;

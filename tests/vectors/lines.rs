@@ -3,9 +3,9 @@
 use crate::Runner;
 use crate::numbers::{list, number, numbers, pairs};
 use camera::Camera;
+use camera::ViewProjection;
+use drawing::{Obstacles, Sight, Tolerance};
 use homog::{Point, Vector, World};
-use pipeline::drawing::{Obstacles, Sight, Tolerance};
-use pipeline::render::Shot;
 use projection::{Convention, Frustum, Orthographic};
 use serde_json::Value;
 use viewport::Viewport;
@@ -17,7 +17,10 @@ pub const RUNNERS: &[(&str, Runner)] = &[("hidden_lines", hidden)];
 const TOLERANCE: f64 = 1e-9;
 
 fn hidden(input: &Value, out: &Value) -> Result<(), String> {
-    let sight = Sight::new(&shot(input)?, &Viewport::image(SIDE, SIDE).map_err(|e| e.to_string())?);
+    let sight = Sight::new(
+        &view_projection(input)?,
+        &Viewport::image(SIDE, SIDE).map_err(|e| e.to_string())?,
+    );
     let triangles: Vec<[Point<World>; 3]> = list(&input["triangles"])?
         .iter()
         .map(|triangle| {
@@ -48,16 +51,16 @@ const SIDE: u32 = 1 << 20;
 /// The window's half, at distance 1: what is beyond the picture's sides would be cut away, which the vectors do not.
 const WIDE: f64 = 4096.0;
 
-fn shot(input: &Value) -> Result<Shot, String> {
+fn view_projection(input: &Value) -> Result<ViewProjection, String> {
     let up = |gaze: Vector<World>| {
         if gaze.x() == 0.0 && gaze.z() == 0.0 { Vector::Z } else { Vector::Y }
     };
-    let shot = if let Some(direction) = input.get("direction") {
+    let view_projection = if let Some(direction) = input.get("direction") {
         let gaze: Vector<World> = numbers::<3>(direction)?.into();
         let camera = Camera::look_to(Point::ORIGIN, gaze, up(gaze)).map_err(|e| e.to_string())?;
         let window = Orthographic::new(-WIDE, WIDE, -WIDE, WIDE, -WIDE, WIDE);
         let window = window.map_err(|e| e.to_string())?;
-        Shot { camera, view_to_clip: window.view_to_clip(Convention::CHAPTER) }
+        ViewProjection { camera, view_to_clip: window.view_to_clip(Convention::CHAPTER) }
     } else {
         let eye: Point<World> = numbers::<3>(&input["eye"])?.into();
         let gaze = match input.get("gaze") {
@@ -69,9 +72,9 @@ fn shot(input: &Value) -> Result<Shot, String> {
         let camera = Camera::look_to(eye, gaze, up(gaze)).map_err(|e| e.to_string())?;
         let frustum = Frustum::new(-side, side, -side, side, near, 1024.0);
         let frustum = frustum.map_err(|e| e.to_string())?;
-        Shot { camera, view_to_clip: frustum.view_to_clip(Convention::CHAPTER) }
+        ViewProjection { camera, view_to_clip: frustum.view_to_clip(Convention::CHAPTER) }
     };
-    Ok(shot)
+    Ok(view_projection)
 }
 
 fn same(ours: &[[f64; 2]], theirs: &Value) -> Result<(), String> {

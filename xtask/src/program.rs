@@ -32,7 +32,7 @@ pub struct Program {
 impl Program {
     /// Builds the program and says where it is.
     pub fn built(build: Build) -> Result<Self, String> {
-        let mut cargo = cargo(&["build", "--quiet", "--package", "pipeline", "--bin", "alberti"]);
+        let mut cargo = cargo(&["build", "--quiet", "--package", "alberti", "--bin", "alberti"]);
         let mut folder = target();
         if build != Build::Debug {
             cargo.arg("--release");

@@ -27,11 +27,12 @@ fn main() -> Result<(), FramingError> {
 
     println!("Where to stand so that the house fills the picture but for 5 per cent on each side:");
     for view in NamedView::ALL {
-        let shot = frame_perspective(house, view.basis(), lens, 0.05)?;
-        let (eye, near, far) = (shot.camera.eye(), shot.near, shot.far);
+        let view_projection = frame_perspective(house, view.basis(), lens, 0.05)?;
+        let (eye, near, far) =
+            (view_projection.camera.eye(), view_projection.near, view_projection.far);
         println!(
             "  {view:<13} {eye:.1}  from {near:.1} to {far:.1} m ahead, {:?} decides",
-            shot.fit
+            view_projection.fit
         );
     }
 
@@ -41,9 +42,12 @@ fn main() -> Result<(), FramingError> {
         println!("  {view:<13} {:.1}", sheet.right - sheet.left);
     }
 
-    let shot = frame_perspective(house, NamedView::ThreeQuarter.basis(), lens, 0.05)?;
-    let rig = StereoRig { interocular: 0.5, zero_parallax: (shot.near + shot.far) / 2.0 };
-    let pair = rig.pair(shot.camera, lens.at(shot.near)?)?;
+    let view_projection = frame_perspective(house, NamedView::ThreeQuarter.basis(), lens, 0.05)?;
+    let rig = StereoRig {
+        interocular: 0.5,
+        zero_parallax: (view_projection.near + view_projection.far) / 2.0,
+    };
+    let pair = rig.pair(view_projection.camera, lens.at(view_projection.near)?)?;
     println!("\nA stereo pair whose eyes meet in the middle of the house:");
     for (name, eye) in [("left", pair.left), ("right", pair.right)] {
         let window = eye.window;

@@ -75,6 +75,7 @@ mod pose;
 mod rays;
 mod screen;
 mod stereo;
+mod view_projection;
 mod window;
 
 pub use attitude::Attitude;
@@ -88,4 +89,5 @@ pub use pose::Camera;
 pub use rays::{PixelCenters, PixelGrid, Ray, Rays, VerticalAxis};
 pub use screen::ScreenCorners;
 pub use stereo::{CameraView, StereoPair, StereoRig, apex_moved};
+pub use view_projection::ViewProjection;
 pub use window::Window;

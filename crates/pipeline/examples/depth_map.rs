@@ -4,14 +4,14 @@
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
 
 use pipeline::render::passes::{Pass, passes};
-use pipeline::{Origin, Region, Scene, Timings};
+use pipeline::{Origin, Scene, Timings};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut names = std::env::args().skip(1);
     let (model, output) = names.next().zip(names.next()).ok_or("name a model and a file")?;
     let (origin, file) = Origin::bare_model(model.as_ref());
     let scene = Scene::resolve(&origin, &file, &Default::default())?;
-    let whole = Region::whole(scene.image);
+    let whole = scene.image.rect();
     let depths = passes(&scene, whole, &[Pass::Depth], 2, &Timings::default())?;
     let [depth] = depths.as_slice() else { return Err("one pass".into()) };
     println!("{:?} ahead in the middle", depth.floats(depth.width / 2, depth.height / 2));

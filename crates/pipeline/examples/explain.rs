@@ -13,7 +13,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let (origin, file) = Origin::bare_model(model.as_ref());
     let scene = Scene::resolve(&origin, &file, &Default::default())?;
-    let chain = Chain::of(&scene.shot, file.image.size, Conventions::Alberti)?;
+    let chain = Chain::of(&scene.view_projection, file.image.size, Conventions::Alberti)?;
     let told = explain_pixel(&chain, &scene, column.parse()?, row.parse()?)?;
     println!("{told}\nas JSON it has {} bytes", told.to_json().to_string().len());
     Ok(())

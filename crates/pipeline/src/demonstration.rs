@@ -7,7 +7,7 @@
 //! | how distance becomes depth, and how finely (C48, C68) | [`DepthTable`] |
 //! | why clipping comes before the divide (C36) | [`tear`] |
 //!
-//! Each gives [`Panels`](crate::drawing::Panels) or a [`Page`](crate::drawing::Page), to be written as SVG, PDF or PNG; panels go
+//! Each gives [`Panels`](drawing::Panels) or a [`Page`](drawing::Page), to be written as SVG, PDF or PNG; panels go
 //! into a web page as well. None depends on the number of threads.
 
 mod depth;

@@ -6,11 +6,13 @@
 //! Models are loaded, and the mip chains of their textures built, once. Each thread poses a copy of its own and renders in
 //! the memory of its picture before.
 
-use crate::model::Model;
-use crate::render::{RenderError, Renderer, Shot, Textures};
-use crate::scene::{CameraPath, Origin, Placed, ResolveError, Scene, SceneFile, bounds};
+use crate::render::{RenderError, Renderer, Textures};
+use crate::scene::{CameraPath, Origin, ResolveError, Scene, SceneFile};
 use crate::{Picture, Timings, render};
+use camera::ViewProjection;
 use homog::{Affine, Point, World};
+use model::Model;
+use model::ModelInstance;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
@@ -43,7 +45,7 @@ pub struct Film {
     /// What a turntable turns about.
     middle: Point<World>,
     /// The camera of each picture, if it moves.
-    shots: Vec<Shot>,
+    shots: Vec<ViewProjection>,
 }
 
 /// A film that cannot be drawn to its end.
@@ -75,16 +77,17 @@ impl Film {
         motion: Motion,
         frames: usize,
     ) -> Result<Self, ResolveError> {
-        let middle = middle(&bounds::world_points(&scene.models));
+        let middle = middle(&model::world_points(&scene.models));
         let mut film = Self { scene, motion, frames, middle, shots: Vec::new() };
         let moments = (0..MOMENTS).flat_map(|at| film.models_at(at as f64 / MOMENTS as f64));
         // The surroundings have been read before: whoever was allowed to then is so now.
         let known: Vec<_> = file.pictures().map(|path| origin.folder.join(path)).collect();
         let framed = Scene::around(origin, file, moments.collect(), &known)?;
-        (film.scene.shot, film.scene.lights) = (framed.shot, framed.lights);
+        (film.scene.view_projection, film.scene.lights) = (framed.view_projection, framed.lights);
         film.scene.ground = framed.ground;
         for (view, framed) in film.scene.views.iter_mut().zip(framed.views) {
-            (view.scene.shot, view.scene.lights) = (framed.scene.shot, framed.scene.lights);
+            (view.scene.view_projection, view.scene.lights) =
+                (framed.scene.view_projection, framed.scene.lights);
             view.scene.ground = framed.scene.ground;
         }
         Ok(film)
@@ -102,13 +105,13 @@ impl Film {
         [from, to]: [f64; 2],
     ) -> Result<Self, ResolveError> {
         let moments = (0..MOMENTS).flat_map(|at| self.models_at(at as f64 / MOMENTS as f64));
-        let models: Vec<Placed> =
+        let models: Vec<ModelInstance> =
             if self.motion.is_still() { self.scene.models.clone() } else { moments.collect() };
-        let shot = |frame: usize| {
+        let view_projection = |frame: usize| {
             let part = frame as f64 / self.frames.max(1) as f64;
-            path.shot(origin, from + (to - from) * part, &models, self.scene.image)
+            path.view_projection(origin, from + (to - from) * part, &models, self.scene.image)
         };
-        self.shots = (0..self.frames).map(shot).collect::<Result<Vec<_>, _>>()?;
+        self.shots = (0..self.frames).map(view_projection).collect::<Result<Vec<_>, _>>()?;
         Ok(self)
     }
 
@@ -189,7 +192,7 @@ impl Film {
     }
 
     /// The models at a part of the way, from 0 to 1.
-    fn models_at(&self, part: f64) -> Vec<Placed> {
+    fn models_at(&self, part: f64) -> Vec<ModelInstance> {
         let mut models = self.scene.models.clone();
         self.motion.apply(&mut models, &self.scene.models, self.middle, part);
         models
@@ -251,8 +254,8 @@ impl<'a> Camera<'a> {
         // Views let go of the models that they share, so that those are not copied before they are posed.
         self.scene.views.iter_mut().for_each(|view| view.scene.models.clear());
         motion.apply(&mut self.scene.models, &scene.models, *middle, part);
-        if let Some(shot) = shots.get(frame) {
-            self.scene.shot = *shot;
+        if let Some(view_projection) = shots.get(frame) {
+            self.scene.view_projection = *view_projection;
         }
         if !scene.views.is_empty() {
             for view in &mut self.scene.views {
@@ -277,7 +280,13 @@ impl Motion {
     }
 
     /// Brings models to a part of the way; `start` has them where they are without motion.
-    fn apply(&self, models: &mut [Placed], start: &[Placed], middle: Point<World>, part: f64) {
+    fn apply(
+        &self,
+        models: &mut [ModelInstance],
+        start: &[ModelInstance],
+        middle: Point<World>,
+        part: f64,
+    ) {
         match self {
             Self::Turntable { angle } => {
                 let there = Affine::<World, World>::translation(middle - Point::ORIGIN);
@@ -309,7 +318,7 @@ impl Motion {
 }
 
 /// Models that are the same as the one before them, with the first of their row.
-fn copies(models: &[Placed]) -> Vec<(usize, usize)> {
+fn copies(models: &[ModelInstance]) -> Vec<(usize, usize)> {
     let mut first = 0;
     let mut copies = Vec::new();
     for (at, pair) in (1..).zip(models.windows(2)) {

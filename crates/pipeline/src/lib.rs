@@ -32,30 +32,22 @@
 //! wrong is a typed error that says what, where and what to do.
 
 mod cancel;
-mod canvas;
-mod color;
 pub mod demonstration;
-pub mod drawing;
 pub mod explain;
 pub mod film;
-pub mod import;
-pub mod model;
-mod output;
-mod picture;
 pub mod render;
 pub mod scene;
-pub mod shade;
-mod timings;
 
 pub use cancel::Cancel;
-pub use output::{Draft, OutputError, PngRows, encode_png, write_file};
-pub use picture::{Channel, Picture};
+pub use drawing;
+pub use homog::PixelRect;
+pub use model::{self, Timings, import};
 pub use render::{
-    MAX_SIDE, Paint, PaintError, Region, RenderError, Renderer, Textures, draw, render,
-    render_reported, render_timed,
+    MAX_SIDE, Paint, PaintError, RenderError, Renderer, Textures, draw, render, render_reported,
+    render_timed,
 };
 pub use scene::{Origin, ResolveError, Scene, SceneError, SceneFile};
-pub use timings::Timings;
+pub use shade::{self, Channel, Draft, OutputError, Picture, PngRows, encode_png, write_file};
 
 #[cfg(test)]
 mod tests {
@@ -63,10 +55,10 @@ mod tests {
     #[test]
     fn everything_can_go_to_another_thread() {
         fn goes<T: Send + Sync + 'static>() {}
-        goes::<(crate::Origin, crate::SceneFile, crate::Scene, crate::Picture, crate::Timings)>();
+        goes::<(crate::Origin, crate::SceneFile, crate::Scene, shade::Picture, model::Timings)>();
         goes::<(crate::Renderer, crate::film::Film, crate::explain::Explanation)>();
-        goes::<(crate::drawing::Page, crate::drawing::LineDrawing, crate::drawing::Sheet)>();
-        goes::<(crate::SceneError, crate::ResolveError, crate::RenderError, crate::OutputError)>();
-        goes::<(crate::import::ImportError, crate::import::ImportOptions)>();
+        goes::<(drawing::Page, drawing::LineDrawing, drawing::Sheet)>();
+        goes::<(crate::SceneError, crate::ResolveError, crate::RenderError, shade::OutputError)>();
+        goes::<(model::import::ImportError, model::import::ImportOptions)>();
     }
 }

@@ -14,12 +14,12 @@ mod lines;
 mod needs;
 mod occlusion;
 mod paint;
+mod panel;
 pub mod passes;
 mod pixel;
 mod region;
 mod renderer;
 mod shadows;
-mod shot;
 mod stage;
 #[cfg(test)]
 mod tests;
@@ -29,16 +29,17 @@ mod viewports;
 
 pub use lines::draw;
 pub use paint::{Paint, PaintError, band_rows};
+pub use panel::render_panel;
 pub use passes::{Pass, PassBuffer, passes};
 pub use pixel::{Owner, PixelMakeup, SeenFragment, pixel};
-pub use region::{MAX_SIDE, Region};
+pub use region::MAX_SIDE;
 pub use renderer::Renderer;
-pub use shot::Shot;
 pub use textures::Textures;
 
-use crate::drawing::Warning;
 use crate::scene::Scene;
 use crate::{Picture, Timings};
+use drawing::Warning;
+use region::check_region;
 
 /// A scene that cannot be rendered.
 #[derive(Debug, thiserror::Error)]
@@ -50,6 +51,9 @@ pub enum RenderError {
     /// The picture has no viewport.
     #[error(transparent)]
     Viewport(#[from] viewport::ViewportError),
+    /// Its lines cannot be drawn.
+    #[error(transparent)]
+    Draw(#[from] drawing::DrawError),
     /// Somebody asked for its end by a [`Cancel`](crate::Cancel).
     #[error("the picture was cancelled")]
     Cancelled,
@@ -90,8 +94,8 @@ pub fn render_reported(
     threads: usize,
     timings: &Timings,
 ) -> Result<(Picture, Vec<Warning>), RenderError> {
-    let whole = Region::whole(scene.image);
-    whole.check(scene.image)?;
+    let whole = scene.image.rect();
+    check_region(scene.image, whole)?;
     let mut paint = Paint::new(scene, threads, timings)?;
     Ok((paint.region(whole)?, paint.into_warnings()))
 }

@@ -23,7 +23,6 @@ mod number;
 mod origin;
 mod outputs;
 mod overrides;
-mod painting;
 mod parse;
 mod radiance;
 pub mod reference;
@@ -46,19 +45,19 @@ pub use ground::Ground;
 pub use layout::laid_out;
 pub use origin::Origin;
 pub use outputs::Outputs;
-pub use painting::{Fit, Gradient, Painting, Photo};
 pub use parse::parse;
 pub use resolve::{ResolveOptions, chosen_animation};
 pub use review::review;
+pub use sheet::resolve_sheet;
 pub use views::View;
 
-use crate::drawing::{LineLook, Overlay};
-use crate::import::ImportError;
-use crate::model::Model;
-use crate::render::Shot;
-use crate::shade::{Develop, Environment, Light};
-use homog::{Affine, Model as ModelSpace, Plane, Point, World};
+use camera::ViewProjection;
+use drawing::{LineLook, Overlay};
+use homog::{PixelRect, Plane, Point, World};
+use model::ModelInstance;
+use model::import::ImportError;
 use raster::Samples;
+use shade::{Develop, Environment, Light, Painting};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -66,9 +65,9 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// The models in their places.
-    pub models: Vec<Placed>,
+    pub models: Vec<ModelInstance>,
     /// Camera and projection.
-    pub shot: Shot,
+    pub view_projection: ViewProjection,
     /// The lights.
     pub lights: Vec<Light>,
     /// What is below the models.
@@ -97,29 +96,25 @@ impl Scene {
     /// Every vertex that some point, line or triangle of the scene uses, in the world.
     #[must_use]
     pub fn world_points(&self) -> Vec<Point<World>> {
-        bounds::world_points(&self.models)
+        model::world_points(&self.models)
     }
 
     /// The names of the models, each once.
     #[must_use]
     pub fn title(&self) -> String {
-        let mut names: Vec<&str> = Vec::new();
-        for placed in &self.models {
-            if !names.contains(&placed.model.name.as_str()) {
-                names.push(&placed.model.name);
-            }
-        }
-        names.join(", ")
+        model::model_names(&self.models)
     }
-}
 
-/// A model in its place.
-#[derive(Clone, Debug)]
-pub struct Placed {
-    /// The model; scenes that show it several times share it.
-    pub model: Arc<Model>,
-    /// Where it is.
-    pub model_to_world: Affine<ModelSpace, World>,
+    /// What the line drawing of the scene is made of.
+    #[must_use]
+    pub fn subject(&self) -> drawing::Subject<'_> {
+        drawing::Subject {
+            models: &self.models,
+            view_projection: self.view_projection,
+            size: [self.image.width, self.image.height],
+            sections: &self.sections,
+        }
+    }
 }
 
 /// How surfaces are drawn.
@@ -188,6 +183,14 @@ pub struct ImageSpec {
     pub samples: Samples,
     /// How many places textures are read at along the longer side of what a pixel covers of them, from 1 to 8.
     pub anisotropy: u32,
+}
+
+impl ImageSpec {
+    /// All pixels of the picture.
+    #[must_use]
+    pub const fn rect(self) -> PixelRect {
+        PixelRect::from_size(self.width, self.height)
+    }
 }
 
 /// A scene that cannot be resolved.

@@ -1,9 +1,10 @@
 //! Pictures with a closed form: each pixel is held against the formula that the scene was made of.
 
 use base64::Engine;
-use pipeline::import::{ImportOptions, load_bytes};
-use pipeline::scene::{Placed, parse};
-use pipeline::{Origin, Paint, Picture, Region, Scene, Timings, render};
+use model::ModelInstance;
+use model::import::{ImportOptions, load_bytes};
+use pipeline::scene::parse;
+use pipeline::{Origin, Paint, Picture, Scene, Timings, render};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -105,7 +106,7 @@ fn scene(parts: &[Part], size: f64, rest: &str) -> Scene {
     let loaded =
         load_bytes("made.gltf", &model(parts), &ImportOptions::default()).expect("a model");
     let model_to_world = homog::Affine::scale(size, size, size);
-    let placed = Placed { model: Arc::new(loaded), model_to_world };
+    let placed = ModelInstance { model: Arc::new(loaded), model_to_world };
     let origin = Origin::of_text("made.ron", text, ".".into());
     Scene::of_models(&origin, &file, vec![placed]).expect("a scene that makes sense")
 }
@@ -241,7 +242,7 @@ fn a_transparent_picture_laid_over_a_colour_is_the_opaque_one_over_it() {
     let clear = scene(&parts(), 1.0, &rest("Transparent"));
     let timings = Timings::default();
     let mut paint = Paint::new(&clear, 2, &timings).expect("a scene");
-    let clear: Picture<u16> = paint.region(Region::whole(clear.image)).expect("a picture");
+    let clear: Picture<u16> = paint.region(clear.image.rect()).expect("a picture");
     for (text, color) in [("#fff", [1.0; 3]), ("#000", [0.0; 3]), ("#ff0000", [1.0, 0.0, 0.0])] {
         let solid = draw(&parts(), &rest(&format!("Color(\"{text}\")")));
         for (clear, solid) in clear.pixels.iter().zip(&solid.pixels) {

@@ -20,7 +20,7 @@ fn draw(scene: &Scene) -> Picture {
 /// Where a place of the world is in the picture.
 fn pixel(scene: &Scene, place: Point<World>) -> [f64; 2] {
     let viewport = viewport::Viewport::image(scene.image.width, scene.image.height);
-    let clip = scene.shot.world_to_clip().point(place);
+    let clip = scene.view_projection.world_to_clip().point(place);
     let ndc = clip.divide().expect("a place in front of the eye");
     let screen = viewport.expect("a viewport").ndc_to_screen().point(ndc);
     [screen.x(), screen.y()]
@@ -35,9 +35,9 @@ fn c3_c84_c101_a_point_passes_model_view_projection_divide_and_viewport_in_this_
     // Scaled by 2, turned from x to −z, moved.
     let corner = scene.models[0].model_to_world.point(Point::<Model>::new(0.5, 1.0, 0.25));
     assert!((corner - Point::new(1.5, 4.0, 2.0)).length() < 1e-14);
-    let in_view = scene.shot.camera.world_to_view().point(corner);
-    let by_factors: HPoint<homog::Clip> = scene.shot.view_to_clip.point(in_view);
-    let by_product = scene.shot.world_to_clip().point(corner);
+    let in_view = scene.view_projection.camera.world_to_view().point(corner);
+    let by_factors: HPoint<homog::Clip> = scene.view_projection.view_to_clip.point(in_view);
+    let by_product = scene.view_projection.world_to_clip().point(corner);
     assert!((by_factors.raw() - by_product.raw()).abs().max_element() < 1e-12);
     let [x, y] = pixel(&scene, Point::new(1.0, 2.0, 3.0));
     assert!((x - 160.0).abs() < 1e-9 && (y - 100.0).abs() < 1e-9, "the target is in the middle");

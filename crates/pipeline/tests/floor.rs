@@ -1,10 +1,9 @@
 //! A floor of checks that runs to the horizon, at 1080 lines, against the mean of 64 places in each pixel.
 
 use homog::Affine;
-use pipeline::model::{
-    Image, Material, Mesh, Model, Node, Primitive, Sampler, Texture, TextureUse, Wrap,
-};
-use pipeline::scene::{Placed, parse};
+use model::ModelInstance;
+use model::{Image, Material, Mesh, Model, Node, Primitive, Sampler, Texture, TextureUse, Wrap};
+use pipeline::scene::parse;
 use pipeline::{Origin, Scene, render};
 use std::sync::Arc;
 
@@ -68,7 +67,7 @@ fn scene(anisotropy: u32) -> Scene {
         image: (size: {SIZE:?}, background: Color("#808080"), anisotropy: {anisotropy}))"##
     );
     let file = parse("floor.ron", &text).expect("a scene");
-    let placed = Placed { model: Arc::new(floor()), model_to_world: Affine::IDENTITY };
+    let placed = ModelInstance { model: Arc::new(floor()), model_to_world: Affine::IDENTITY };
     let origin = Origin::of_text("floor.ron", text, ".".into());
     Scene::of_models(&origin, &file, vec![placed]).expect("a scene that makes sense")
 }
@@ -107,7 +106,7 @@ fn truth(clip_to_world: glam::DMat4, x: u32, y: u32) -> Option<f64> {
 fn error(anisotropy: u32) -> (f64, f64) {
     let scene = scene(anisotropy);
     let picture = render(&scene, 2).expect("a picture");
-    let clip_to_world = scene.shot.world_to_clip().raw().inverse();
+    let clip_to_world = scene.view_projection.world_to_clip().raw().inverse();
     let mut differences = Vec::new();
     for (y, x) in (0..SIZE.1).flat_map(|y| (0..SIZE.0).step_by(7).map(move |x| (y, x))) {
         if let Some(due) = truth(clip_to_world, x, y) {

@@ -1,9 +1,11 @@
 //! Shadows: tight where things stand, none of a surface on itself, no light through walls.
 
 use homog::Affine;
-use pipeline::model::{AlphaMode, Material, Mesh, Model, Node, Primitive};
-use pipeline::scene::{Placed, parse};
-use pipeline::{Origin, Paint, Picture, Region, Scene, Timings, render};
+use homog::PixelRect;
+use model::ModelInstance;
+use model::{AlphaMode, Material, Mesh, Model, Node, Primitive};
+use pipeline::scene::parse;
+use pipeline::{Origin, Paint, Picture, Scene, Timings, render};
 use std::sync::Arc;
 
 type Place = [f32; 3];
@@ -83,7 +85,7 @@ fn ball(center: Place, radius: f32, rows: u32) -> Primitive {
 fn scene(parts: Vec<(Primitive, Material)>, rest: &str) -> Scene {
     let text = format!(r#"Scene(models: [(path: "made")], {rest})"#);
     let file = parse("made.ron", &text).expect("a scene");
-    let placed = Placed { model: Arc::new(model(parts)), model_to_world: Affine::IDENTITY };
+    let placed = ModelInstance { model: Arc::new(model(parts)), model_to_world: Affine::IDENTITY };
     let origin = Origin::of_text("made.ron", text, ".".into());
     Scene::of_models(&origin, &file, vec![placed]).expect("a scene that makes sense")
 }
@@ -280,8 +282,12 @@ fn place_of(x: f64, z: f64) -> (u32, u32) {
         vec![(ball([0.0, 1.0, 0.0], 0.5, 60), matt(0.8, 0.8, 0.8))],
         "camera: (view: LookAt(eye: (0, 4, 6), target: (0, 0.5, 0))), image: (size: (300, 200))",
     );
-    let seen =
-        scene.shot.world_to_clip().point(homog::Point::new(x, 0.0, z)).divide().expect("a place");
+    let seen = scene
+        .view_projection
+        .world_to_clip()
+        .point(homog::Point::new(x, 0.0, z))
+        .divide()
+        .expect("a place");
     ((150.0 * (1.0 + seen.x())) as u32, (100.0 * (1.0 - seen.y())) as u32)
 }
 
@@ -359,7 +365,7 @@ fn occlusion_has_no_stripes_beside_sharp_edges() {
     );
     let timings = Timings::default();
     let mut paint = Paint::new(&scene, 2, &timings).expect("a scene");
-    let region = Region { x: 545, y: 570, width: 110, height: 60 };
+    let region = PixelRect { x: 545, y: 570, width: 110, height: 60 };
     let picture: Picture<u16> = paint.region(region).expect("a region");
     let code =
         |x: u32, y: u32| f64::from(picture.pixels[(y * region.width + x) as usize][0]) / 257.0;

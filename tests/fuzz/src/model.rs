@@ -2,11 +2,11 @@
 
 use crate::{glb, promises};
 use homog::Affine;
-use pipeline::import::{
+use model::import::{
     Choice, Images, ImportError, ImportOptions, Limits, check_bytes, load_bytes,
 };
-use pipeline::model::Model;
-use pipeline::scene::Placed;
+use model::Model;
+use model::ModelInstance;
 use pipeline::scene::file::{
     CameraChoice, FromFile, SceneFile, StyleFile, USUAL_PADDING, ViewFile,
 };
@@ -96,7 +96,7 @@ fn draw(model: &Model, style: StyleFile, view: ViewFile) {
     file.camera.view = view;
     let origin =
         Origin::of_text("model.glb", "", PathBuf::new());
-    let placed = Placed { model: Arc::new(model.clone()), model_to_world: Affine::IDENTITY };
+    let placed = ModelInstance { model: Arc::new(model.clone()), model_to_world: Affine::IDENTITY };
     // A model with nothing to see has no picture, and the error says so.
     match Scene::of_models(&origin, &file, vec![placed]) {
         Ok(scene) => {

@@ -4,7 +4,7 @@
 //! every map of the materials, an environment, no shadows.
 
 use crate::measure::{Contestant, Series, rounds};
-use pipeline::model::{
+use model::{
     Anisotropy, Clearcoat, Iridescence, MaterialExtensions, Sheen, Transmission, Volume,
 };
 use pipeline::scene::{ResolveOptions, Scene, parse};

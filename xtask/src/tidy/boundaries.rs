@@ -8,11 +8,11 @@ use crate::workspace::{read, root};
 /// Crates that only one part may name, so that they can be exchanged, and the paths that part
 /// begins with.
 const NAMED_BY: &[(&str, &[&str])] = &[
-    ("gltf", &["crates/pipeline/src/import"]),
+    ("gltf", &["crates/model/src/import"]),
     ("ron", &["crates/pipeline/src/scene"]),
     ("serde", &["crates/pipeline/src/scene"]),
-    ("tiny_skia", &["crates/pipeline/src/canvas", "crates/raster/examples/pixmap.rs"]),
-    ("clap", &["crates/pipeline/src/cli", "crates/pipeline/src/main.rs"]),
+    ("tiny_skia", &["crates/drawing/src/canvas", "crates/raster/examples/pixmap.rs"]),
+    ("clap", &["crates/alberti/src"]),
 ];
 
 /// The stages: no stage knows another, and all that a stage may depend on.
@@ -103,7 +103,7 @@ mod tests {
             places("crates/pipeline/src/scene/file.rs"),
             ["crates/pipeline/src/scene/file.rs:2"]
         );
-        assert_eq!(places("crates/pipeline/src/import/mesh.rs"), [""; 0]);
+        assert_eq!(places("crates/model/src/import/mesh.rs"), [""; 0]);
     }
 
     #[test]

@@ -23,11 +23,7 @@ impl Source {
 
     /// Whether the file belongs to a library crate, not to a program, a test or an example.
     pub fn is_library(&self) -> bool {
-        let program = [
-            "crates/pipeline/src/main.rs",
-            "crates/pipeline/src/cli.rs",
-            "crates/pipeline/src/cli/",
-        ];
+        let program = ["crates/alberti/src/"];
         self.path.starts_with("crates/")
             && self.path.contains("/src/")
             && !program.iter().any(|part| self.path.starts_with(part))

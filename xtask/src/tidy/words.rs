@@ -97,10 +97,7 @@ mod tests {
 }
 "#;
         let places = |path: &str| printing(&Source::new(path, text)).len();
-        assert_eq!(
-            (places("crates/clip/src/a.rs"), places("crates/pipeline/src/cli/a.rs")),
-            (1, 0)
-        );
+        assert_eq!((places("crates/clip/src/a.rs"), places("crates/alberti/src/a.rs")), (1, 0));
     }
 
     #[test]

@@ -2,9 +2,7 @@
 
 use super::depth::{DepthRow, DepthTable};
 use super::number::short;
-use crate::drawing::{
-    Align, Axis, Chart, Curve, Group, Ink, Label, Layer, Mark, Page, Pen, Spacing,
-};
+use drawing::{Align, Axis, Chart, Curve, Group, Ink, Label, Layer, Mark, Page, Pen, Spacing};
 use glam::DVec2;
 use projection::DepthFormat;
 
@@ -157,7 +155,7 @@ fn table(cells: &[[String; 5]]) -> Layer {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::millimetres;
+    use drawing::millimetres;
     use projection::Convention;
 
     /// The drawn curve is the formula, F(D − N)/((F − N)D), to the micrometre of the page.

@@ -5,13 +5,14 @@
 
 use super::DemonstrationError;
 use super::number::short;
-use crate::drawing::{Panel, Panels};
 use crate::explain::formula_of;
-use crate::render::Shot;
 use crate::scene::file::{CameraFile, ProjectionFile, SceneFile};
-use crate::scene::{Origin, Placed, Scene};
+use crate::scene::{Origin, Scene};
+use camera::ViewProjection;
+use drawing::Panels;
 use glam::DVec2;
 use homog::{Clip, Projective, Vector, World};
+use model::ModelInstance;
 use projection::{
     Convention, Decomposed, ProjectionClass, Window, decompose, principal_vanishing_points,
 };
@@ -35,7 +36,7 @@ pub struct Member {
 pub fn compared(
     origin: &Origin,
     file: &SceneFile,
-    models: &[Placed],
+    models: &[ModelInstance],
     members: &[Member],
     threads: usize,
 ) -> Result<Panels, DemonstrationError> {
@@ -46,18 +47,23 @@ pub fn compared(
         let file = SceneFile { camera, ..file.clone() };
         let mut scene = Scene::of_models(origin, &file, models.to_vec())?;
         scene.image.background = [1.0; 4];
-        let panel = Panel::of(&scene, name, name.replace('-', " "), threads)?;
+        let panel = crate::render::render_panel(&scene, name, name.replace('-', " "), threads)?;
         let size = DVec2::new(scene.image.width.into(), scene.image.height.into());
-        panels.push(panel.noted(notes(projection, &scene.shot, size)));
+        panels.push(panel.noted(notes(projection, &scene.view_projection, size)));
         title = scene.title();
     }
     Ok(Panels::new(format!("{title}: planar projections"), panels))
 }
 
 /// Its place in the tree, its formulas, its numbers.
-fn notes(projection: &ProjectionFile, shot: &Shot, size: DVec2) -> Vec<String> {
-    let world_to_clip = shot.world_to_clip();
-    let found = decompose(shot.view_to_clip.raw(), Convention::CHAPTER).map(|found| found.kind);
+fn notes(
+    projection: &ProjectionFile,
+    view_projection: &ViewProjection,
+    size: DVec2,
+) -> Vec<String> {
+    let world_to_clip = view_projection.world_to_clip();
+    let found =
+        decompose(view_projection.view_to_clip.raw(), Convention::CHAPTER).map(|found| found.kind);
     let is_parallel = AXES.iter().all(|(_, axis)| world_to_clip.direction(*axis).w() == 0.0);
     let volume = found.ok().and_then(|kind| volume(&kind));
     let class = class_of(projection, world_to_clip);
@@ -69,7 +75,7 @@ fn notes(projection: &ProjectionFile, shot: &Shot, size: DVec2) -> Vec<String> {
         None if is_parallel => drawn_axes(world_to_clip, size, None),
         None => vanishing(world_to_clip, size),
     };
-    vec![place_in_tree(class), format!("formulas {}", formulas(class, shot)), numbers]
+    vec![place_in_tree(class), format!("formulas {}", formulas(class, view_projection)), numbers]
 }
 
 /// The classes from below the root to this one.
@@ -103,7 +109,7 @@ fn class_of(projection: &ProjectionFile, map: Projective<World, Clip>) -> Projec
 }
 
 /// The formulas of the matrix, and before them those of what the projection is by its name.
-fn formulas(class: ProjectionClass, shot: &Shot) -> String {
+fn formulas(class: ProjectionClass, view_projection: &ViewProjection) -> String {
     let named = match class {
         ProjectionClass::Multiview => "MV-1",
         _ if class.ancestors().any(|above| above == ProjectionClass::Axonometric) => "AX-1",
@@ -111,7 +117,7 @@ fn formulas(class: ProjectionClass, shot: &Shot) -> String {
         _ if class.ancestors().any(|above| above == ProjectionClass::Perspective) => "VN-1",
         _ => "",
     };
-    let of_matrix = formula_of(shot.view_to_clip).unwrap_or_default();
+    let of_matrix = formula_of(view_projection.view_to_clip).unwrap_or_default();
     let mut all: Vec<&str> = Vec::new();
     let each = named.split(", ").chain(of_matrix.split(", "));
     each.filter(|id| !id.is_empty()).for_each(|id| {

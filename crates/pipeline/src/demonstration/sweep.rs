@@ -7,10 +7,10 @@ mod step;
 
 use super::DemonstrationError;
 use super::number::short;
-use crate::drawing::{Overlay, Page, Panel, Panels};
-use crate::render::Shot;
 use crate::scene::Scene;
+use camera::ViewProjection;
 use camera::{NamedView, frame_parallel};
+use drawing::{Overlay, Page, Panel, Panels};
 use glam::DVec2;
 use homog::HPoint;
 use projection::{Convention, Orthographic};
@@ -135,7 +135,10 @@ impl Sweep {
     ///
     /// # Errors
     /// If the scene's projection has no such parameter, or a value makes no sense.
-    pub fn shots(&self, scene: &Scene) -> Result<Vec<(Shot, String)>, DemonstrationError> {
+    pub fn shots(
+        &self,
+        scene: &Scene,
+    ) -> Result<Vec<(ViewProjection, String)>, DemonstrationError> {
         let base = Base::of(scene, self.vary)?;
         self.values().into_iter().map(|value| base.at(self.vary, value)).collect()
     }
@@ -150,10 +153,17 @@ impl Sweep {
         let shots = self.shots(&scene)?;
         let observer = if self.volumes { observer(&scene, &shots) } else { None };
         let mut panels = Vec::new();
-        for (number, ((shot, note), value)) in shots.iter().zip(self.values()).enumerate() {
-            scene.shot = *shot;
+        for (number, ((view_projection, note), value)) in
+            shots.iter().zip(self.values()).enumerate()
+        {
+            scene.view_projection = *view_projection;
             let title = format!("{} {}", self.vary, short(value, 4));
-            let mut panel = Panel::of(&scene, format!("step-{}", number + 1), title, threads)?;
+            let mut panel = crate::render::render_panel(
+                &scene,
+                format!("step-{}", number + 1),
+                title,
+                threads,
+            )?;
             if let Some(observer) = observer {
                 panel = with_volume(panel, &scene, observer, threads)?;
             }
@@ -168,13 +178,13 @@ impl Sweep {
 fn with_volume(
     view: Panel,
     scene: &Scene,
-    observer: Shot,
+    observer: ViewProjection,
     threads: usize,
 ) -> Result<Panel, DemonstrationError> {
     let mut aside = scene.clone();
-    aside.overlays = vec![Overlay::Volume(Box::new(scene.shot))];
-    aside.shot = observer;
-    let volume = Panel::of(&aside, "volume", "view volume", threads)?.page;
+    aside.overlays = vec![Overlay::Volume(Box::new(scene.view_projection))];
+    aside.view_projection = observer;
+    let volume = crate::render::render_panel(&aside, "volume", "view volume", threads)?.page;
     let size = view.page.size;
     let below = size.y + GAP;
     let mut page = Page::new(DVec2::new(size.x, below + size.y), view.page.title.clone(), None);
@@ -184,14 +194,14 @@ fn with_volume(
 }
 
 /// A camera that sees the models, all eyes and all windows from a corner, in parallel projection; `None` if there are no models.
-fn observer(scene: &Scene, shots: &[(Shot, String)]) -> Option<Shot> {
+fn observer(scene: &Scene, shots: &[(ViewProjection, String)]) -> Option<ViewProjection> {
     let mut points = scene.world_points();
-    for (shot, _) in shots {
-        let clip_to_world = shot.world_to_clip().inverse()?;
+    for (view_projection, _) in shots {
+        let clip_to_world = view_projection.world_to_clip().inverse()?;
         let corners = [-1.0, 1.0].map(|x| [-1.0, 1.0].map(|y| HPoint::new(x, y, 1.0, 1.0)));
         let near = corners.as_flattened().iter();
         points.extend(near.filter_map(|&corner| clip_to_world.hpoint(corner).divide()));
-        points.push(shot.camera.eye());
+        points.push(view_projection.camera.eye());
     }
     let aspect = f64::from(scene.image.width) / f64::from(scene.image.height);
     let framed = frame_parallel(points.iter().copied(), NamedView::Trimetric.basis(), aspect, 0.08);
@@ -205,7 +215,7 @@ fn observer(scene: &Scene, shots: &[(Shot, String)]) -> Option<Shot> {
         framed.far,
     );
     let view_to_clip = volume.ok()?.view_to_clip(Convention::CHAPTER);
-    Some(Shot { camera: framed.camera, view_to_clip })
+    Some(ViewProjection { camera: framed.camera, view_to_clip })
 }
 
 #[cfg(test)]

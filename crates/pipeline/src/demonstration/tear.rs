@@ -12,10 +12,10 @@
 
 use super::DemonstrationError;
 use super::number::short;
-use crate::drawing::{Align, Group, Ink, Label, Layer, LineType, Page, Panel, Panels, Pen};
-use crate::drawing::{Cap, Join, Polyline};
 use camera::Camera;
 use clip::{Volume, clip_convex, clip_segment};
+use drawing::{Align, Group, Ink, Label, Layer, LineType, Page, Panel, Panels, Pen};
+use drawing::{Cap, Join, Polyline};
 use glam::DVec2;
 use homog::{Clip, HPoint, Ndc, Point, Projective, Vector, World};
 use projection::{Convention, Fov, Perspective};
@@ -229,7 +229,7 @@ fn thin(mut layer: Layer) -> Layer {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::millimetres;
+    use drawing::millimetres;
 
     fn heights(panel: &Panel, layer: &str) -> Vec<f64> {
         let found = panel.page.layers.iter().filter(|found| found.id == layer);

@@ -8,8 +8,8 @@ use super::conventions::Conventions;
 use super::factors;
 use super::text::number;
 use super::{Item, Step, Value};
-use crate::render::Shot;
 use camera::Camera;
+use camera::ViewProjection;
 use clip::{Outcode, Volume};
 use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, Screen, View, World};
 use viewport::{Viewport, ViewportError};
@@ -34,17 +34,17 @@ impl Chain {
     /// # Errors
     /// If the picture has no pixels.
     pub fn of(
-        shot: &Shot,
+        view_projection: &ViewProjection,
         (width, height): (u32, u32),
         conventions: Conventions,
     ) -> Result<Self, ViewportError> {
         let ours = Conventions::Alberti.volume();
         Ok(Self {
-            camera: shot.camera,
-            view_to_clip: ours.convert(conventions.volume(), shot.view_to_clip),
+            camera: view_projection.camera,
+            view_to_clip: ours.convert(conventions.volume(), view_projection.view_to_clip),
             conventions,
             viewport: conventions.viewport(width, height)?,
-            mirrors: shot.mirrors(),
+            mirrors: view_projection.mirrors(),
         })
     }
 

@@ -5,10 +5,10 @@
 use super::chain::Chain;
 use super::text::number;
 use super::{Explanation, Value};
-use crate::Picture;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use homog::HPoint;
+use shade::Picture;
 
 /// Width and height of a figure, and the room around what it shows, in its own units.
 const SIZE: [f64; 2] = [300.0, 220.0];

@@ -4,7 +4,7 @@ use super::chain::Chain;
 use super::figures::figures;
 use super::text::number;
 use super::{Explanation, Item, Step, Value};
-use crate::Picture;
+use shade::Picture;
 
 impl Explanation {
     /// The explanation as an HTML page. `chain` is the one that was explained; `picture`, of any size and the same sides as the

@@ -4,17 +4,17 @@ use super::chain::{Chain, planes};
 use super::place::{node_name, to_point};
 use super::text::number;
 use super::{Explanation, Step};
-use crate::model::{AlphaMode, Instance, Model, Primitive, Topology};
-use crate::scene::Placed;
 use clip::{Outcode, PlaneIndex};
 use glam::DVec3;
 use homog::{Clip, HPoint, Point, World};
+use model::ModelInstance;
+use model::{AlphaMode, Instance, Model, Primitive, Topology};
 
 /// Tells what becomes of all that a node shows.
 ///
 /// That something stands in front of it is not looked at: what is hidden has come through all of these stages.
 #[must_use]
-pub fn explain_node(chain: &Chain, placed: &Placed, node: usize) -> Explanation {
+pub fn explain_node(chain: &Chain, placed: &ModelInstance, node: usize) -> Explanation {
     let model = &placed.model;
     let subject = node_name(model, node);
     let mut steps = vec![tree_step(model, node)];
@@ -93,7 +93,13 @@ struct Fates {
 }
 
 impl Fates {
-    fn count(&mut self, chain: &Chain, placed: &Placed, instance: Instance, primitive: &Primitive) {
+    fn count(
+        &mut self,
+        chain: &Chain,
+        placed: &ModelInstance,
+        instance: Instance,
+        primitive: &Primitive,
+    ) {
         let posed = placed.model.posed(instance, primitive);
         let to_world = posed.to_model.then(placed.model_to_world);
         let world: Vec<Point<World>> =

@@ -3,10 +3,10 @@
 use super::chain::Chain;
 use super::place::{node_name, to_point};
 use super::{Explanation, Step};
-use crate::model::Topology;
 use crate::render::{Owner, PixelMakeup, SeenFragment, pixel};
 use crate::scene::Scene;
 use homog::{Point, World};
+use model::Topology;
 
 /// Tells why a pixel, counted from the upper left corner, has its colour.
 ///
@@ -68,7 +68,7 @@ fn owner_name(scene: &Scene, owner: Owner) -> String {
     )
 }
 
-fn shown(scene: &Scene, owner: Owner) -> Option<&crate::model::Primitive> {
+fn shown(scene: &Scene, owner: Owner) -> Option<&model::Primitive> {
     let model = &scene.models.get(owner.model)?.model;
     let mesh = model.meshes.get(model.nodes.get(owner.node)?.mesh?)?;
     mesh.primitives.get(owner.primitive)

@@ -3,9 +3,9 @@
 use super::chain::{Chain, planes};
 use super::text::number;
 use super::{Explanation, Step};
-use crate::model::{Instance, Model};
-use crate::scene::Placed;
 use homog::{Affine, Model as ModelSpace, Point, World};
+use model::ModelInstance;
+use model::{Instance, Model};
 
 /// Tells the maps themselves, without anything that passes them.
 #[must_use]
@@ -44,7 +44,7 @@ pub struct Vertex {
 /// If the model does not show such a vertex; the text says what there is.
 pub fn explain_vertex(
     chain: &Chain,
-    placed: &Placed,
+    placed: &ModelInstance,
     vertex: Vertex,
 ) -> Result<Explanation, String> {
     let (instance, primitive) = shown_primitive(&placed.model, vertex.node, vertex.primitive)?;
@@ -89,7 +89,7 @@ fn through(
 
 /// The way of points of a mesh to the world.
 pub(super) fn model_step(
-    placed: &Placed,
+    placed: &ModelInstance,
     to_model: Affine<ModelSpace, ModelSpace>,
     points: &[(&str, Point<ModelSpace>)],
 ) -> Step {
@@ -115,7 +115,7 @@ pub(super) fn shown_primitive(
     model: &Model,
     node: usize,
     primitive: usize,
-) -> Result<(Instance, &crate::model::Primitive), String> {
+) -> Result<(Instance, &model::Primitive), String> {
     let instance = model.shown_meshes().find(|instance| instance.node == node);
     let instance = instance.ok_or_else(|| {
         let shown: Vec<String> =

@@ -4,10 +4,10 @@ use super::chain::{Chain, planes};
 use super::place::{model_step, node_name, shown_primitive, to_point};
 use super::text::number;
 use super::{Explanation, Step};
-use crate::model::Topology;
-use crate::scene::Placed;
 use clip::{ClippedPolygon, clip_triangle};
 use glam::DVec2;
+use model::ModelInstance;
+use model::Topology;
 
 /// Follows a triangle of a model through every stage.
 ///
@@ -15,7 +15,7 @@ use glam::DVec2;
 /// If the model does not show such a triangle; the text says what there is.
 pub fn explain_triangle(
     chain: &Chain,
-    placed: &Placed,
+    placed: &ModelInstance,
     node: usize,
     primitive: usize,
     number_of: usize,

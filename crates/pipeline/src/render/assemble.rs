@@ -7,13 +7,14 @@ use super::renderer::Memory;
 use super::stage::{Stage, all};
 use super::textures::Textures;
 use super::vertices::{Parts, tangents};
-use crate::model::{Instance, Material, Posed, Primitive, TextureSlot, TextureUse, Topology};
-use crate::scene::{Placed, Scene};
-use crate::shade::{Draw, Maps, MipChain, Role};
+use crate::scene::Scene;
 use clip::{Outcode, clip_triangle};
 use glam::DVec3;
 use homog::{Affine, Clip, HPoint, Model, World};
+use model::ModelInstance;
+use model::{Instance, Material, Posed, Primitive, TextureSlot, TextureUse, Topology};
 use raster::{Cover, Cull, Frame, signed_area};
+use shade::{Draw, Maps, MipChain, Role};
 use std::ops::Range;
 
 /// The width of lines that a file draws, in pixels: glTF gives none.
@@ -41,7 +42,7 @@ pub(super) fn assemble_as<'a>(
 ) -> Result<Memory<'a>, RenderError> {
     let mut assembler = Assembler {
         stage: Stage::of(scene, memory.sheet)?,
-        viewer: scene.shot.viewer(),
+        viewer: scene.view_projection.viewer(),
         needs: Needs::of(scene.style, cover),
         anisotropy: scene.image.anisotropy,
         threads,
@@ -91,7 +92,7 @@ impl<'a> Assembler<'a> {
     /// Adds what of one primitive may be seen to the frame, and what its vertices carry to the draws.
     fn draw(
         &mut self,
-        placed: &'a Placed,
+        placed: &'a ModelInstance,
         instance: Instance,
         primitive: &'a Primitive,
         texture: impl Fn(TextureSlot, TextureUse) -> Option<&'a MipChain<'a>>,

@@ -2,12 +2,13 @@
 
 use super::RenderError;
 use super::assemble::{Assembler, BACKDROP, DEFAULT_MATERIAL};
-use super::region::Region;
-use crate::model::Primitive;
-use crate::scene::{ImageSpec, Painting};
-use crate::shade::{Draw, Maps, PLACE, Role, Tangents, Vertex};
+use crate::scene::ImageSpec;
+use homog::PixelRect;
 use homog::{Ndc, Point};
+use model::Primitive;
 use raster::{Cover, Cull, ScreenVertex};
+use shade::Painting;
+use shade::{Draw, Maps, PLACE, Role, Tangents, Vertex};
 
 /// The corners of the picture in the canonical volume: lower left, lower right, upper right, upper left.
 const CORNERS: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
@@ -29,7 +30,7 @@ impl Assembler<'_> {
         painting: &Painting,
         image: ImageSpec,
     ) -> Result<(), RenderError> {
-        let Region { x, y, width, height } = self.memory.sheet.area;
+        let PixelRect { x, y, width, height } = self.memory.sheet.area;
         let part = |at: u32, of: u32| (f64::from(at) / f64::from(of)) as f32;
         let (left, right) = (part(x, image.width), part(x + width, image.width));
         let (top, bottom) = (part(y, image.height), part(y + height, image.height));

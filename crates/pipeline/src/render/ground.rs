@@ -4,9 +4,9 @@ use super::RenderError;
 use super::assemble::{Assembler, BACKDROP, DEFAULT_MATERIAL, triangle};
 use super::renderer::Memory;
 use crate::scene::Ground;
-use crate::shade::{Draw, Maps, PLACE, Role, Tangents};
 use homog::Affine;
 use raster::Cover;
+use shade::{Draw, Maps, PLACE, Role, Tangents};
 
 impl Assembler<'_> {
     /// Adds the ground. It reaches behind the far plane and before the near one, which enclose the models tightly.

@@ -5,10 +5,10 @@
 //! a cluster reaches beyond the volume and its guard band do they stop in clip space, to be clipped.
 
 use super::stage::{Stage, Whereabouts};
-use crate::model::{Posed, Primitive, Topology};
 use clip::Outcode;
 use core::ops::Range;
 use homog::{Clip, HPoint, Model, Projective};
+use model::{Posed, Primitive, Topology};
 use raster::{Instructions, ScreenVertex, Selection};
 use std::borrow::Cow;
 

@@ -1,14 +1,15 @@
 //! Line drawings of a scene: from the models to the page that every output writes.
 
 use super::RenderError;
-use crate::Timings;
-use crate::color::SrgbEncoder;
-use crate::drawing::{
-    self, Ink, Layer, LineLook, MILLIMETRES_PER_PIXEL, Overlay, Page, Pasted, Warning, Widths,
+use crate::scene::{ImageSpec, Scene, Style};
+use drawing::{
+    Ink, Layer, LineLook, MILLIMETRES_PER_PIXEL, Overlay, Page, Pasted, Warning, Widths,
     micrometres,
 };
-use crate::scene::{ImageSpec, Painting, Scene, Style};
 use glam::DVec2;
+use model::Timings;
+use shade::Painting;
+use shade::color::SrgbEncoder;
 
 /// The most pixels along a side of a picture that lies under lines.
 const MOST_PASTED: u32 = 4096;
@@ -25,11 +26,12 @@ const INK: Ink = [20, 24, 30];
 /// As [`render`](crate::render()).
 pub fn draw(scene: &Scene, threads: usize, timings: &Timings) -> Result<Page, RenderError> {
     let look = scene.style.line_look();
-    let drawing = timings.measure("lines", || drawing::draw(scene, &look.options(), threads))?;
+    let drawing =
+        timings.measure("lines", || drawing::draw(&scene.subject(), &look.options(), threads))?;
     let page = || {
         let mut page = drawing.to_page(&look, &scene.title(), paper(scene.image.background));
         page.pictures.extend(scene.painting.as_ref().map(|all| pasted(all, scene.image)));
-        page.layers.extend(drawing::overlays(scene));
+        page.layers.extend(scene_overlays(scene));
         page.warnings.extend((!scene.views.is_empty()).then_some(Warning::ViewportsUnseen));
         page
     };
@@ -59,8 +61,13 @@ pub(super) fn over_surfaces(scene: &Scene, threads: usize) -> Result<Vec<Layer>,
         }
         _ => return Ok(Vec::new()),
     };
-    let drawing = drawing::draw(scene, &look.options(), threads)?;
+    let drawing = drawing::draw(&scene.subject(), &look.options(), threads)?;
     Ok(drawing.to_page(&look, "", None).layers)
+}
+
+/// The layers of all overlays of a scene, on a page of the picture's size.
+pub(super) fn scene_overlays(scene: &Scene) -> Vec<Layer> {
+    drawing::overlays(&scene.subject(), &scene.overlays, scene.style.line_look().hidden)
 }
 
 /// What is painted behind the models as a picture of the size of the page.

@@ -1,8 +1,8 @@
 //! What a style needs of primitives: what their vertices must carry, what covers what, which sides are seen.
 
 use super::vertices::uv_set;
-use crate::model::{AlphaMode, Material, Primitive};
 use crate::scene::Style;
+use model::{AlphaMode, Material, Primitive};
 use raster::Cover;
 
 /// What a style needs.

@@ -1,13 +1,13 @@
 //! What of a frame occlusion in screen space is told from.
 
-use super::region::{Region, sheets};
+use super::region::sheets;
 use super::shadows::Casters;
 use super::stage::Stage;
 use super::{RenderError, Renderer, Textures};
 use crate::render::assemble::assemble;
 use crate::scene::Scene;
-use crate::shade::{DrawList, ScreenSpace};
 use raster::{Frame, Nearest};
+use shade::{DrawList, ScreenSpace};
 
 /// The nearest surfaces of a frame that holds a scene, if its scene asks for occlusion; in memory that was used before.
 pub(super) fn screen_space(
@@ -24,13 +24,14 @@ pub(super) fn screen_space(
     let (width, height) = (scene.image.width, scene.image.height);
     nearest.resize(width as usize * height as usize, Nearest::NOTHING);
     frame.nearest(&Casters(draws), threads, &mut nearest);
-    let stage = Stage::new(&scene.shot, width, height)?;
-    let world_to_screen = stage.ndc_to_screen.raw() * scene.shot.world_to_clip().raw();
+    let stage = Stage::new(&scene.view_projection, width, height)?;
+    let world_to_screen = stage.ndc_to_screen.raw() * scene.view_projection.world_to_clip().raw();
     // The middle of the view volume is near everything that is seen.
-    let middle = scene.shot.world_to_clip().raw().inverse() * glam::DVec4::new(0.0, 0.0, 0.0, 1.0);
+    let middle = scene.view_projection.world_to_clip().raw().inverse()
+        * glam::DVec4::new(0.0, 0.0, 0.0, 1.0);
     let middle = middle.truncate() / middle.w;
-    let origin = if middle.is_finite() { middle } else { scene.shot.camera.eye().raw() };
-    let across = scene.shot.camera.u().raw();
+    let origin = if middle.is_finite() { middle } else { scene.view_projection.camera.eye().raw() };
+    let across = scene.view_projection.camera.u().raw();
     let size = [width, height];
     Ok(Some(ScreenSpace::new(nearest, size, world_to_screen, origin, across, radius)))
 }
@@ -44,7 +45,7 @@ pub(super) fn whole_screen_space(
     if scene.occlusion_radius.is_none() {
         return Ok(None);
     }
-    let [whole] = sheets(scene.image, Region::whole(scene.image))[..] else {
+    let [whole] = sheets(scene.image, scene.image.rect())[..] else {
         return Err(RenderError::OcclusionTooLarge);
     };
     let memory = Renderer::default().lend(scene, whole, threads)?;

@@ -5,14 +5,14 @@
 //! not by the picture.
 
 use super::occlusion::whole_screen_space;
-use super::region::Region;
 use super::renderer::Renderer;
 use super::{RenderError, Textures, lines};
-use crate::drawing::{Layer, Page, Warning, overlays};
-use crate::output::encode_png;
 use crate::scene::{Scene, View};
-use crate::shade::ScreenSpace;
 use crate::{Channel, Picture, Timings};
+use drawing::{Layer, Page, Warning, draw_over};
+use homog::PixelRect;
+use shade::ScreenSpace;
+use shade::encode_png;
 use std::io::{self, Write};
 use std::sync::Arc;
 
@@ -77,7 +77,7 @@ impl<'a> Paint<'a> {
         warnings
             .extend((surfaces && !scene.sections.is_empty()).then_some(Warning::SectionsUnseen));
         let mut layers = lines::over_surfaces(scene, threads)?;
-        layers.extend(if surfaces { overlays(scene) } else { Vec::new() });
+        layers.extend(if surfaces { lines::scene_overlays(scene) } else { Vec::new() });
         let inner = |view: &'a View| Self::with_textures(&view.scene, threads, timings, textures);
         let views = scene.views.iter().map(inner).collect::<Result<Vec<_>, _>>()?;
         let (renderer, occlusion, textures) = (Renderer::default(), None, Arc::clone(textures));
@@ -113,8 +113,8 @@ impl<'a> Paint<'a> {
     ///
     /// # Errors
     /// If it is empty, too large or not in the picture, or the scene holds too much.
-    pub fn region<C: Channel>(&mut self, region: Region) -> Result<Picture<C>, RenderError> {
-        region.check(self.scene.image)?;
+    pub fn region<C: Channel>(&mut self, region: PixelRect) -> Result<Picture<C>, RenderError> {
+        super::region::check_region(self.scene.image, region)?;
         let views = &self.scene.views;
         let mut picture = Picture::default();
         if View::fill(views, region) {
@@ -131,14 +131,14 @@ impl<'a> Paint<'a> {
     }
 
     /// A region of the picture without its views.
-    fn own_region<C: Channel>(&mut self, region: Region) -> Result<Picture<C>, RenderError> {
+    fn own_region<C: Channel>(&mut self, region: PixelRect) -> Result<Picture<C>, RenderError> {
         let Self { scene, threads, timings, textures, renderer, layers, occlusion, .. } = self;
         let size = [scene.image.width, scene.image.height];
         if let Some(page) = &self.page {
             return Ok(timings.measure("pixels", || page.to_region(size, region)));
         }
         let mut picture = Picture::default();
-        let is_part = region != Region::whole(scene.image);
+        let is_part = region != scene.image.rect();
         if is_part && occlusion.is_none() {
             *occlusion = whole_screen_space(scene, textures, *threads)?;
         }
@@ -156,7 +156,7 @@ impl<'a> Paint<'a> {
             occlusion,
             &mut picture,
         )?;
-        picture.draw_over(size, region, layers);
+        draw_over(&mut picture, size, region, layers);
         Ok(picture)
     }
 
@@ -168,7 +168,7 @@ impl<'a> Paint<'a> {
     pub fn write_png<C: Channel>(
         &mut self,
         out: impl Write,
-        region: Region,
+        region: PixelRect,
         rows: u32,
         mut witness: impl FnMut(&Picture<C>),
     ) -> Result<(), PaintError> {
@@ -194,7 +194,7 @@ impl<'a> Paint<'a> {
     /// Whether all bands are opaque. Over a background that is, all are; else they are drawn until a pixel is not.
     fn are_opaque<C: Channel>(
         &mut self,
-        bands: impl Iterator<Item = Region>,
+        bands: impl Iterator<Item = PixelRect>,
     ) -> Result<bool, RenderError> {
         if self.scene.has_opaque_background() {
             return Ok(true);

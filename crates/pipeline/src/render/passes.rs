@@ -19,12 +19,13 @@ pub use kind::{Pass, PassEncoding};
 
 use super::RenderError;
 use super::assemble::assemble_as;
-use super::region::{PartOfSheet, Region, sheets};
+use super::region::{PartOfSheet, sheets};
 use super::renderer::{Renderer, shading};
 use super::textures::Textures;
-use crate::Timings;
 use crate::scene::{Scene, Style};
 use geometry::{Geometry, Hit};
+use homog::PixelRect;
+use model::Timings;
 use raster::{Cover, Fragment, Samples, Surface};
 
 /// Draws the wanted passes of a region of a scene's picture with up to `threads` threads; their number does not change them.
@@ -35,12 +36,12 @@ use raster::{Cover, Fragment, Samples, Surface};
 /// As [`render`](crate::render()).
 pub fn passes(
     scene: &Scene,
-    region: Region,
+    region: PixelRect,
     wanted: &[Pass],
     threads: usize,
     timings: &Timings,
 ) -> Result<Vec<PassBuffer>, RenderError> {
-    region.check(scene.image)?;
+    super::region::check_region(scene.image, region)?;
     let textures = timings.measure("mip chains", || Textures::of(&scene.models));
     let mut buffers: Vec<_> = wanted.iter().map(|&pass| PassBuffer::empty(pass, region)).collect();
     for part in sheets(scene.image, region) {
@@ -109,7 +110,7 @@ impl Drawing<'_> {
         &self,
         samples: Samples,
         cover: Option<Cover>,
-        draw: impl FnOnce(&raster::Frame, &crate::shade::Shading<'_>),
+        draw: impl FnOnce(&raster::Frame, &shade::Shading<'_>),
     ) -> Result<(), RenderError> {
         let mut scene = self.scene.clone();
         (scene.image.samples, scene.image.backdrop) = (samples, None);

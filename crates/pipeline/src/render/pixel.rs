@@ -10,10 +10,10 @@ use super::region::PartOfSheet;
 use super::renderer::{Renderer, shading, styled};
 use super::shadows::ShadowMemory;
 use super::textures::Textures;
-use crate::color::SrgbEncoder;
-use crate::model::Model;
 use crate::scene::Scene;
+use model::Model;
 use raster::{Eight, Fragment, Fragments, Frame, Surface};
+use shade::color::SrgbEncoder;
 use std::sync::{Mutex, PoisonError};
 
 /// What one pixel of a picture is made of.
@@ -141,7 +141,7 @@ fn owner(scene: &Scene, id: u32) -> Option<Owner> {
 }
 
 /// The number of a primitive in the mesh of a node.
-fn number(model: &Model, node: usize, primitive: &crate::model::Primitive) -> Option<usize> {
+fn number(model: &Model, node: usize, primitive: &model::Primitive) -> Option<usize> {
     let mesh = model.meshes.get(model.nodes.get(node)?.mesh?)?;
     mesh.primitives.iter().position(|known| std::ptr::eq(known, primitive))
 }

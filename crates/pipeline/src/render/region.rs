@@ -11,7 +11,7 @@
 
 use super::RenderError;
 use crate::scene::{ImageSpec, Scene};
-use homog::{Clip, Projective, World};
+use homog::{Clip, PixelRect, Projective, World};
 use raster::MAX_SIDE as SHEET;
 use viewport::{Tile, Viewport};
 
@@ -21,91 +21,23 @@ pub const MAX_SIDE: u32 = 1 << 20;
 /// The most pixels that are held at once.
 const MOST_PIXELS: u64 = (SHEET as u64) * (SHEET as u64);
 
-/// A rectangle of whole pixels of a picture, counted from the upper left corner.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Region {
-    /// The first column.
-    pub x: u32,
-    /// The first row.
-    pub y: u32,
-    /// How many columns.
-    pub width: u32,
-    /// How many rows.
-    pub height: u32,
-}
-
-impl Region {
-    /// All of a picture.
-    #[must_use]
-    pub const fn whole(image: ImageSpec) -> Self {
-        Self { x: 0, y: 0, width: image.width, height: image.height }
+/// That the region is in the picture and can be held at once.
+pub(crate) fn check_region(image: ImageSpec, region: PixelRect) -> Result<(), RenderError> {
+    let whole = image.rect();
+    let fits = whole.width <= MAX_SIDE && whole.height <= MAX_SIDE;
+    let pixels = u64::from(region.width) * u64::from(region.height);
+    if !fits || whole.intersection(region) != Some(region) || pixels > MOST_PIXELS {
+        let PixelRect { x, y, width, height } = region;
+        return Err(raster::RasterError::Size { x, y, width, height }.into());
     }
-
-    /// The part that two regions share; `None` if there is none.
-    #[must_use]
-    pub fn and(self, other: Self) -> Option<Self> {
-        let (x, y) = (self.x.max(other.x), self.y.max(other.y));
-        let width = self.right().min(other.right()).checked_sub(x)?;
-        let height = self.bottom().min(other.bottom()).checked_sub(y)?;
-        (width > 0 && height > 0).then_some(Self { x, y, width, height })
-    }
-
-    /// The band with this number of so many that divide the region from the top, whose heights differ by one at most. A region with
-    /// fewer rows than bands has empty ones.
-    #[must_use]
-    pub fn band(self, number: u32, count: u32) -> Self {
-        let row = |n: u32| {
-            let rows = u64::from(self.height) * u64::from(n) / u64::from(count.max(1));
-            rows as u32
-        };
-        let (from, to) = (row(number), row(number.saturating_add(1)));
-        Self { y: self.y + from, height: to - from, ..self }
-    }
-
-    /// The bands of `rows` rows that it consists of, from the top; the last may be lower. They begin at multiples of `rows` in the
-    /// picture.
-    pub fn bands(self, rows: u32) -> impl Iterator<Item = Self> {
-        let rows = rows.max(1);
-        let mut next = self.y;
-        std::iter::from_fn(move || {
-            let from = next;
-            next = (from / rows + 1).saturating_mul(rows).min(self.bottom());
-            (from < next).then(|| Self { y: from, height: next - from, ..self })
-        })
-    }
-
-    /// How many pixels it has.
-    #[must_use]
-    pub const fn area(self) -> usize {
-        self.width as usize * self.height as usize
-    }
-
-    const fn right(self) -> u32 {
-        self.x.saturating_add(self.width)
-    }
-
-    const fn bottom(self) -> u32 {
-        self.y.saturating_add(self.height)
-    }
-
-    /// That the region is in the picture and can be held at once.
-    pub(crate) fn check(self, image: ImageSpec) -> Result<(), RenderError> {
-        let whole = Self::whole(image);
-        let fits = whole.width <= MAX_SIDE && whole.height <= MAX_SIDE;
-        let pixels = u64::from(self.width) * u64::from(self.height);
-        if !fits || whole.and(self) != Some(self) || pixels > MOST_PIXELS {
-            let Self { x, y, width, height } = self;
-            return Err(raster::RasterError::Size { x, y, width, height }.into());
-        }
-        Ok(())
-    }
+    Ok(())
 }
 
 /// A sheet of a picture.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Sheet {
     /// Its pixels in the picture.
-    pub(super) area: Region,
+    pub(super) area: PixelRect,
     /// Width and height of the picture, if it has more than this sheet.
     of: Option<[u32; 2]>,
 }
@@ -116,9 +48,9 @@ impl Sheet {
         &self,
         scene: &Scene,
     ) -> Result<Projective<World, Clip>, RenderError> {
-        let world_to_clip = scene.shot.world_to_clip();
+        let world_to_clip = scene.view_projection.world_to_clip();
         let Some([width, height]) = self.of else { return Ok(world_to_clip) };
-        let Region { x, y, width: across, height: down } = self.area;
+        let PixelRect { x, y, width: across, height: down } = self.area;
         let tile = Tile { x, y, width: across, height: down };
         let narrowed = Viewport::image(width, height)?.pick_matrix(tile.area())?;
         Ok(Projective::from_raw(narrowed.raw() * world_to_clip.raw()))
@@ -130,13 +62,13 @@ impl Sheet {
 pub(super) struct PartOfSheet {
     pub(super) sheet: Sheet,
     /// Its pixels in the picture.
-    pub(super) shown: Region,
+    pub(super) shown: PixelRect,
 }
 
 impl PartOfSheet {
     /// A pixel of a picture.
     pub(super) fn of_pixel(image: ImageSpec, [x, y]: [u32; 2]) -> Self {
-        let shown = Region { x, y, width: 1, height: 1 };
+        let shown = PixelRect { x, y, width: 1, height: 1 };
         Self { sheet: sheet_at(image, [x / SHEET, y / SHEET]), shown }
     }
 
@@ -155,7 +87,7 @@ impl PartOfSheet {
     }
 
     /// Copies its pixels to their places among those of a region.
-    pub(super) fn put<P: Copy>(&self, pixels: &[P], region: Region, all: &mut [P]) {
+    pub(super) fn put<P: Copy>(&self, pixels: &[P], region: PixelRect, all: &mut [P]) {
         let (width, across) = (self.shown.width as usize, region.width as usize);
         let left = (self.shown.x - region.x) as usize;
         let top = (self.shown.y - region.y) as usize;
@@ -167,12 +99,12 @@ impl PartOfSheet {
 }
 
 /// What a region has of each sheet of the picture: of most pictures there is only one.
-pub(super) fn sheets(image: ImageSpec, region: Region) -> Vec<PartOfSheet> {
+pub(super) fn sheets(image: ImageSpec, region: PixelRect) -> Vec<PartOfSheet> {
     let (columns, rows) = (image.width.div_ceil(SHEET), image.height.div_ceil(SHEET));
     let places = (0..rows).flat_map(|row| (0..columns).map(move |column| [column, row]));
     let parts = places.filter_map(|place| {
         let sheet = sheet_at(image, place);
-        sheet.area.and(region).map(|shown| PartOfSheet { sheet, shown })
+        sheet.area.intersection(region).map(|shown| PartOfSheet { sheet, shown })
     });
     parts.collect()
 }
@@ -182,7 +114,7 @@ fn sheet_at(image: ImageSpec, [column, row]: [u32; 2]) -> Sheet {
     let (width, height) = (SHEET.min(image.width - x), SHEET.min(image.height - y));
     let is_whole = [width, height] == [image.width, image.height];
     let of = (!is_whole).then_some([image.width, image.height]);
-    Sheet { area: Region { x, y, width, height }, of }
+    Sheet { area: PixelRect { x, y, width, height }, of }
 }
 
 #[cfg(test)]
@@ -196,23 +128,9 @@ mod tests {
     }
 
     #[test]
-    fn bands_begin_at_multiples_and_divide_a_region_without_gap() {
-        let region = Region { x: 3, y: 70, width: 5, height: 200 };
-        let bands: Vec<_> = region.bands(64).collect();
-        assert_eq!(
-            bands.iter().map(|b| [b.y, b.height]).collect::<Vec<_>>(),
-            [[70, 58], [128, 64], [192, 64], [256, 14]]
-        );
-        let parts: Vec<_> = (0..7).map(|n| region.band(n, 7)).collect();
-        assert_eq!(parts.iter().map(|band| band.height).sum::<u32>(), 200);
-        assert!(parts.windows(2).all(|pair| pair[0].bottom() == pair[1].y));
-        assert!(parts.iter().all(|band| band.height.abs_diff(200 / 7) <= 1));
-    }
-
-    #[test]
     fn a_region_is_cut_where_sheets_meet() {
         let image = image(20_000, 40_000);
-        let region = Region { x: 16_000, y: 16_300, width: 1000, height: 100 };
+        let region = PixelRect { x: 16_000, y: 16_300, width: 1000, height: 100 };
         let parts = sheets(image, region);
         assert_eq!(parts.iter().map(PartOfSheet::area).sum::<usize>(), region.area());
         assert_eq!(parts.len(), 4);
@@ -228,11 +146,11 @@ mod tests {
 
     #[test]
     fn what_is_not_in_the_picture_or_too_much_is_refused() {
-        let wrong = Region { x: 90, y: 0, width: 20, height: 10 };
-        assert!(wrong.check(image(100, 100)).is_err());
-        assert!(Region { width: 0, ..wrong }.check(image(100, 100)).is_err());
-        assert!(Region { width: 10, ..wrong }.check(image(100, 100)).is_ok());
-        assert!(Region::whole(image(20_000, 20_000)).check(image(20_000, 20_000)).is_err());
-        assert!(Region::whole(image(MAX_SIDE + 1, 1)).check(image(MAX_SIDE + 1, 1)).is_err());
+        let wrong = PixelRect { x: 90, y: 0, width: 20, height: 10 };
+        assert!(check_region(image(100, 100), wrong).is_err());
+        assert!(check_region(image(100, 100), PixelRect { width: 0, ..wrong }).is_err());
+        assert!(check_region(image(100, 100), PixelRect { width: 10, ..wrong }).is_ok());
+        assert!(check_region(image(20_000, 20_000), image(20_000, 20_000).rect()).is_err());
+        assert!(check_region(image(MAX_SIDE + 1, 1), image(MAX_SIDE + 1, 1).rect()).is_err());
     }
 }

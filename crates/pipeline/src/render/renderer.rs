@@ -4,14 +4,15 @@ use super::RenderError;
 use super::assemble::assemble;
 use super::images::Images;
 use super::occlusion::{screen_space, whole_screen_space};
-use super::region::{PartOfSheet, Region, Sheet, sheets};
+use super::region::{PartOfSheet, Sheet, sheets};
 use super::shadows::ShadowMemory;
 use super::textures::Textures;
-use crate::picture::Channel;
 use crate::scene::{Scene, Style};
-use crate::shade::{Draw, DrawList, Look, ScreenSpace, Shading, ShadowMap, Styled, Vertex};
 use crate::{Cancel, Picture, Timings};
+use homog::PixelRect;
 use raster::{Frame, Nearest};
+use shade::Channel;
+use shade::{Draw, DrawList, Look, ScreenSpace, Shading, ShadowMap, Styled, Vertex};
 
 /// Renders surfaces again and again: the same models from elsewhere, in other light, in another pose.
 ///
@@ -75,7 +76,7 @@ impl Renderer {
         timings: &Timings,
         picture: &mut Picture<C>,
     ) -> Result<(), RenderError> {
-        let whole = Region::whole(scene.image);
+        let whole = scene.image.rect();
         self.render_region(scene, textures, whole, threads, timings, picture)
     }
 
@@ -88,12 +89,12 @@ impl Renderer {
         &mut self,
         scene: &Scene,
         textures: &Textures<'_>,
-        region: Region,
+        region: PixelRect,
         threads: usize,
         timings: &Timings,
         picture: &mut Picture<C>,
     ) -> Result<(), RenderError> {
-        let is_part = region != Region::whole(scene.image);
+        let is_part = region != scene.image.rect();
         let whole = || whole_screen_space(scene, textures, threads);
         let occlusion = if is_part { whole()? } else { None };
         self.cast_shadows(scene, textures, threads, timings)?;
@@ -124,13 +125,13 @@ impl Renderer {
         &mut self,
         scene: &Scene,
         textures: &Textures<'_>,
-        region: Region,
+        region: PixelRect,
         threads: usize,
         timings: &Timings,
         occlusion: Option<&ScreenSpace>,
         picture: &mut Picture<C>,
     ) -> Result<(), RenderError> {
-        region.check(scene.image)?;
+        super::region::check_region(scene.image, region)?;
         picture.resize(region.width, region.height);
         let parts = sheets(scene.image, region);
         if let [part] = parts[..] {
@@ -229,14 +230,14 @@ pub(super) fn shading<'a>(
         occlusion,
         environment: scene.environment.as_deref(),
         develop: scene.develop,
-        viewer: scene.shot.viewer(),
+        viewer: scene.view_projection.viewer(),
         instructions: frame.instructions(),
     }
 }
 
 /// The surfaces of a style that looks otherwise than materials have it.
 pub(super) fn styled<'a>(scene: &Scene, shading: &'a Shading<'a>) -> Option<Styled<'a>> {
-    let camera = scene.shot.camera;
+    let camera = scene.view_projection.camera;
     let look = match scene.style {
         Style::Gouraud => Look::Gouraud,
         Style::Clay => Look::Clay,

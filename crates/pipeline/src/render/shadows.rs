@@ -7,11 +7,11 @@ use super::RenderError;
 use super::images::Images;
 use super::stage::Stage;
 use crate::scene::Scene;
-use crate::shade::{Draw, DrawList, ShadowMap};
 pub(super) use casters::Casters;
 use casters::add_casters;
 use fit::Fit;
 use raster::{Frame, Samples};
+use shade::{Draw, DrawList, ShadowMap};
 
 /// What shadow maps are made in, kept from picture to picture.
 #[derive(Debug, Default)]
@@ -69,12 +69,12 @@ impl ShadowMemory {
             None => Frame::new(width, height, Samples::One)?,
         }
         .with_threads(threads);
-        let stage = Stage::new(&fit.shot, width, height)?;
+        let stage = Stage::new(&fit.view_projection, width, height)?;
         let mut draws = DrawList { draws: Vec::<Draw<'a>>::new() };
         add_casters(scene, textures, &stage, threads, &mut self.images, &mut frame, &mut draws)?;
         let mut map = self.spare.pop().unwrap_or_default();
         let to_screen = stage.ndc_to_screen.raw();
-        map.restart(to_screen * fit.shot.world_to_clip().raw(), fit.size, fit.middle);
+        map.restart(to_screen * fit.view_projection.world_to_clip().raw(), fit.size, fit.middle);
         map.soften(fit.spread, fit.at_infinity);
         frame.nearest(&Casters(&draws), threads, &mut map.texels);
         self.frame = Some(frame);

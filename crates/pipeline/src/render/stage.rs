@@ -1,8 +1,9 @@
 //! The way from the world to the screen.
 
+use super::RenderError;
 use super::region::Sheet;
-use super::{RenderError, Shot};
 use crate::scene::Scene;
+use camera::ViewProjection;
 use clip::{Extent, Outcode, Volume, clip_segment};
 use glam::DVec3;
 use homog::{Affine, Clip, HPoint, Model, Ndc, Point, Projective, Screen, World};
@@ -34,13 +35,17 @@ pub(super) enum Whereabouts {
 
 impl Stage {
     pub(super) fn of(scene: &Scene, sheet: Sheet) -> Result<Self, RenderError> {
-        let mut stage = Self::new(&scene.shot, sheet.area.width, sheet.area.height)?;
+        let mut stage = Self::new(&scene.view_projection, sheet.area.width, sheet.area.height)?;
         stage.world_to_clip = sheet.world_to_clip(scene)?;
         Ok(stage)
     }
 
     /// The way to a picture of this size.
-    pub(super) fn new(shot: &Shot, width: u32, height: u32) -> Result<Self, RenderError> {
+    pub(super) fn new(
+        view_projection: &ViewProjection,
+        width: u32,
+        height: u32,
+    ) -> Result<Self, RenderError> {
         let viewport = Viewport::image(width, height)?;
         // Clip only what would leave the rasteriser's grid, with a pixel to spare: its tiles cut the rest (CL-4).
         let band = |side: u32| {
@@ -50,11 +55,11 @@ impl Stage {
         let volume = Volume::CHAPTER;
         let volume = volume.with_guard_band(band(width), band(height)).unwrap_or(volume);
         Ok(Self {
-            world_to_clip: shot.world_to_clip(),
+            world_to_clip: view_projection.world_to_clip(),
             volume,
             ndc_to_screen: viewport.ndc_to_screen(),
             screen_to_ndc: viewport.screen_to_ndc(),
-            mirrors: shot.mirrors(),
+            mirrors: view_projection.mirrors(),
         })
     }
 

@@ -1,12 +1,12 @@
 //! That shading eight fragments at once changes nothing.
 
 use super::assemble::assemble;
-use super::region::{Region, sheets};
+use super::region::sheets;
 use super::renderer::Memory;
 use super::{Renderer, Textures};
 use crate::scene::{Origin, Scene, Style, parse};
-use crate::shade::Shading;
 use raster::{Eight, Fragment, Fragments, Samples, Surface};
+use shade::Shading;
 use std::path::Path;
 
 /// Shades as `Shading` does, but one fragment after the other.
@@ -44,11 +44,11 @@ fn eight_fragments_at_once_have_the_colours_of_one_by_one() {
             scene.style = style;
             scene.image.samples = Samples::from_count(samples).expect("a number of samples");
             let textures = Textures::of(&scene.models);
-            let whole = sheets(scene.image, Region::whole(scene.image))[0];
+            let whole = sheets(scene.image, scene.image.rect())[0];
             let memory = Renderer::default().lend(&scene, whole, 1).expect("a frame");
             let Memory { frame, draws, .. } =
                 assemble(&scene, &textures, 1, memory).expect("a frame");
-            let viewer = scene.shot.viewer();
+            let viewer = scene.view_projection.viewer();
             let instructions = frame.instructions();
             let shading = Shading {
                 painting: None,

@@ -1,8 +1,8 @@
 //! The textures of a scene, each with its mip chain, built once before drawing.
 
-use crate::model::{Image, Material, Model, Texture, TextureSlot};
-use crate::scene::Placed;
-use crate::shade::{MipChain, Texels};
+use model::ModelInstance;
+use model::{Image, Material, Model, Texture, TextureSlot};
+use shade::{MipChain, Texels};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -20,10 +20,10 @@ pub struct Textures<'a> {
 impl<'a> Textures<'a> {
     /// Builds the chains.
     #[must_use]
-    pub fn of(models: &'a [Placed]) -> Self {
+    pub fn of(models: &'a [ModelInstance]) -> Self {
         let mut known: BTreeMap<*const Model, usize> = BTreeMap::new();
         let mut all = Vec::new();
-        let number = |placed: &'a Placed| {
+        let number = |placed: &'a ModelInstance| {
             *known.entry(Arc::as_ptr(&placed.model)).or_insert_with(|| {
                 all.push(chains(&placed.model));
                 all.len() - 1

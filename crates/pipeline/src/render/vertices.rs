@@ -1,11 +1,11 @@
 //! The vertex stage: what the vertices of one primitive carry to the shading, in the world.
 
 use super::stage::to_point;
-use crate::model::{self, Instance, Material, Posed, Primitive, Topology};
-use crate::shade::{NORMAL, PLACE, Tangents, UV, Vertex};
 use glam::{DMat3, DVec3};
 use homog::{Affine, Model, World};
+use model::{self, Instance, Material, Posed, Primitive, Topology};
 use raster::Selection;
+use shade::{NORMAL, PLACE, Tangents, UV, Vertex};
 use std::borrow::Cow;
 
 /// The arrays that vertices are made of. What does not count is left out.

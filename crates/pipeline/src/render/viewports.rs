@@ -1,8 +1,8 @@
 //! Views within a picture: drawn on their own, and put into their places.
 
-use super::region::Region;
 use crate::scene::{Scene, View};
 use crate::{Channel, Picture};
+use homog::PixelRect;
 
 impl Scene {
     /// Whether every pixel of its picture is sure to be opaque, by the backgrounds alone.
@@ -15,34 +15,35 @@ impl Scene {
 
 impl View {
     /// The part of the view that lies in a region of the picture: in the picture, and in the view.
-    pub(super) fn shown(&self, region: Region) -> Option<[Region; 2]> {
-        let shown = self.area.and(region)?;
-        let own = Region { x: shown.x - self.area.x, y: shown.y - self.area.y, ..shown };
+    pub(super) fn shown(&self, region: PixelRect) -> Option<[PixelRect; 2]> {
+        let shown = self.area.intersection(region)?;
+        let own = PixelRect { x: shown.x - self.area.x, y: shown.y - self.area.y, ..shown };
         Some([shown, own])
     }
 
     /// Whether nothing of a region of the picture is seen beside views, as far as is easily told: one fills it, or all do that lie
     /// beside each other.
-    pub(super) fn fill(views: &[Self], region: Region) -> bool {
+    pub(super) fn fill(views: &[Self], region: PixelRect) -> bool {
         let shown = views.iter().filter(|view| !view.cyan);
-        let shown: Vec<Region> = shown.filter_map(|view| view.area.and(region)).collect();
-        let (mut apart, mut filled): (Vec<Region>, usize) = (Vec::new(), 0);
+        let shown: Vec<PixelRect> =
+            shown.filter_map(|view| view.area.intersection(region)).collect();
+        let (mut apart, mut filled): (Vec<PixelRect>, usize) = (Vec::new(), 0);
         for part in shown {
-            if apart.iter().all(|other| other.and(part).is_none()) {
+            if apart.iter().all(|other| other.intersection(part).is_none()) {
                 apart.push(part);
                 filled += part.area();
             }
         }
         filled == region.area()
-            || views.iter().any(|view| view.area.and(region) == Some(region) && !view.cyan)
+            || views.iter().any(|view| view.area.intersection(region) == Some(region) && !view.cyan)
     }
 
     /// Puts pixels of the view that are `shown` in the picture into a region of it.
     pub(super) fn put<C: Channel>(
         &self,
         part: &Picture<C>,
-        shown: Region,
-        region: Region,
+        shown: PixelRect,
+        region: PixelRect,
         picture: &mut Picture<C>,
     ) {
         let [left, top] = [shown.x - region.x, shown.y - region.y].map(|at| at as usize);
@@ -71,7 +72,7 @@ impl View {
             let inside = at - from;
             inside < width || side - 1 - inside < width
         };
-        let Region { x: left, y: top, width: across, height: down } = self.area;
+        let PixelRect { x: left, y: top, width: across, height: down } = self.area;
         (is_near(x, left, across) || is_near(y, top, down)).then_some(ink)
     }
 }

@@ -10,9 +10,9 @@ use super::file::{ProjectionFile, ViewFile};
 use super::locate::Step::{Field, Index};
 use super::viewpoint::chosen_lens;
 use super::{Origin, Scene, SceneError, SceneFile, Style};
-use crate::model::LensKind;
 use clip::PlaneIndex;
 use homog::Point;
+use model::LensKind;
 use survey::Survey;
 
 /// Two shapes of pictures differ if their ratios do by more than this part.
@@ -30,9 +30,12 @@ pub struct Advice {
 /// What is probably not meant in a scene that could be resolved.
 #[must_use]
 pub fn advise(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Advice> {
-    let viewer = scene.shot.viewer().divide();
-    let surveys: Vec<Survey> =
-        scene.models.iter().map(|placed| Survey::of(&scene.shot, placed, viewer)).collect();
+    let viewer = scene.view_projection.viewer().divide();
+    let surveys: Vec<Survey> = scene
+        .models
+        .iter()
+        .map(|placed| Survey::of(&scene.view_projection, placed, viewer))
+        .collect();
     let adviser = Adviser { origin, file, scene, surveys: &surveys };
     let mut advice = Vec::new();
     advice.extend(adviser.unseen());
@@ -132,9 +135,8 @@ impl Adviser<'_> {
     fn dark(&self) -> Option<Advice> {
         let scene = self.scene;
         let lit = matches!(scene.style, Style::Shaded | Style::Flat);
-        let shines = |at: &crate::model::Material| {
-            at.unlit || at.emissive.iter().any(|channel| *channel > 0.0)
-        };
+        let shines =
+            |at: &model::Material| at.unlit || at.emissive.iter().any(|channel| *channel > 0.0);
         let alone = scene.models.iter().flat_map(|placed| &placed.model.materials).any(shines);
         if !lit || alone || !scene.lights.is_empty() || scene.environment.is_some() {
             return None;
@@ -147,7 +149,7 @@ impl Adviser<'_> {
 
     /// Whether all of it is behind the eye of a perspective.
     fn is_behind(&self, survey: &Survey) -> bool {
-        let perspective = self.scene.shot.viewer().w() != 0.0;
+        let perspective = self.scene.view_projection.viewer().w() != 0.0;
         perspective && survey.nearest_and_farthest().is_some_and(|(_, far)| far <= 0.0)
     }
 

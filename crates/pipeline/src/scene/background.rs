@@ -2,11 +2,14 @@
 
 use super::file::{BackgroundFile, EnvironmentFile, FitFile, SceneFile};
 use super::locate::Step::{self, Field, Index};
-use super::painting::{Fit, Gradient, Painting, Photo};
 use super::surroundings::read_bytes;
 use super::{Origin, SceneError};
-use crate::color::{parse_hex, parse_hex_codes};
-use crate::import::decode_image;
+use model::import::decode_image;
+use shade::Fit;
+use shade::Gradient;
+use shade::Painting;
+use shade::Photo;
+use shade::color::{parse_hex, parse_hex_codes};
 use std::path::PathBuf;
 use std::sync::Arc;
 

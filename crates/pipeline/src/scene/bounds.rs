@@ -1,17 +1,7 @@
 //! The places that a scene's geometry takes up: what framing and automatic depth ranges are made from.
 
-use super::Placed;
 use camera::Camera;
 use homog::{Point, World};
-
-/// Every vertex that some point, line or triangle of the scene uses, in the world.
-pub(crate) fn world_points(models: &[Placed]) -> Vec<Point<World>> {
-    let mut points = Vec::new();
-    for Placed { model, model_to_world } in models {
-        model.for_each_shown_point(|point| points.push(model_to_world.point(point)));
-    }
-    points
-}
 
 /// How far along the gaze the scene begins and ends.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -6,8 +6,9 @@ use super::file::{
 use super::locate::Step::{self, Field, Index};
 use super::number::Triple;
 use super::viewpoint::resolve_shot;
-use super::{ImageSpec, Origin, Placed, SceneError};
-use crate::render::Shot;
+use super::{ImageSpec, Origin, SceneError};
+use camera::ViewProjection;
+use model::ModelInstance;
 
 /// The most keys.
 const MOST: usize = 10_000;
@@ -90,13 +91,13 @@ impl CameraPath {
     }
 
     /// The same around models that are loaded, posed and placed.
-    pub(crate) fn shot(
+    pub(crate) fn view_projection(
         &self,
         origin: &Origin,
         time: f64,
-        models: &[Placed],
+        models: &[ModelInstance],
         image: ImageSpec,
-    ) -> Result<Shot, SceneError> {
+    ) -> Result<ViewProjection, SceneError> {
         resolve_shot(origin, &self.at(time), models, image).map_err(|error| {
             let message = format!("{:.3} s along the camera's way: {}", time, error.message);
             origin.fault(&[Field("camera_path"), Field("keys")], message, error.help)

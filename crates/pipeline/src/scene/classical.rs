@@ -7,7 +7,7 @@
 use super::SceneError;
 use super::file::{Finite, FromFile, PrincipalFile, ProjectionFile};
 use super::viewpoint::Resolver;
-use crate::render::Shot;
+use camera::ViewProjection;
 use camera::{Basis, Camera, Slopes, frame_perspective};
 use glam::DVec3;
 use homog::{Point, Projective, Vector, View};
@@ -30,7 +30,7 @@ impl Resolver<'_> {
         from: Option<&FromFile>,
         padding: f64,
         projection: &ProjectionFile,
-    ) -> Result<Shot, SceneError> {
+    ) -> Result<ViewProjection, SceneError> {
         let basis = self.basis(from.unwrap_or(&FromFile::Front))?;
         if let Some(construction) = constructed(projection) {
             let construction = construction.map_err(|error| self.projection_fault(&error))?;
@@ -46,7 +46,7 @@ impl Resolver<'_> {
         &self,
         camera: Camera,
         projection: &ProjectionFile,
-    ) -> Result<Shot, SceneError> {
+    ) -> Result<ViewProjection, SceneError> {
         if constructed(projection).is_some() {
             let help = "take Frame(from: …), or leave the view out".to_owned();
             let message = "a perspective by vanishing points finds its own eye";
@@ -61,7 +61,7 @@ impl Resolver<'_> {
         camera: Camera,
         projection: &ProjectionFile,
         padding: f64,
-    ) -> Result<Shot, SceneError> {
+    ) -> Result<ViewProjection, SceneError> {
         let world_to_view = camera.world_to_view();
         let points: Vec<Point<View>> =
             self.points.iter().map(|&point| world_to_view.point(point)).collect();
@@ -73,7 +73,7 @@ impl Resolver<'_> {
         })?;
         let volume = image.volume(self.aspect, padding).map_err(fault)?;
         let view_to_clip = depth_kept.then(volume.view_to_clip(Convention::CHAPTER));
-        Ok(Shot { camera, view_to_clip })
+        Ok(ViewProjection { camera, view_to_clip })
     }
 
     /// A perspective that is given by vanishing points.
@@ -82,7 +82,7 @@ impl Resolver<'_> {
         from: Basis,
         construction: ConstructedPerspective,
         padding: f64,
-    ) -> Result<Shot, SceneError> {
+    ) -> Result<ViewProjection, SceneError> {
         let fault = |error: ProjectionError| self.projection_fault(&error);
         // The rows of the rotation are the eye's axes as the side from which the models are seen has them.
         let rows = construction.world_to_view().raw().transpose();
@@ -103,7 +103,10 @@ impl Resolver<'_> {
         let span = super::bounds::DepthSpan::of(&self.points, framed.camera);
         let (near, far) = span.perspective(None, None);
         let frustum = Frustum::from_slopes(slopes, near, far).map_err(fault)?;
-        Ok(Shot { camera: framed.camera, view_to_clip: frustum.view_to_clip(Convention::CHAPTER) })
+        Ok(ViewProjection {
+            camera: framed.camera,
+            view_to_clip: frustum.view_to_clip(Convention::CHAPTER),
+        })
     }
 }
 

@@ -1,11 +1,11 @@
 //! The ground below the models: as much of it as their shadows may reach.
 
-use super::Placed;
-use super::bounds::world_points;
 use super::file::{GroundFile, SceneFile};
-use crate::shade::Light;
 use glam::DVec3;
 use homog::{Bounds, Point};
+use model::ModelInstance;
+use model::world_points;
+use shade::Light;
 
 /// A level rectangle that only shadows are seen on.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -20,7 +20,7 @@ const LONGEST: f64 = 20.0;
 /// The ground of a scene, if it asks for one and there is something above it.
 pub(super) fn resolve_ground(
     file: &SceneFile,
-    models: &[Placed],
+    models: &[ModelInstance],
     lights: &[Light],
 ) -> Option<Ground> {
     let Some(GroundFile::Shadow { height }) = file.ground else { return None };

@@ -7,9 +7,10 @@
 use super::file::{Finite, InstanceFile, InstancesFile, ModelFile, SceneFile};
 use super::locate::Step::{self, Field, Index};
 use super::number::{Scale, Triple};
-use super::{Origin, Placed, SceneError};
-use crate::model::Model;
+use super::{Origin, SceneError};
 use homog::{Affine, Model as ModelSpace, Vector, World};
+use model::Model;
+use model::ModelInstance;
 use std::sync::Arc;
 
 /// The most copies of models in a scene.
@@ -74,11 +75,14 @@ pub(super) fn placed(
     number: usize,
     entry: &ModelFile,
     model: &Arc<Model>,
-) -> Result<Vec<Placed>, SceneError> {
+) -> Result<Vec<ModelInstance>, SceneError> {
     let own = turned(entry.scale, entry.rotate_degrees);
     let there = Affine::<ModelSpace, World>::translation(Vector::from(entry.translate.0));
     let Some(instances) = &entry.instances else {
-        return Ok(vec![Placed { model: Arc::clone(model), model_to_world: own.then(there) }]);
+        return Ok(vec![ModelInstance {
+            model: Arc::clone(model),
+            model_to_world: own.then(there),
+        }]);
     };
     let mut vertices = 0_usize;
     model.for_each_shown_point(|_| vertices += 1);
@@ -89,7 +93,7 @@ pub(super) fn placed(
         return Err(origin.fault(&place(number, &[]), message, help));
     }
     let ways = ways(origin, number, instances)?;
-    let copy = |way: Placement| Placed {
+    let copy = |way: Placement| ModelInstance {
         model: Arc::clone(model),
         model_to_world: own.then(way).then(there),
     };
@@ -213,7 +217,7 @@ mod tests {
         let placed =
             placed(&origin, 0, &file.models[0], &model).map_err(|error| error.to_string())?;
         assert_eq!(placed.len(), file.models[0].copies());
-        let there = |placed: &Placed| {
+        let there = |placed: &ModelInstance| {
             let point = placed.model_to_world.point(Point::new(0.0, 0.0, 1.0)).raw();
             point.to_array().map(|c| libm::round(c * 1e9) / 1e9 + 0.0)
         };

@@ -4,17 +4,18 @@ use super::file::{Finite, LightFile, SceneFile, ShadowsFile};
 use super::locate::Step::{Field, Index};
 use super::number::Positive;
 use super::shadows::resolve_shadow;
-use super::{Origin, Placed, SceneError};
-use crate::model::LightKind;
-use crate::render::Shot;
-use crate::shade::{Light, Shadow};
+use super::{Origin, SceneError};
+use camera::ViewProjection;
 use homog::{Point, Vector, World};
+use model::LightKind;
+use model::ModelInstance;
+use shade::{Light, Shadow};
 
 pub(super) fn resolve_lights(
     origin: &Origin,
     file: &SceneFile,
-    models: &[Placed],
-    shot: &Shot,
+    models: &[ModelInstance],
+    view_projection: &ViewProjection,
 ) -> Result<Vec<Light>, SceneError> {
     // Ground that only shows shadows is there for the sake of shadows.
     let of_ground = file.ground.map(|_| ShadowsFile::USUAL);
@@ -24,9 +25,9 @@ pub(super) fn resolve_lights(
         let theirs = lights_of(models, shadow);
         let is_dark = file.surroundings(origin, models).is_none();
         return Ok(match (theirs.is_empty(), is_dark) {
-            (true, true) => default_lights(shot, shadow),
+            (true, true) => default_lights(view_projection, shadow),
             // Shadows were asked for, and somebody must cast them.
-            (true, false) if shadow.is_some() => vec![key_light(shot, 1.5, shadow)],
+            (true, false) if shadow.is_some() => vec![key_light(view_projection, 1.5, shadow)],
             _ => theirs,
         });
     };
@@ -41,7 +42,7 @@ pub(super) fn resolve_lights(
 }
 
 /// The lights that the models' files have, in the world (KHR_lights_punctual). Scales do not make them brighter.
-fn lights_of(models: &[Placed], shadow: Option<Shadow>) -> Vec<Light> {
+fn lights_of(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec<Light> {
     let mut lights = Vec::new();
     for placed in models {
         for (instance, light) in placed.model.shown_lights() {
@@ -66,12 +67,12 @@ fn lights_of(models: &[Placed], shadow: Option<Shadow>) -> Vec<Light> {
 }
 
 /// A key light from above the viewer's left shoulder, so that shape reads from every side, and a quarter as much ambient.
-fn default_lights(shot: &Shot, shadow: Option<Shadow>) -> Vec<Light> {
-    vec![key_light(shot, 2.5, shadow), Light::Ambient { lux: [0.7; 3] }]
+fn default_lights(view_projection: &ViewProjection, shadow: Option<Shadow>) -> Vec<Light> {
+    vec![key_light(view_projection, 2.5, shadow), Light::Ambient { lux: [0.7; 3] }]
 }
 
-fn key_light(shot: &Shot, lux: f32, shadow: Option<Shadow>) -> Light {
-    let camera = shot.camera;
+fn key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<Shadow>) -> Light {
+    let camera = view_projection.camera;
     let towards = camera.u() * -0.45 + camera.v() * 0.65 + camera.w();
     let towards = towards.normalized().unwrap_or(camera.w());
     Light::Sun { towards: towards.raw().as_vec3().to_array(), lux: [lux; 3], shadow }

@@ -6,8 +6,8 @@ use super::file::{
 use super::locate::Step::{self, Field};
 use super::number::Positive;
 use super::{Origin, SceneError, Style};
-use crate::color::parse_hex_codes;
-use crate::drawing::{Cap, HiddenLines, Ink, IsoGroup, Join, LineLook, Shown, Tone, Widths};
+use drawing::{Cap, HiddenLines, Ink, IsoGroup, Join, LineLook, Shown, Tone, Widths};
+use shade::color::parse_hex_codes;
 
 /// How a scene is drawn.
 pub(super) fn resolve_style(origin: &Origin, file: &StyleFile) -> Result<Style, SceneError> {

@@ -4,8 +4,8 @@ use super::file::{AlphaModeFile, MaterialFile, MaterialsFile};
 use super::locate::Step::{self, Field, Index};
 use super::wording::suggestion;
 use super::{Origin, SceneError};
-use crate::color::parse_hex;
-use crate::model::{AlphaMode, Emission, Material, Model};
+use model::{AlphaMode, Emission, Material, Model};
+use shade::color::parse_hex;
 
 /// Changes the materials of the model with this number in the scene.
 pub(super) fn override_materials(

@@ -1,7 +1,6 @@
 //! From what a person wrote to what drawing needs, or to an error that points.
 
 use super::background;
-use super::bounds::world_points;
 use super::file::{
     BackgroundFile, Choice, Finite, MaterialFile, ModelFile, OverlayFile, ToneMappingFile,
 };
@@ -17,13 +16,15 @@ use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
 use super::views::resolve_views;
 use super::wording::suggestion;
-use super::{ImageSpec, Origin, Placed, ResolveError, Scene, SceneError, SceneFile, Style};
-use crate::drawing::Overlay;
-use crate::import::{FaultKind, ImportError, ImportOptions, load, load_bytes};
-use crate::model::Model;
-use crate::shade::{Develop, ToneMapping};
+use super::{ImageSpec, Origin, ResolveError, Scene, SceneError, SceneFile, Style};
+use drawing::Overlay;
 use homog::Bounds;
+use model::Model;
+use model::ModelInstance;
+use model::import::{FaultKind, ImportError, ImportOptions, load, load_bytes};
+use model::world_points;
 use raster::Samples;
+use shade::{Develop, ToneMapping};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -59,7 +60,7 @@ impl Scene {
     pub fn of_models(
         origin: &Origin,
         file: &SceneFile,
-        models: Vec<Placed>,
+        models: Vec<ModelInstance>,
     ) -> Result<Self, ResolveError> {
         Self::around(origin, file, models, &[])
     }
@@ -68,7 +69,7 @@ impl Scene {
     pub(crate) fn around(
         origin: &Origin,
         file: &SceneFile,
-        models: Vec<Placed>,
+        models: Vec<ModelInstance>,
         allowed: &[PathBuf],
     ) -> Result<Self, ResolveError> {
         let mut scene = Self::alone(origin, file, models, allowed)?;
@@ -80,12 +81,12 @@ impl Scene {
     pub(super) fn alone(
         origin: &Origin,
         file: &SceneFile,
-        models: Vec<Placed>,
+        models: Vec<ModelInstance>,
         allowed: &[PathBuf],
     ) -> Result<Self, ResolveError> {
         let image = resolve_image(origin, file)?;
-        let shot = resolve_shot(origin, &file.camera, &models, image)?;
-        let lights = resolve_lights(origin, file, &models, &shot)?;
+        let view_projection = resolve_shot(origin, &file.camera, &models, image)?;
+        let lights = resolve_lights(origin, file, &models, &view_projection)?;
         let ground = resolve_ground(file, &models, &lights);
         let occlusion_radius = file.ambient_occlusion.map(|file| {
             let usual =
@@ -109,7 +110,7 @@ impl Scene {
         let painting = background::painting(origin, file, allowed)?;
         Ok(Self {
             models,
-            shot,
+            view_projection,
             lights,
             ground,
             environment,
@@ -163,7 +164,7 @@ fn load_models(
     origin: &Origin,
     file: &SceneFile,
     options: &ResolveOptions,
-) -> Result<Vec<Placed>, ResolveError> {
+) -> Result<Vec<ModelInstance>, ResolveError> {
     if file.models.is_empty() {
         return Err(no_model(origin).into());
     }
@@ -318,7 +319,7 @@ pub fn chosen_animation(
 pub(super) fn resolve_overlays(
     origin: &Origin,
     overlays: &[OverlayFile],
-    models: &[Placed],
+    models: &[ModelInstance],
     image: ImageSpec,
 ) -> Result<Vec<Overlay>, SceneError> {
     let resolve = |overlay: &OverlayFile| {

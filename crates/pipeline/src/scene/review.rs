@@ -13,17 +13,17 @@ use super::shadows::resolve_shadow;
 use super::surroundings::resolve_environment;
 use super::viewpoint::resolve_shot;
 use super::views::resolve_views;
-use super::{CameraPath, Placed, ResolveError, ResolveOptions, instances};
-use crate::drawing::Sheet;
+use super::{CameraPath, ResolveError, ResolveOptions, instances};
+use model::ModelInstance;
 use std::sync::Arc;
 
 /// Everything that makes no sense in a scene file that has been parsed. Faults of the models' own files are not among
-/// it: [`check`](crate::import::check) tells those. With a model that cannot be loaded the camera is not looked at, for it may
+/// it: [`check`](model::import::check) tells those. With a model that cannot be loaded the camera is not looked at, for it may
 /// depend on it.
 #[must_use]
 pub fn review(origin: &Origin, file: &SceneFile, options: &ResolveOptions) -> Vec<SceneError> {
     let mut mistakes = Vec::new();
-    let mut models: Vec<Vec<Placed>> = Vec::new();
+    let mut models: Vec<Vec<ModelInstance>> = Vec::new();
     let counts = instances::check_counts(origin, file);
     let entries = if counts.is_ok() { &file.models[..] } else { &[] };
     mistakes.extend(counts.err());
@@ -64,7 +64,7 @@ pub fn review(origin: &Origin, file: &SceneFile, options: &ResolveOptions) -> Ve
     mistakes.extend(resolve_style(origin, &file.style).err());
     mistakes.extend(resolve_sections(origin, &file.sections).err());
     let sheet = file.sheet.iter();
-    mistakes.extend(sheet.filter_map(|sheet| Sheet::resolve(origin, sheet).err()));
+    mistakes.extend(sheet.filter_map(|sheet| super::resolve_sheet(origin, sheet).err()));
     mistakes.extend(CameraPath::of(origin, file).err());
     if mistakes.is_empty() && is_whole && !models.is_empty() {
         let views = resolve_views(origin, file, &models, &options.import.allow_outside);

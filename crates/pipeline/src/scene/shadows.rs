@@ -3,7 +3,7 @@
 use super::file::ShadowsFile;
 use super::locate::Step::{self, Field};
 use super::{Origin, SceneError};
-use crate::shade::Shadow;
+use shade::Shadow;
 
 /// The texels of a shadow map's longer side, unless told otherwise.
 const USUAL_SIZE: u32 = 2048;

@@ -6,56 +6,53 @@ use super::file::{
 use super::locate::Step::Field;
 use super::look::{iso_group, resolve_hidden};
 use super::{Origin, SceneError};
-use crate::drawing::{Sheet, Titles, Widths};
 use camera::NamedView;
+use drawing::{Sheet, Titles, Widths};
 use projection::SheetAngle;
 use viewport::{DrawingScale, MILLIMETRES_PER_INCH, Paper};
 
-impl Sheet {
-    /// The sheet that a scene file describes.
-    ///
-    /// # Errors
-    /// If its scale or its width of lines is none; the error points at its place in the file.
-    pub fn resolve(origin: &Origin, file: &SheetFile) -> Result<Self, SceneError> {
-        let (paper, name) = paper(file);
-        let usual = Self::on(paper, name);
-        let (angle, side) = match file.angle {
-            AngleFile::First => (SheetAngle::First, NamedView::Left),
-            AngleFile::Third => (SheetAngle::Third, NamedView::Right),
-        };
-        let side = match file.side {
-            None => side,
-            Some(SideFile::Left) => NamedView::Left,
-            Some(SideFile::Right) => NamedView::Right,
-        };
-        let widths = match file.width {
-            Some(width) => {
-                let group = iso_group(origin, width, &[Field("sheet"), Field("width")])?;
-                Widths::Iso(group)
-            }
-            None => usual.look.widths,
-        };
-        let mut look = usual.look;
-        (look.hidden, look.widths) = (resolve_hidden(file.hidden), widths);
-        Ok(Self {
-            angle,
-            side,
-            look,
-            scale: file.scale.map(|scale| resolve_scale(origin, scale)).transpose()?,
-            unit: unit(file.unit),
-            axonometric: axonometric(file.axonometric),
-            dimensions: file.dimensions,
-            titles: Titles {
-                title: file.title.clone(),
-                author: file.author.clone(),
-                date: file.date.clone(),
-                number: file.number.clone(),
-            },
-            ..usual
-        })
-    }
+/// The sheet that a scene file describes.
+///
+/// # Errors
+/// If its scale or its width of lines is none; the error points at its place in the file.
+pub fn resolve_sheet(origin: &Origin, file: &SheetFile) -> Result<Sheet, SceneError> {
+    let (paper, name) = paper(file);
+    let usual = Sheet::on(paper, name);
+    let (angle, side) = match file.angle {
+        AngleFile::First => (SheetAngle::First, NamedView::Left),
+        AngleFile::Third => (SheetAngle::Third, NamedView::Right),
+    };
+    let side = match file.side {
+        None => side,
+        Some(SideFile::Left) => NamedView::Left,
+        Some(SideFile::Right) => NamedView::Right,
+    };
+    let widths = match file.width {
+        Some(width) => {
+            let group = iso_group(origin, width, &[Field("sheet"), Field("width")])?;
+            Widths::Iso(group)
+        }
+        None => usual.look.widths,
+    };
+    let mut look = usual.look;
+    (look.hidden, look.widths) = (resolve_hidden(file.hidden), widths);
+    Ok(Sheet {
+        angle,
+        side,
+        look,
+        scale: file.scale.map(|scale| resolve_scale(origin, scale)).transpose()?,
+        unit: unit(file.unit),
+        axonometric: axonometric(file.axonometric),
+        dimensions: file.dimensions,
+        titles: Titles {
+            title: file.title.clone(),
+            author: file.author.clone(),
+            date: file.date.clone(),
+            number: file.number.clone(),
+        },
+        ..usual
+    })
 }
-
 fn paper(file: &SheetFile) -> (Paper, &'static str) {
     let (paper, name) = match file.paper {
         PaperFile::A0 => (Paper::A0, "A0"),

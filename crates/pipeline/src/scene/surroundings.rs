@@ -3,8 +3,9 @@
 use super::file::{EnvironmentFile, Finite, SceneFile};
 use super::locate::Step::{self, Field};
 use super::radiance::Panorama;
-use super::{Origin, Placed, SceneError};
-use crate::shade::{Environment, Sky, studio};
+use super::{Origin, SceneError};
+use model::ModelInstance;
+use shade::{Environment, Sky, studio};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -19,7 +20,7 @@ impl SceneFile {
     pub(super) fn surroundings(
         &self,
         origin: &Origin,
-        models: &[Placed],
+        models: &[ModelInstance],
     ) -> Option<EnvironmentFile> {
         let is_lit = || models.iter().any(|placed| placed.model.shown_lights().next().is_some());
         let is_bare = origin.text.is_empty() && self.lights.is_none() && !is_lit();
@@ -52,7 +53,7 @@ fn kept(key: Key, make: impl FnOnce() -> Environment) -> Arc<Environment> {
 pub(super) fn resolve_environment(
     origin: &Origin,
     file: &SceneFile,
-    models: &[Placed],
+    models: &[ModelInstance],
     allowed: &[PathBuf],
 ) -> Result<Option<Arc<Environment>>, SceneError> {
     let Some(environment) = file.surroundings(origin, models) else { return Ok(None) };

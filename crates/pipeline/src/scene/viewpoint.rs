@@ -1,14 +1,16 @@
 //! Camera and projection of a scene: given, framed, or taken from the model.
 
-use super::bounds::{DepthSpan, world_points};
+use super::bounds::DepthSpan;
 use super::file::{CameraChoice, CameraFile, FromFile, ProjectionFile, ViewFile};
 use super::locate::Step::{self, Field};
 use super::wording::suggestion;
-use super::{ImageSpec, Origin, Placed, SceneError};
-use crate::model::{Instance, Lens, LensKind};
-use crate::render::Shot;
+use super::{ImageSpec, Origin, SceneError};
+use camera::ViewProjection;
 use camera::{Basis, Camera, NamedView, Slopes, frame_parallel, frame_perspective};
 use homog::{Point, Vector, World};
+use model::ModelInstance;
+use model::world_points;
+use model::{Instance, Lens, LensKind};
 use projection::{Convention, Fov, Frustum, Orthographic, Perspective, ProjectionError};
 
 const VIEW: Step<'static> = Field("view");
@@ -18,7 +20,7 @@ const PROJECTION: [Step<'static>; 2] = [CAMERA, Field("projection")];
 /// Everything that camera and projection are resolved from.
 pub(super) struct Resolver<'a> {
     origin: &'a Origin,
-    models: &'a [Placed],
+    models: &'a [ModelInstance],
     pub(super) points: Vec<Point<World>>,
     pub(super) aspect: f64,
 }
@@ -27,9 +29,9 @@ pub(super) struct Resolver<'a> {
 pub(super) fn resolve_shot(
     origin: &Origin,
     file: &CameraFile,
-    models: &[Placed],
+    models: &[ModelInstance],
     image: ImageSpec,
-) -> Result<Shot, SceneError> {
+) -> Result<ViewProjection, SceneError> {
     let aspect = f64::from(image.width) / f64::from(image.height);
     let points = world_points(models);
     let resolver = Resolver { origin, models, points, aspect };
@@ -56,7 +58,7 @@ pub(super) fn resolve_shot(
 /// The lens of the camera that is chosen; `None` if there is no such camera.
 pub(super) fn chosen_lens<'a>(
     origin: &'a Origin,
-    models: &'a [Placed],
+    models: &'a [ModelInstance],
     choice: &CameraChoice,
 ) -> Option<&'a Lens> {
     let resolver = Resolver { origin, models, points: Vec::new(), aspect: 1.0 };
@@ -115,7 +117,7 @@ impl<'a> Resolver<'a> {
         camera: Camera,
         projection: &ProjectionFile,
         height: Option<f64>,
-    ) -> Result<Shot, SceneError> {
+    ) -> Result<ViewProjection, SceneError> {
         let span = DepthSpan::of(&self.points, camera);
         let view_to_clip = match *projection {
             ProjectionFile::Perspective { fov_y_degrees, near, far } => {
@@ -148,7 +150,7 @@ impl<'a> Resolver<'a> {
             _ => return self.classical(camera, projection),
         };
         let view_to_clip = view_to_clip.map_err(|error| self.projection_fault(&error))?;
-        Ok(Shot { camera, view_to_clip })
+        Ok(ViewProjection { camera, view_to_clip })
     }
 
     /// The height of the window, centred on the line of sight, into which the whole scene fits.
@@ -168,7 +170,7 @@ impl<'a> Resolver<'a> {
         from: Option<&FromFile>,
         padding: f64,
         projection: &ProjectionFile,
-    ) -> Result<Shot, SceneError> {
+    ) -> Result<ViewProjection, SceneError> {
         let usual =
             if projection.is_classical() { FromFile::Front } else { FromFile::ThreeQuarter };
         let basis = self.basis(from.unwrap_or(&usual))?;
@@ -224,7 +226,7 @@ impl<'a> Resolver<'a> {
         &self,
         choice: &CameraChoice,
         projection: Option<&ProjectionFile>,
-    ) -> Result<Shot, SceneError> {
+    ) -> Result<ViewProjection, SceneError> {
         let (placed, instance, lens) = self.chosen_camera(choice)?;
         let to_world = instance.node_to_model.then(placed.model_to_world);
         // Only where a node stands and where it points matter to a camera, not how it is scaled.
@@ -238,7 +240,7 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    fn through_lens(&self, camera: Camera, lens: &Lens) -> Result<Shot, SceneError> {
+    fn through_lens(&self, camera: Camera, lens: &Lens) -> Result<ViewProjection, SceneError> {
         let view_to_clip = match lens.kind {
             LensKind::Perspective { fov_y, near, far, .. } => {
                 Perspective::new(Fov::Vertical(fov_y), self.aspect, near, far)
@@ -252,14 +254,14 @@ impl<'a> Resolver<'a> {
             }
         };
         let view_to_clip = view_to_clip.map_err(|error| self.projection_fault(&error))?;
-        Ok(Shot { camera, view_to_clip })
+        Ok(ViewProjection { camera, view_to_clip })
     }
 
     /// The first shown node that carries the camera.
     fn chosen_camera(
         &self,
         choice: &CameraChoice,
-    ) -> Result<(&'a Placed, Instance, &'a Lens), SceneError> {
+    ) -> Result<(&'a ModelInstance, Instance, &'a Lens), SceneError> {
         let mut names = Vec::new();
         for placed in self.models {
             for instance in placed.model.instances() {

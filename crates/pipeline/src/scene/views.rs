@@ -7,16 +7,18 @@
 //!   └───────────────┘
 //! ```
 
-use super::bounds::world_points;
 use super::file::{ImageFile, SceneFile, StereoFile, ViewportFile};
 use super::locate::Step::{Field, Index};
 use super::number::Positive;
-use super::{Origin, Placed, ResolveError, Scene, SceneError};
-use crate::color::parse_hex_codes;
-use crate::drawing::Ink;
-use crate::render::{Region, Shot};
+use super::{Origin, ResolveError, Scene, SceneError};
+use camera::ViewProjection;
+use drawing::Ink;
 use glam::{DMat4, DVec4};
+use homog::PixelRect;
 use homog::{Bounds, Point, Projective};
+use model::ModelInstance;
+use model::world_points;
+use shade::color::parse_hex_codes;
 use std::path::PathBuf;
 
 /// More viewports than this are a slip.
@@ -30,7 +32,7 @@ const RULE: f64 = 30.0;
 #[derive(Clone, Debug)]
 pub struct View {
     /// Its pixels in the picture.
-    pub area: Region,
+    pub area: PixelRect,
     /// A border inside of it, and its width in pixels.
     pub border: Option<(Ink, u32)>,
     /// Whether only its green and blue are shown, over what is there.
@@ -43,7 +45,7 @@ pub struct View {
 pub(super) fn resolve_views(
     origin: &Origin,
     file: &SceneFile,
-    models: &[Placed],
+    models: &[ModelInstance],
     allowed: &[PathBuf],
 ) -> Result<Vec<View>, ResolveError> {
     if let Some(stereo) = file.stereo {
@@ -83,7 +85,7 @@ fn area(
     number: usize,
     viewport: &ViewportFile,
     (width, height): (u32, u32),
-) -> Result<Region, SceneError> {
+) -> Result<PixelRect, SceneError> {
     let place = |field: &'static str| [Field("viewports"), Index(number), Field(field)];
     let (region, field) = match (viewport.at, viewport.pixels) {
         (Some((x, y, w, h)), None) => {
@@ -95,9 +97,9 @@ fn area(
                 (start as u32, (end - start) as u32)
             };
             let ((x, w), (y, h)) = (run(x, w, width), run(y, h, height));
-            (Region { x, y, width: w, height: h }, "at")
+            (PixelRect { x, y, width: w, height: h }, "at")
         }
-        (None, Some((x, y, w, h))) => (Region { x, y, width: w, height: h }, "pixels"),
+        (None, Some((x, y, w, h))) => (PixelRect { x, y, width: w, height: h }, "pixels"),
         (at, _) => {
             let message = match at {
                 None => "nothing says where the viewport is",
@@ -114,7 +116,7 @@ fn area(
     if fits(region.x, region.width, width) && fits(region.y, region.height, height) {
         return Ok(region);
     }
-    let Region { x, y, width: across, height: down } = region;
+    let PixelRect { x, y, width: across, height: down } = region;
     let message = format!(
         "the viewport of {across} x {down} pixels at ({x}, {y}) is empty or not in the picture of {width} x {height}"
     );
@@ -148,7 +150,7 @@ fn eyes(
     origin: &Origin,
     file: &SceneFile,
     stereo: StereoFile,
-    models: &[Placed],
+    models: &[ModelInstance],
     allowed: &[PathBuf],
 ) -> Result<Vec<View>, ResolveError> {
     let fault = |message: &str, help: &str| {
@@ -168,46 +170,47 @@ fn eyes(
     }
     // Of an odd number of columns both have the one in the middle, and the right eye's is seen.
     let half = if beside { width.div_ceil(2) } else { width };
-    let half = Region { x: 0, y: 0, width: half, height };
-    let areas = [half, Region { x: if beside { width - half.width } else { 0 }, ..half }];
+    let half = PixelRect { x: 0, y: 0, width: half, height };
+    let areas = [half, PixelRect { x: if beside { width - half.width } else { 0 }, ..half }];
     let inner = within(file, &ViewportFile::default(), (half.width, height));
     let inner = SceneFile { stereo: None, ..inner };
     let middle = Scene::alone(origin, &inner, models.to_vec(), allowed)?;
-    if middle.shot.viewer().raw().w == 0.0 {
+    if middle.view_projection.viewer().raw().w == 0.0 {
         let help = "choose one, such as Perspective(), or leave `stereo` out";
         return Err(fault("eyes see the same in a parallel projection", help).into());
     }
-    let plane = convergence.map_or_else(|| ahead(middle.shot, models), |all| Some(all.value()));
+    let plane =
+        convergence.map_or_else(|| ahead(middle.view_projection, models), |all| Some(all.value()));
     let Some(plane) = plane else {
         let help = "say how far ahead the eyes converge: convergence: 2";
         return Err(fault("the middle of the models is behind the camera", help).into());
     };
     let apart = apart.map_or(plane / RULE, Positive::value);
-    let view = |(area, side): (Region, f64)| {
-        let shot = eye(middle.shot, side * apart, plane)
+    let view = |(area, side): (PixelRect, f64)| {
+        let view_projection = eye(middle.view_projection, side * apart, plane)
             .ok_or_else(|| fault("the eyes are too far apart", "choose a smaller eye_distance"))?;
-        let scene = Scene { shot, ..middle.clone() };
+        let scene = Scene { view_projection, ..middle.clone() };
         Ok(View { area, border: None, cyan: !beside && side > 0.0, scene })
     };
     areas.into_iter().zip([-0.5, 0.5]).map(view).collect()
 }
 
 /// How far ahead of the camera the middle of the models is; `None` if it is not.
-fn ahead(shot: Shot, models: &[Placed]) -> Option<f64> {
+fn ahead(view_projection: ViewProjection, models: &[ModelInstance]) -> Option<f64> {
     let corners = Bounds::of(world_points(models))?.corners();
     let middle = (corners[0].raw() + corners[7].raw()) * 0.5;
-    let depth = -shot.camera.world_to_view().point(Point::from_raw(middle)).z();
+    let depth = -view_projection.camera.world_to_view().point(Point::from_raw(middle)).z();
     (depth > 0.0).then_some(depth)
 }
 
 /// The shot of an eye so far to the right of the camera, through a window that agrees with the camera's at a distance of `plane`: what
 /// the eye sees at a depth is moved as far as the eye was, times that depth over the plane's.
-fn eye(shot: Shot, aside: f64, plane: f64) -> Option<Shot> {
-    let camera = shot.camera.moved(shot.camera.u() * aside).ok()?;
+fn eye(view_projection: ViewProjection, aside: f64, plane: f64) -> Option<ViewProjection> {
+    let camera = view_projection.camera.moved(view_projection.camera.u() * aside).ok()?;
     let slant =
         DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::new(-aside / plane, 0.0, 1.0, 0.0), DVec4::W);
-    let view_to_clip = Projective::from_raw(shot.view_to_clip.raw() * slant);
-    Some(Shot { camera, view_to_clip })
+    let view_to_clip = Projective::from_raw(view_projection.view_to_clip.raw() * slant);
+    Some(ViewProjection { camera, view_to_clip })
 }
 
 /// Which fields of the scene a viewport has too.
@@ -234,11 +237,11 @@ mod tests {
                 Frustum::new(left, right, bottom, top, distance, 50.0).expect("a frustum");
             frustum.view_to_clip(Convention::CHAPTER)
         };
-        let shot = Shot { camera, view_to_clip: of(window) };
+        let view_projection = ViewProjection { camera, view_to_clip: of(window) };
         let pair = StereoRig { interocular: 0.4, zero_parallax: 7.0 }.pair(camera, window);
         let pair = pair.expect("a pair");
         for (aside, expected) in [(-0.2, pair.left), (0.2, pair.right)] {
-            let eye = eye(shot, aside, 7.0).expect("an eye");
+            let eye = eye(view_projection, aside, 7.0).expect("an eye");
             assert!((eye.camera.eye() - expected.camera.eye()).length() < 1e-12);
             let wanted = of(expected.window).raw();
             assert!(

@@ -1,14 +1,15 @@
 //! Which edges are found, and what they are called.
 
 use crate::stage::*;
-use pipeline::drawing::{EdgeClass, EdgeClasses, Hidden, Options, draw};
-use pipeline::model::{EdgeLines, EdgeVisibility, Edges, Primitive};
+use drawing::{EdgeClass, EdgeClasses, Hidden, Options, draw};
+use model::{EdgeLines, EdgeVisibility, Edges, Primitive};
 
 /// The classes of all edges, facets too, in order.
 fn classes(primitives: Vec<Primitive>) -> Vec<EdgeClass> {
     let options =
         Options { classes: EdgeClasses::ALL, hidden: Hidden::Ignored, ..Options::default() };
-    let drawing = draw(&scene(model(primitives), shot(window())), &options, 1).unwrap();
+    let drawing =
+        draw(&scene(model(primitives), view_projection(window())).subject(), &options, 1).unwrap();
     let mut classes: Vec<EdgeClass> = drawing.lines.iter().map(|line| line.class).collect();
     classes.sort_unstable();
     classes

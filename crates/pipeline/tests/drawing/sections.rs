@@ -1,12 +1,12 @@
 //! Cuts through boxes, tubes and open surfaces, and the hatching of their caps.
 
 use crate::stage::*;
+use drawing::EdgeClass::{Hatching, Section};
+use drawing::{LineDrawing, Options, Tone, Warning, draw, verify};
 use glam::DVec2;
 use homog::{Normal, Plane, Point, World};
+use model::{Model, Primitive};
 use pipeline::Scene;
-use pipeline::drawing::EdgeClass::{Hatching, Section};
-use pipeline::drawing::{LineDrawing, Options, Tone, Warning, draw, verify};
-use pipeline::model::{Model, Primitive};
 use std::collections::BTreeMap;
 
 /// The plane x = 0, of which the side with the lesser x stays.
@@ -68,7 +68,7 @@ fn hatching_fills_what_is_cut_and_spares_holes() {
     let tube = together(cuboid([-1.0; 3], [1.0; 3]), &hole([-0.9, -0.6, -0.5], [0.9, 0.6, 0.7]));
     let scene = cut(model(vec![tube]), &[plane_x(0.0)]);
     let options = Options { hatch: 2.0, ..Options::hidden_kept() };
-    let drawing = draw(&scene, &options, 2).unwrap();
+    let drawing = draw(&scene.subject(), &options, 2).unwrap();
     let hatching = chosen(&drawing, visible(Hatching));
     assert!(hatching.len() > 100);
     let mut area = 0.0;
@@ -95,7 +95,7 @@ fn hatching_fills_what_is_cut_and_spares_holes() {
 fn a_cap_hides_what_is_behind_it() {
     let solids = vec![cuboid([-1.0; 3], [1.0; 3]), cuboid([-0.9, -0.3, -0.3], [-0.1, 0.3, 0.3])];
     let drawing = drawn(&cut(model(solids), &[plane_x(0.0)]));
-    let inner = |line: &pipeline::drawing::Line| line.object == 1;
+    let inner = |line: &drawing::Line| line.object == 1;
     assert!(drawing.lines.iter().filter(|line| inner(line)).count() >= 12);
     assert_eq!(chosen(&drawing, |line| inner(line) && line.visible).len(), 0);
 }
@@ -119,7 +119,7 @@ fn two_cuts_leave_a_corner_out() {
     assert_fills(&chosen(&drawing, visible(Section)), &sections);
     // Both caps are hatched, and nothing of the hatching is hidden.
     let options = Options { hatch: 5.0, ..Options::hidden_kept() };
-    let drawing = draw(&scene, &options, 1).unwrap();
+    let drawing = draw(&scene.subject(), &options, 1).unwrap();
     let area: f64 = chosen(&drawing, visible(Hatching)).into_iter().map(length).sum::<f64>() * 0.05;
     assert!((area - (1.0 + 2.0)).abs() < 0.05, "{area}");
 }
@@ -196,13 +196,13 @@ fn cut_drawings_agree_with_their_z_buffer_images() {
         let tilted = Plane::through(Point::new(0.1, 0.0, 0.1), Normal::new(-0.6, 0.1, -1.0));
         let mut scene = cut(model(solids), &[tilted]);
         let camera = camera::Camera::look_at(eye.into(), Point::ORIGIN, homog::Vector::Y).unwrap();
-        scene.shot = pipeline::render::Shot { camera, view_to_clip };
+        scene.view_projection = camera::ViewProjection { camera, view_to_clip };
         for tone in [Tone::Blank, Tone::Hatching] {
             let options = Options { tone, hatch: 8.0, ..Options::hidden_kept() };
-            let drawing = draw(&scene, &options, 1).unwrap();
+            let drawing = draw(&scene.subject(), &options, 1).unwrap();
             assert_whole(&drawing);
             assert!(drawing.lines.iter().any(|line| line.class == Hatching && line.visible));
-            let agreement = verify(&scene, &drawing).unwrap();
+            let agreement = verify(&scene.subject(), &drawing).unwrap();
             assert!(agreement.visible > 1000.0);
             assert!(agreement.disagreement() < 0.002, "{eye:?}: {}", agreement.disagreement());
         }

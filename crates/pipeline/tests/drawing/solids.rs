@@ -1,7 +1,7 @@
 //! Solids in front of, behind, inside of and through each other.
 
 use crate::stage::*;
-use pipeline::drawing::EdgeClass::{Boundary, Crease, Intersection, Line, Silhouette};
+use drawing::EdgeClass::{Boundary, Crease, Intersection, Line, Silhouette};
 
 /// The outline of the cube [−1, 1]³ in the oblique picture, and the three edges within it.
 const OUTLINE: [Segment; 6] = [
@@ -132,7 +132,7 @@ fn a_cycle_of_three() {
         // Along the y axis, falling upwards.
         strip([[-0.25, -2.0], [0.25, -2.0], [0.25, 3.0], [-0.25, 3.0]], |[_, y]| (1.0 - y) / 2.0),
     ];
-    let drawing = drawn(&scene(model(strips), shot(window())));
+    let drawing = drawn(&scene(model(strips), view_projection(window())));
     let of = |object| chosen(&drawing, move |line| line.visible && line.object == object);
     let ends = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [[a, b], [c, d]];
     assert_fills(
@@ -180,7 +180,7 @@ fn a_floor_cut_by_the_near_plane() {
     // The picture's half is 4 units, and 2 at distance 1: X = 2 x/−z.
     let lens = projection::Frustum::new(-2.0, 2.0, -2.0, 2.0, 1.0, 100.0).unwrap();
     let lens = lens.view_to_clip(projection::Convention::CHAPTER);
-    let drawing = drawn(&scene(model(vec![floor, line]), shot(lens)));
+    let drawing = drawn(&scene(model(vec![floor, line]), view_projection(lens)));
     assert_fills(
         &chosen(&drawing, visible(Boundary)),
         &[[[-2.0, -2.0], [-0.2, -0.2]], [[2.0, -2.0], [0.2, -0.2]], [[-0.2, -0.2], [0.2, -0.2]]],
@@ -214,7 +214,7 @@ fn what_runs_exactly_behind_an_edge() {
         [-1.0, -1.0, -1.0],
         [1.0, 1.0, -1.0], // across the diagonals
     ]);
-    let drawing = drawn(&scene(model(vec![roof, lines]), shot(window())));
+    let drawing = drawn(&scene(model(vec![roof, lines]), view_projection(window())));
     assert_fills(
         &chosen(&drawing, visible(Line)),
         &[[[0.0, -2.0], [0.0, -1.0]], [[0.0, 1.0], [0.0, 2.0]], [[1.0, -2.0], [1.0, 2.0]]],

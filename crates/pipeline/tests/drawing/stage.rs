@@ -1,12 +1,13 @@
 //! Scenes made of boxes and strips, and how their drawings are judged.
 
 use camera::Camera;
+use camera::ViewProjection;
+use drawing::{EdgeClass, Line, LineDrawing, Options, draw};
 use homog::{Affine, Clip, Point, Projective, Vector, View};
+use model::ModelInstance;
+use model::{Mesh, Model, Node, Primitive, Topology};
 use pipeline::Scene;
-use pipeline::drawing::{EdgeClass, Line, LineDrawing, Options, draw};
-use pipeline::model::{Mesh, Model, Node, Primitive, Topology};
-use pipeline::render::Shot;
-use pipeline::scene::{ImageSpec, Placed, Style};
+use pipeline::scene::{ImageSpec, Style};
 use projection::{Convention, Oblique, Orthographic};
 use std::sync::Arc;
 
@@ -26,16 +27,17 @@ pub fn model(primitives: Vec<Primitive>) -> Model {
     }
 }
 
-pub fn scene(model: Model, shot: Shot) -> Scene {
-    let placed = Placed { model: Arc::new(model), model_to_world: Affine::scale(1.0, 1.0, 1.0) };
+pub fn scene(model: Model, view_projection: ViewProjection) -> Scene {
+    let placed =
+        ModelInstance { model: Arc::new(model), model_to_world: Affine::scale(1.0, 1.0, 1.0) };
     Scene {
         models: vec![placed],
-        shot,
+        view_projection,
         lights: Vec::new(),
         ground: None,
         occlusion_radius: None,
         environment: None,
-        develop: pipeline::shade::Develop::default(),
+        develop: shade::Develop::default(),
         style: Style::Flat,
         image: ImageSpec {
             width: SIZE,
@@ -53,9 +55,9 @@ pub fn scene(model: Model, shot: Shot) -> Scene {
 }
 
 /// Looks along −z from the origin.
-pub fn shot(view_to_clip: Projective<View, Clip>) -> Shot {
+pub fn view_projection(view_to_clip: Projective<View, Clip>) -> ViewProjection {
     let camera = Camera::look_to(Point::ORIGIN, -Vector::Z, Vector::Y).unwrap();
-    Shot { camera, view_to_clip }
+    ViewProjection { camera, view_to_clip }
 }
 
 /// The window from −4 to 4 with depths from −8 to 8.
@@ -65,9 +67,9 @@ pub fn window() -> Projective<View, Clip> {
 }
 
 /// From the front, the right and above: X = x − z/2, Y = y − z/2.
-pub fn oblique() -> Shot {
+pub fn oblique() -> ViewProjection {
     let oblique = Oblique::by_direction(Vector::new(-0.5, -0.5, -1.0), 0.0).unwrap();
-    shot(oblique.depth_kept().then_project(window()))
+    view_projection(oblique.depth_kept().then_project(window()))
 }
 
 pub fn triangles(positions: &[[f32; 3]], indices: &[u32]) -> Primitive {
@@ -100,8 +102,8 @@ pub type Segment = [[f64; 2]; 2];
 
 /// The drawing with the hidden lines kept; the same from two threads.
 pub fn drawn(scene: &Scene) -> LineDrawing {
-    let drawing = draw(scene, &Options::hidden_kept(), 1).unwrap();
-    assert_eq!(drawing, draw(scene, &Options::hidden_kept(), 2).unwrap());
+    let drawing = draw(&scene.subject(), &Options::hidden_kept(), 1).unwrap();
+    assert_eq!(drawing, draw(&scene.subject(), &Options::hidden_kept(), 2).unwrap());
     drawing
 }
 

@@ -1,9 +1,10 @@
 //! Passes of scenes: against unprojection, `pixel`, the picture's alpha, and each other.
 
 use super::scene;
+use homog::PixelRect;
 use homog::{Point, World};
 use pipeline::render::passes::Values;
-use pipeline::render::{Pass, Region, passes, pixel};
+use pipeline::render::{Pass, passes, pixel};
 use pipeline::{Picture, Scene, Timings, render};
 use viewport::Viewport;
 
@@ -20,13 +21,14 @@ fn small(name: &str, samples: u32) -> Scene {
 fn places_are_the_unprojections_of_pixels_and_depths() {
     for name in SCENES {
         let scene = small(name, 4);
-        let whole = Region::whole(scene.image);
+        let whole = scene.image.rect();
         let wanted = [Pass::Position, Pass::Depth, Pass::Distance, Pass::Barycentric];
         let buffers = passes(&scene, whole, &wanted, 2, &Timings::default()).expect("passes");
-        let clip_to_world = scene.shot.world_to_clip().inverse().expect("a map with an inverse");
+        let clip_to_world =
+            scene.view_projection.world_to_clip().inverse().expect("a map with an inverse");
         let viewport = Viewport::image(160, 120).expect("a viewport");
         let unprojector = viewport.unprojector(clip_to_world);
-        let world_to_view = scene.shot.camera.world_to_view();
+        let world_to_view = scene.view_projection.camera.world_to_view();
         let mut seen = 0;
         for (x, y) in (0..120).flat_map(|y| (0..160).map(move |x| (x, y))) {
             let at = |n: usize| buffers[n].floats(x, y).expect("a pixel");
@@ -60,7 +62,7 @@ fn places_are_the_unprojections_of_pixels_and_depths() {
 fn numbers_are_those_that_pixels_are_explained_by() {
     for name in ["teapot", "crates", "mexican_hat", "primitives", "room"] {
         let scene = small(name, 1);
-        let whole = Region::whole(scene.image);
+        let whole = scene.image.rect();
         let wanted = [Pass::Id, Pass::Model, Pass::Node, Pass::Mesh, Pass::Material];
         let buffers = passes(&scene, whole, &wanted, 2, &Timings::default()).expect("passes");
         for (x, y) in (0..120).step_by(5).flat_map(|y| (0..160).step_by(5).map(move |x| (x, y))) {
@@ -97,7 +99,7 @@ fn coverage_is_the_alpha_of_what_is_opaque() {
         let mut scene = small(name, samples);
         (scene.image.background, scene.image.backdrop) = ([0.0; 4], None);
         let picture: Picture = render(&scene, 2).expect("a picture");
-        let whole = Region::whole(scene.image);
+        let whole = scene.image.rect();
         let [coverage] =
             &passes(&scene, whole, &[Pass::Coverage], 1, &Timings::default()).expect("passes")[..]
         else {
@@ -114,7 +116,7 @@ fn coverage_is_the_alpha_of_what_is_opaque() {
 #[test]
 fn panes_are_counted_and_the_nearest_of_them_is_what_is_seen() {
     let scene = small("panes", 1);
-    let whole = Region::whole(scene.image);
+    let whole = scene.image.rect();
     let wanted = [Pass::Overdraw, Pass::Depth, Pass::Id];
     let buffers = passes(&scene, whole, &wanted, 2, &Timings::default()).expect("passes");
     let mut most = 0;
@@ -133,9 +135,9 @@ fn panes_are_counted_and_the_nearest_of_them_is_what_is_seen() {
 #[test]
 fn regions_of_passes_unite() {
     let scene = small("panes", 4);
-    let whole = Region::whole(scene.image);
+    let whole = scene.image.rect();
     let all = passes(&scene, whole, &Pass::ALL, 2, &Timings::default()).expect("passes");
-    let region = Region { x: 37, y: 50, width: 90, height: 33 };
+    let region = PixelRect { x: 37, y: 50, width: 90, height: 33 };
     let part = passes(&scene, region, &Pass::ALL, 1, &Timings::default()).expect("passes");
     for (all, part) in all.iter().zip(&part) {
         for (x, y) in (0..33).flat_map(|y| (0..90).map(move |x| (x, y))) {

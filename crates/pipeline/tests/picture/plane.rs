@@ -1,9 +1,11 @@
 //! Passes of a plane, each pixel against the ray that meets it.
 
 use base64::Engine;
-use pipeline::import::{ImportOptions, load_bytes};
-use pipeline::render::{Pass, PassBuffer, Region, passes};
-use pipeline::scene::{Placed, parse};
+use homog::PixelRect;
+use model::ModelInstance;
+use model::import::{ImportOptions, load_bytes};
+use pipeline::render::{Pass, PassBuffer, passes};
+use pipeline::scene::parse;
 use pipeline::{Origin, Scene, Timings};
 use std::sync::Arc;
 
@@ -45,7 +47,7 @@ fn scene(width: u32, height: u32) -> Scene {
     );
     let file = parse("made.ron", &text).expect("a scene");
     let loaded = load_bytes("made.gltf", &plane(), &ImportOptions::default()).expect("a model");
-    let placed = Placed { model: Arc::new(loaded), model_to_world: homog::Affine::IDENTITY };
+    let placed = ModelInstance { model: Arc::new(loaded), model_to_world: homog::Affine::IDENTITY };
     let origin = Origin::of_text("made.ron", text, ".".into());
     Scene::of_models(&origin, &file, vec![placed]).expect("a scene that makes sense")
 }
@@ -96,7 +98,7 @@ fn is_near_border(x: u32, y: u32, width: u32, height: u32) -> bool {
     met.iter().any(|m| *m != met[0])
 }
 
-fn hold(buffers: &[PassBuffer], region: Region, size: [u32; 2]) -> usize {
+fn hold(buffers: &[PassBuffer], region: PixelRect, size: [u32; 2]) -> usize {
     let [depth, distance, position, normal, view_normal, uv, barycentric, id] = buffers else {
         panic!("eight passes");
     };
@@ -161,7 +163,7 @@ const WANTED: [Pass; 8] = [
 #[test]
 fn passes_of_a_plane_are_what_rays_meet() {
     let scene = scene(320, 200);
-    let whole = Region::whole(scene.image);
+    let whole = scene.image.rect();
     let buffers = passes(&scene, whole, &WANTED, 2, &Timings::default()).expect("passes");
     assert!(hold(&buffers, whole, [320, 200]) > 30_000);
 }
@@ -171,7 +173,7 @@ fn they_are_so_beyond_the_first_sheet_of_a_giant_picture_too() {
     let size = [40_000, 20_000];
     let scene = scene(size[0], size[1]);
     for [x, y] in [[16_284, 16_300], [20_000, 13_000], [35_000, 19_000]] {
-        let region = Region { x, y, width: 200, height: 150 };
+        let region = PixelRect { x, y, width: 200, height: 150 };
         let buffers = passes(&scene, region, &WANTED, 2, &Timings::default()).expect("passes");
         assert!(hold(&buffers, region, size) > 25_000);
     }

@@ -1,17 +1,18 @@
 //! Regions, bands and sheets: parts of a picture are the whole, bit for bit, and 16 bits are the 8 bits and more.
 
 use super::scene;
+use homog::PixelRect;
 use pipeline::render::band_rows;
 use pipeline::scene::file::OverlayFile;
 use pipeline::scene::{ResolveOptions, parse};
-use pipeline::{Channel, Origin, Paint, Picture, Region, Scene, Timings, render};
+use pipeline::{Channel, Origin, Paint, Picture, Scene, Timings, render};
 use std::path::Path;
 
 /// Scenes with thin lines, layers, an environment behind everything, overlays, letters and line drawings.
 const SCENES: [&str; 7] =
     ["floor", "panes", "primitives", "finishes", "two_point", "technical", "view_volume"];
 
-fn region<C: Channel>(scene: &Scene, region: Region) -> Picture<C> {
+fn region<C: Channel>(scene: &Scene, region: PixelRect) -> Picture<C> {
     let timings = Timings::default();
     let mut paint = Paint::new(scene, 2, &timings).expect("a scene");
     paint.region(region).expect("a region")
@@ -20,7 +21,7 @@ fn region<C: Channel>(scene: &Scene, region: Region) -> Picture<C> {
 fn assert_part<C: Channel + std::fmt::Debug>(
     whole: &Picture<C>,
     part: &Picture<C>,
-    at: Region,
+    at: PixelRect,
     name: &str,
 ) {
     for (x, y) in (0..at.height).flat_map(|y| (0..at.width).map(move |x| (x, y))) {
@@ -39,9 +40,9 @@ fn regions_and_bands_are_parts_of_the_whole() {
             file.image.size = (330, 210);
             file.overlays.push(OverlayFile::Axes { length: None });
         });
-        let all = Region::whole(scene.image);
+        let all = scene.image.rect();
         let whole: Picture = region(&scene, all);
-        let crop = Region { x: 101, y: 59, width: 150, height: 80 };
+        let crop = PixelRect { x: 101, y: 59, width: 150, height: 80 };
         assert_part(&whole, &region(&scene, crop), crop, name);
         let timings = Timings::default();
         let mut paint = Paint::new(&scene, 1, &timings).expect("a scene");
@@ -74,7 +75,7 @@ fn hold_sixteen_bits(whole: &Picture, deep: &Picture<u16>, name: &str) {
 fn without_drawings_sixteen_bits_round_to_eight() {
     for name in ["floor", "panes", "crates", "finishes"] {
         let scene = scene(name, |file| file.image.size = (200, 130));
-        let all = Region::whole(scene.image);
+        let all = scene.image.rect();
         let (flat, deep): (Picture, Picture<u16>) = (region(&scene, all), region(&scene, all));
         for (flat, deep) in flat.pixels.iter().zip(&deep.pixels) {
             for k in 0..4 {
@@ -92,9 +93,9 @@ fn files_do_not_depend_on_the_bands_they_are_written_in() {
         let mut scene = scene("spheres", |file| file.image.size = (333, 210));
         scene.image.background = [background; 4];
         let all = if covered {
-            Region { x: 160, y: 90, width: 9, height: 14 }
+            PixelRect { x: 160, y: 90, width: 9, height: 14 }
         } else {
-            Region::whole(scene.image)
+            scene.image.rect()
         };
         let timings = Timings::default();
         let mut paint = Paint::new(&scene, 1, &timings).expect("a scene");
@@ -116,14 +117,14 @@ fn regions_of_a_giant_picture_unite_across_its_sheets() {
             file.image.samples = 4;
         });
         // Where four sheets meet.
-        let whole = Region { x: 16_200, y: 16_300, width: 400, height: 200 };
+        let whole = PixelRect { x: 16_200, y: 16_300, width: 400, height: 200 };
         let picture: Picture = region(&scene, whole);
         for (x, y, width, height) in
             [(16_200, 16_300, 184, 84), (16_350, 16_320, 100, 140), (16_384, 16_384, 216, 116)]
         {
-            let part = Region { x, y, width, height };
+            let part = PixelRect { x, y, width, height };
             let found: Picture = region(&scene, part);
-            let within = Region { x: x - whole.x, y: y - whole.y, ..part };
+            let within = PixelRect { x: x - whole.x, y: y - whole.y, ..part };
             assert_part(&picture, &found, within, name);
         }
     }
@@ -180,7 +181,7 @@ fn shadows_and_occlusion_are_those_of_the_whole_in_every_part() {
         let rows = pairs.filter(|(with, without)| with != without).count();
         assert!(rows > 600, "{plain} is seen in {rows} rows");
     }
-    let all = Region::whole(scene.image);
+    let all = scene.image.rect();
     let timings = Timings::default();
     let mut paint = Paint::new(&scene, 2, &timings).expect("a scene");
     for rows in [band_rows(scene.image.width), 512, 700] {
@@ -189,9 +190,9 @@ fn shadows_and_occlusion_are_those_of_the_whole_in_every_part() {
         assert!(file == whole.to_png(), "in bands of {rows} rows");
     }
     for part in [
-        Region { x: 20, y: 1000, width: 40, height: 120 },
-        Region { x: 31, y: 2030, width: 47, height: 40 },
-        Region { x: 0, y: 1101, width: 1, height: 1 },
+        PixelRect { x: 20, y: 1000, width: 40, height: 120 },
+        PixelRect { x: 31, y: 2030, width: 47, height: 40 },
+        PixelRect { x: 0, y: 1101, width: 1, height: 1 },
     ] {
         assert_part(&whole, &region(&scene, part), part, "alone");
         assert_part(&whole, &paint.region(part).expect("a region"), part, "after others");

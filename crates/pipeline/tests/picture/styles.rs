@@ -1,10 +1,10 @@
 //! Styles: pixels against the formulas of each, by what the passes say of them.
 
 use super::scene;
-use pipeline::render::{Pass, PassBuffer, Region, passes};
+use pipeline::render::{Pass, PassBuffer, passes};
 use pipeline::scene::Style;
-use pipeline::shade::Light;
 use pipeline::{Picture, Scene, Timings, render};
+use shade::Light;
 use std::f64::consts::PI;
 
 const SIZE: (u32, u32) = (160, 120);
@@ -23,7 +23,7 @@ fn draw(scene: &Scene) -> Picture {
 }
 
 fn told(scene: &Scene, wanted: &[Pass]) -> Vec<PassBuffer> {
-    passes(scene, Region::whole(scene.image), wanted, 2, &Timings::default()).expect("passes")
+    passes(scene, scene.image.rect(), wanted, 2, &Timings::default()).expect("passes")
 }
 
 /// Calls `each` with the place of each pixel that shows a surface, and tells how many do.
@@ -80,7 +80,7 @@ fn normals_are_the_codes_of_the_pass() {
 fn depth_is_linear_between_the_ends_of_the_models() {
     let scene = styled("teapot", Style::Depth);
     let (picture, told) = (draw(&scene), told(&scene, &[Pass::Id, Pass::Depth]));
-    let world_to_view = scene.shot.camera.world_to_view();
+    let world_to_view = scene.view_projection.camera.world_to_view();
     let depths = scene.world_points();
     let depths = depths.iter().map(|point| -world_to_view.point(*point).z());
     let (near, far) = depths.fold((f64::INFINITY, 0.0_f64), |(a, b), d| (a.min(d), b.max(d)));

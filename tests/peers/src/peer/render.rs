@@ -6,13 +6,14 @@
 use super::Peer;
 use crate::scene::{AMBIENT, Part, SIZE, Scene, TOWARDS_LIGHT, Texture};
 use homog::Affine;
-use pipeline::import::{ImportOptions, load};
-use pipeline::model::{
+use model::import::{ImportOptions, load};
+use model::{
     Image, Material, Mesh, Mipmap, Model, Primitive, Sampler, Texture as Used, TextureUse,
 };
-use pipeline::render::Shot;
-use pipeline::scene::{ImageSpec, Placed, Style};
-use pipeline::shade::Light;
+use camera::ViewProjection;
+use pipeline::scene::{ImageSpec, Style};
+use model::ModelInstance;
+use shade::Light;
 use pipeline::{Picture, Renderer, Textures, Timings};
 use projection::Convention;
 use raster::Samples;
@@ -35,11 +36,11 @@ impl Render {
         let lux = |share: f32| [share * PI; 3];
         let (width, height) = SIZE;
         let scene = pipeline::Scene {
-            models: vec![Placed {
+            models: vec![ModelInstance {
                 model: Arc::new(model(scene)?),
                 model_to_world: Affine::IDENTITY,
             }],
-            shot: Shot {
+            view_projection: ViewProjection {
                 camera: scene.camera,
                 view_to_clip: scene.view_to_clip(Convention::CHAPTER),
             },
@@ -50,7 +51,7 @@ impl Render {
             ground: None,
             occlusion_radius: None,
             environment: None,
-            develop: pipeline::shade::Develop::default(),
+            develop: shade::Develop::default(),
             style: Style::Shaded,
             image: ImageSpec {
                 width,
@@ -66,7 +67,7 @@ impl Render {
             sections: Vec::new(),
         };
         // As long as the process: there are few, and their textures refer to them.
-        let models: &'static [Placed] = scene.models.clone().leak();
+        let models: &'static [ModelInstance] = scene.models.clone().leak();
         Ok(Self {
             scene,
             textures: Textures::of(models),

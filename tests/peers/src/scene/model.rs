@@ -3,8 +3,8 @@
 use super::{Lens, Part, Scene, Texture, Vertex, aspect};
 use camera::{NamedView, Slopes, frame_perspective};
 use homog::{Normal, Point, World};
-use pipeline::import::{ImportOptions, load};
-use pipeline::model::{Image, Model, Posed, Primitive, Topology};
+use model::import::{ImportOptions, load};
+use model::{Image, Model, Posed, Primitive, Topology};
 use projection::{Fov, Perspective};
 use std::path::{Path, PathBuf};
 

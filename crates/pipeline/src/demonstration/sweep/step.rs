@@ -3,9 +3,9 @@
 use super::super::DemonstrationError;
 use super::super::number::short;
 use super::Vary;
-use crate::render::Shot;
 use crate::scene::{DepthSpan, Scene};
 use camera::Camera;
+use camera::ViewProjection;
 use homog::{Affine, Bounds, Point, Vector, World};
 use projection::{
     Convention, Decomposed, Frustum, Orthographic, ProjectionError, Window, decompose,
@@ -50,7 +50,7 @@ impl Base {
     /// If the scene's projection has no such parameter.
     pub(super) fn of(scene: &Scene, vary: Vary) -> Result<Self, DemonstrationError> {
         let unsuited = |reason: &str| DemonstrationError::Unsuited { vary, reason: reason.into() };
-        let kind = decompose(scene.shot.view_to_clip.raw(), Convention::CHAPTER);
+        let kind = decompose(scene.view_projection.view_to_clip.raw(), Convention::CHAPTER);
         let lens = match kind.map(|found| found.kind) {
             Ok(Decomposed::Frustum(frustum)) => Lens::Central(frustum),
             Ok(Decomposed::Orthographic(volume)) => Lens::Parallel(volume),
@@ -62,7 +62,7 @@ impl Base {
         let points = scene.world_points();
         let nothing = || unsuited("the models have no points, lines or triangles");
         let middle = Bounds::of(points.iter().copied()).map(Bounds::center).ok_or_else(nothing)?;
-        let camera = scene.shot.camera;
+        let camera = scene.view_projection.camera;
         let distance = -camera.world_to_view().point(middle).z();
         if distance <= 0.0 && matches!(vary, Vary::Distance | Vary::Dolly) {
             return Err(unsuited("the middle of the models is behind the eye"));
@@ -71,7 +71,11 @@ impl Base {
     }
 
     /// Camera and projection with the parameter at this value, and what there is to say of them.
-    pub(super) fn at(&self, vary: Vary, value: f64) -> Result<(Shot, String), DemonstrationError> {
+    pub(super) fn at(
+        &self,
+        vary: Vary,
+        value: f64,
+    ) -> Result<(ViewProjection, String), DemonstrationError> {
         let fault =
             |reason: String| DemonstrationError::Value { vary, value: short(value, 6), reason };
         let wrong = |error: ProjectionError| fault(error.to_string());
@@ -97,8 +101,9 @@ impl Base {
             }
         };
         let frustum = Frustum::from_slopes(slopes, near, far).map_err(wrong)?;
-        let shot = Shot { camera, view_to_clip: frustum.view_to_clip(Convention::CHAPTER) };
-        Ok((shot, self.told(frustum, camera)))
+        let view_projection =
+            ViewProjection { camera, view_to_clip: frustum.view_to_clip(Convention::CHAPTER) };
+        Ok((view_projection, self.told(frustum, camera)))
     }
 
     /// What a value must be, if it is not.
@@ -142,7 +147,7 @@ impl Base {
         value: f64,
         volume: Orthographic,
         camera: Camera,
-    ) -> Result<(Shot, String), String> {
+    ) -> Result<(ViewProjection, String), String> {
         let told = |error: ProjectionError| error.to_string();
         let window = volume.window();
         let window = match vary {
@@ -164,10 +169,11 @@ impl Base {
             return Err(format!("`far` ({far}) must lie beyond `near` ({near})"));
         }
         let volume = Orthographic::from_window(window, near, far).map_err(told)?;
-        let shot = Shot { camera, view_to_clip: volume.view_to_clip(Convention::CHAPTER) };
+        let view_projection =
+            ViewProjection { camera, view_to_clip: volume.view_to_clip(Convention::CHAPTER) };
         let numbers = [window.width(), window.height(), near, far].map(|number| short(number, 4));
         let [width, height, near, far] = numbers;
-        Ok((shot, format!("{width} wide · {height} high · near {near} · far {far}")))
+        Ok((view_projection, format!("{width} wide · {height} high · near {near} · far {far}")))
     }
 
     /// The window one unit ahead of the eye.

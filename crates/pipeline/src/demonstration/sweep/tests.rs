@@ -4,21 +4,21 @@ use super::*;
 use crate::demonstration::test_scene::house;
 use homog::{Bounds, Point, World};
 
-fn shots(vary: Vary, from: f64, to: f64, steps: u32) -> Vec<(Shot, String)> {
+fn shots(vary: Vary, from: f64, to: f64, steps: u32) -> Vec<(ViewProjection, String)> {
     let (_, _, scene) = house();
     Sweep { vary, from, to, steps, volumes: false }.shots(&scene).expect("shots")
 }
 
-fn base() -> (Scene, Shot, Point<World>) {
+fn base() -> (Scene, ViewProjection, Point<World>) {
     let (_, _, scene) = house();
     let middle = Bounds::of(scene.world_points()).expect("points").center();
-    let shot = scene.shot;
-    (scene, shot, middle)
+    let view_projection = scene.view_projection;
+    (scene, view_projection, middle)
 }
 
 /// x and y in the picture.
-fn image(shot: &Shot, point: Point<World>) -> [f64; 2] {
-    let place = shot.world_to_clip().point(point).divide().expect("ahead of the eye");
+fn image(view_projection: &ViewProjection, point: Point<World>) -> [f64; 2] {
+    let place = view_projection.world_to_clip().point(point).divide().expect("ahead of the eye");
     [place.x(), place.y()]
 }
 
@@ -28,8 +28,8 @@ fn assert_near(a: f64, b: f64) {
 }
 
 /// A place off the line of sight, at the depth of the middle.
-fn beside(shot: &Shot, middle: Point<World>) -> Point<World> {
-    middle + shot.camera.u() * 1.5 + shot.camera.v()
+fn beside(view_projection: &ViewProjection, middle: Point<World>) -> Point<World> {
+    middle + view_projection.camera.u() * 1.5 + view_projection.camera.v()
 }
 
 #[test]
@@ -59,8 +59,9 @@ fn a_smaller_angle_enlarges() {
 #[test]
 fn a_wrong_aspect_distorts_across_only() {
     let (_, base, middle) = base();
-    let shot = shots(Vary::Aspect, 2.0, 2.0, 1)[0].0;
-    let [before, after] = [base, shot].map(|shot| image(&shot, beside(&shot, middle)));
+    let view_projection = shots(Vary::Aspect, 2.0, 2.0, 1)[0].0;
+    let [before, after] = [base, view_projection]
+        .map(|view_projection| image(&view_projection, beside(&view_projection, middle)));
     assert_near(after[0] / before[0], (4.0 / 3.0) / 2.0);
     assert_near(after[1], before[1]);
 }
@@ -70,18 +71,18 @@ fn a_wrong_aspect_distorts_across_only() {
 fn near_and_far_move_nothing_in_the_picture() {
     let (scene, base, _) = base();
     for (vary, value) in [(Vary::Near, 1.0), (Vary::Far, 1e4)] {
-        let shot = shots(vary, value, value, 1)[0].0;
+        let view_projection = shots(vary, value, value, 1)[0].0;
         for point in scene.world_points() {
-            let [a, b] = [image(&base, point), image(&shot, point)];
+            let [a, b] = [image(&base, point), image(&view_projection, point)];
             assert_near(a[0], b[0]);
             assert_near(a[1], b[1]);
         }
-        let depth = |shot: &Shot, distance: f64| {
-            let place = shot.camera.eye() + shot.camera.gaze() * distance;
-            shot.world_to_clip().point(place).divide().expect("ahead").z()
+        let depth = |view_projection: &ViewProjection, distance: f64| {
+            let place = view_projection.camera.eye() + view_projection.camera.gaze() * distance;
+            view_projection.world_to_clip().point(place).divide().expect("ahead").z()
         };
         // The canonical volume has the near plane at 1, the far plane at −1.
-        assert_near(depth(&shot, value), if vary == Vary::Near { 1.0 } else { -1.0 });
+        assert_near(depth(&view_projection, value), if vary == Vary::Near { 1.0 } else { -1.0 });
     }
 }
 
@@ -89,16 +90,17 @@ fn near_and_far_move_nothing_in_the_picture() {
 #[test]
 fn the_distance_of_a_fixed_window_is_a_lens() {
     let (_, base, middle) = base();
-    let near = |shot: &Shot| {
-        let clip_to_view = shot.view_to_clip.inverse().expect("an inverse");
+    let near = |view_projection: &ViewProjection| {
+        let clip_to_view = view_projection.view_to_clip.inverse().expect("an inverse");
         let corner = clip_to_view.hpoint(HPoint::new(1.0, 1.0, 1.0, 1.0)).divide();
         corner.expect("finite")
     };
     let half = -near(&base).z() * 0.5;
-    let shot = shots(Vary::Lens, half, half, 1)[0].0;
-    assert_near(near(&shot).x(), near(&base).x());
-    assert_near(near(&shot).y(), near(&base).y());
-    let [before, after] = [base, shot].map(|shot| image(&shot, beside(&shot, middle)));
+    let view_projection = shots(Vary::Lens, half, half, 1)[0].0;
+    assert_near(near(&view_projection).x(), near(&base).x());
+    assert_near(near(&view_projection).y(), near(&base).y());
+    let [before, after] = [base, view_projection]
+        .map(|view_projection| image(&view_projection, beside(&view_projection, middle)));
     assert_near(after[0] / before[0], 0.5);
 }
 
@@ -106,9 +108,9 @@ fn the_distance_of_a_fixed_window_is_a_lens() {
 #[test]
 fn a_shift_moves_the_picture_as_it_is() {
     let (scene, base, _) = base();
-    let shot = shots(Vary::Shift, 0.25, 0.25, 1)[0].0;
+    let view_projection = shots(Vary::Shift, 0.25, 0.25, 1)[0].0;
     for point in scene.world_points() {
-        let [before, after] = [image(&base, point), image(&shot, point)];
+        let [before, after] = [image(&base, point), image(&view_projection, point)];
         assert_near(after[0], before[0] - 0.25);
         assert_near(after[1], before[1]);
     }
@@ -120,17 +122,22 @@ fn a_dolly_zoom_keeps_the_middle() {
     let (_, base, middle) = base();
     let shots = shots(Vary::Dolly, 20.0, 80.0, 3);
     let distances = [20.0, 50.0, 80.0];
-    for ((shot, note), distance) in shots.iter().zip(distances) {
-        assert_near((shot.camera.eye() - middle).dot(shot.camera.w()), distance);
-        let [before, after] =
-            [image(&base, beside(&base, middle)), image(shot, beside(shot, middle))];
+    for ((view_projection, note), distance) in shots.iter().zip(distances) {
+        assert_near(
+            (view_projection.camera.eye() - middle).dot(view_projection.camera.w()),
+            distance,
+        );
+        let [before, after] = [
+            image(&base, beside(&base, middle)),
+            image(view_projection, beside(view_projection, middle)),
+        ];
         assert_near(before[0], after[0]);
         assert_near(before[1], after[1]);
         assert!(note.contains(&format!("middle at {distance}")), "{note}");
     }
     let before = |n: usize| {
-        let shot: &Shot = &shots[n].0;
-        image(shot, beside(shot, middle) + shot.camera.w())
+        let view_projection: &ViewProjection = &shots[n].0;
+        image(view_projection, beside(view_projection, middle) + view_projection.camera.w())
     };
     assert!(before(0)[0] > before(1)[0] && before(1)[0] > before(2)[0]);
 }
@@ -138,8 +145,9 @@ fn a_dolly_zoom_keeps_the_middle() {
 #[test]
 fn the_camera_is_turned_about_the_middle() {
     let (_, base, middle) = base();
-    let shot = shots(Vary::Angle, 90.0, 90.0, 1)[0].0;
-    let [before, after] = [base, shot].map(|shot| shot.camera.eye() - middle);
+    let view_projection = shots(Vary::Angle, 90.0, 90.0, 1)[0].0;
+    let [before, after] =
+        [base, view_projection].map(|view_projection| view_projection.camera.eye() - middle);
     assert_near(before.length(), after.length());
     // From the front (+z) to the right (+x), at the same height.
     assert_near(after.x(), before.z());
@@ -159,7 +167,7 @@ fn what_makes_no_sense_is_told() {
     assert!(told(Vary::Near, 1e6, &scene).starts_with("`near` cannot be 1e6: "));
     assert!(told(Vary::Height, 4.0, &scene).contains("a perspective"));
     let volume = Orthographic::new(-1.0, 1.0, -1.0, 1.0, 1.0, 9.0).expect("a volume");
-    scene.shot.view_to_clip = volume.view_to_clip(Convention::CHAPTER);
+    scene.view_projection.view_to_clip = volume.view_to_clip(Convention::CHAPTER);
     assert!(told(Vary::Fov, 40.0, &scene).contains("take a perspective"));
 }
 
@@ -168,12 +176,12 @@ fn what_makes_no_sense_is_told() {
 fn a_parallel_window_is_varied_too() {
     let (_, _, mut scene) = house();
     let volume = Orthographic::new(-6.0, 6.0, -4.5, 4.5, 1.0, 30.0).expect("a volume");
-    scene.shot.view_to_clip = volume.view_to_clip(Convention::CHAPTER);
+    scene.view_projection.view_to_clip = volume.view_to_clip(Convention::CHAPTER);
     let at = |vary, value| {
         let sweep = Sweep { vary, from: value, to: value, steps: 1, volumes: false };
-        let (shot, note) = sweep.shots(&scene).expect("a shot").remove(0);
-        let place = shot.camera.view_to_world().point(Point::new(1.5, 0.9, -10.0));
-        let image = shot.world_to_clip().point(place).divide().expect("an image");
+        let (view_projection, note) = sweep.shots(&scene).expect("a shot").remove(0);
+        let place = view_projection.camera.view_to_world().point(Point::new(1.5, 0.9, -10.0));
+        let image = view_projection.world_to_clip().point(place).divide().expect("an image");
         ([image.x(), image.y(), image.z()], note)
     };
     // The canonical volume has near at 1 and far at −1.

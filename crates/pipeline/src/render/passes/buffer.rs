@@ -2,7 +2,8 @@
 
 use super::geometry::{Geometry, Hit};
 use super::kind::{Pass, PassEncoding};
-use crate::render::region::{PartOfSheet, Region};
+use crate::render::region::PartOfSheet;
+use homog::PixelRect;
 
 /// The numbers of a pass, rows from the top, those of a pixel side by side.
 #[derive(Clone, PartialEq, Debug)]
@@ -28,7 +29,7 @@ pub struct PassBuffer {
 
 impl PassBuffer {
     /// A pass that shows nothing.
-    pub(super) fn empty(pass: Pass, region: Region) -> Self {
+    pub(super) fn empty(pass: Pass, region: PixelRect) -> Self {
         let count = region.area() * pass.channels();
         let values = if pass.is_whole() {
             Values::Numbers(vec![0; count])
@@ -105,7 +106,7 @@ impl PassBuffer {
     }
 
     /// Copies a part to its place in the pass of a region.
-    pub(super) fn put(&mut self, patch: &Self, part: PartOfSheet, region: Region) {
+    pub(super) fn put(&mut self, patch: &Self, part: PartOfSheet, region: PixelRect) {
         match (&mut self.values, &patch.values) {
             (Values::Numbers(all), Values::Numbers(patch)) => part.put(patch, region, all),
             (Values::Floats(all), Values::Floats(patch)) => match self.pass.channels() {

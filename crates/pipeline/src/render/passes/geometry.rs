@@ -1,7 +1,6 @@
 //! From a triangle and a pixel to numbers: the exact weights, and what they make of what the corners carry.
 
 use super::kind::Pass;
-use crate::model::{Posed, Primitive, Topology};
 use crate::render::RenderError;
 use crate::render::region::Sheet;
 use crate::render::stage::{Stage, to_point};
@@ -9,6 +8,7 @@ use crate::render::vertices::{normal_map, turned};
 use crate::scene::{Scene, Style};
 use glam::{DMat3, DVec3};
 use homog::{Affine, Clip, HPoint, Model, Normal, Point, Projective, Screen, View, World};
+use model::{Posed, Primitive, Topology};
 use std::borrow::Cow;
 
 /// What is nearest in a pixel, as the rasteriser tells it.
@@ -76,8 +76,8 @@ impl<'a> Geometry<'a> {
         }
         Ok(Self {
             parts,
-            world_to_view: scene.shot.camera.world_to_view(),
-            viewer: scene.shot.viewer(),
+            world_to_view: scene.view_projection.camera.world_to_view(),
+            viewer: scene.view_projection.viewer(),
             screen_to_ndc: stage.screen_to_ndc(),
             is_flat: scene.style == Style::Flat,
         })

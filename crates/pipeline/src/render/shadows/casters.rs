@@ -1,6 +1,5 @@
 //! What casts shadows: the triangles of a scene that let no light through.
 
-use crate::model::{Instance, Model, Primitive, TextureSlot, TextureUse, Topology};
 use crate::render::RenderError;
 use crate::render::Textures;
 use crate::render::assemble::{DEFAULT_MATERIAL, triangle};
@@ -9,9 +8,10 @@ use crate::render::needs::cover_of;
 use crate::render::stage::Stage;
 use crate::render::vertices::{Parts, uv_set};
 use crate::scene::Scene;
-use crate::shade::{Draw, DrawList, Maps, Role, Tangents};
 use homog::Affine;
+use model::{Instance, Model, Primitive, TextureSlot, TextureUse, Topology};
 use raster::{Cover, Cull, Fragment, Fragments, Frame, Instructions, Surface, WIDE};
+use shade::{Draw, DrawList, Maps, Role, Tangents};
 
 /// What of draws is there at all: their colours do not count.
 pub(in crate::render) struct Casters<'a, 'b>(pub(in crate::render) &'b DrawList<'a>);

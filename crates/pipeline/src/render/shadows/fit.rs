@@ -3,23 +3,24 @@
 //! A sun's map shows that part of the box around the scene, along the light, that is in the view; all that is before it towards the
 //! light stays between its planes. A spot's shows its cone, or the scene if that is less.
 
-use crate::render::Shot;
-use crate::scene::{Placed, Scene};
-use crate::shade::{Light, Shadow};
+use crate::scene::Scene;
 use ::camera::{Basis, Camera};
+use camera::ViewProjection;
 use glam::DVec3;
 use homog::{Point, Vector, View, World};
+use model::ModelInstance;
 use projection::{Convention, Frustum, Orthographic, Window};
+use shade::{Light, Shadow};
 
 /// A light's camera.
 #[derive(Debug)]
 pub(super) struct Fit {
-    pub(super) shot: Shot,
+    pub(super) view_projection: ViewProjection,
     /// Texels of a row, and rows.
     pub(super) size: [u32; 2],
     /// The middle of the scene.
     pub(super) middle: DVec3,
-    /// The penumbra, as [`ShadowMap::soften`](crate::shade::ShadowMap) wants it.
+    /// The penumbra, as [`ShadowMap::soften`](shade::ShadowMap) wants it.
     pub(super) spread: f64,
     pub(super) at_infinity: Option<f64>,
 }
@@ -62,9 +63,9 @@ impl Extent {
 }
 
 /// Calls `each` with every vertex of the scene's triangles, in a light's view.
-fn each_place(models: &[Placed], camera: Camera, mut each: impl FnMut(DVec3)) {
+fn each_place(models: &[ModelInstance], camera: Camera, mut each: impl FnMut(DVec3)) {
     let world_to_view = camera.world_to_view();
-    for Placed { model, model_to_world } in models {
+    for ModelInstance { model, model_to_world } in models {
         for (instance, primitive) in model.shown_primitives() {
             let posed = model.posed(instance, primitive);
             let to_view = posed.to_model.then(*model_to_world).then(world_to_view).raw();
@@ -106,7 +107,10 @@ fn sun(scene: &Scene, travel: [f64; 3], shadow: Shadow) -> Option<Fit> {
     let box_of_light = Orthographic::from_window(window, near, far).ok()?;
     let slope = libm::tan(0.5 * f64::from(shadow.softness));
     Some(Fit {
-        shot: Shot { camera, view_to_clip: box_of_light.view_to_clip(Convention::CHAPTER) },
+        view_projection: ViewProjection {
+            camera,
+            view_to_clip: box_of_light.view_to_clip(Convention::CHAPTER),
+        },
         size,
         middle: in_world(camera, middle),
         spread: slope * (far - near) / texel,
@@ -116,7 +120,7 @@ fn sun(scene: &Scene, travel: [f64; 3], shadow: Shadow) -> Option<Fit> {
 
 /// The box around the camera's view volume in a light's view; `None` if it has no end.
 fn view_extent(scene: &Scene, camera: Camera) -> Option<Extent> {
-    let clip_to_world = scene.shot.world_to_clip().raw().inverse();
+    let clip_to_world = scene.view_projection.world_to_clip().raw().inverse();
     let world_to_view = camera.world_to_view();
     let mut extent = Extent::NONE;
     for corner in 0..8 {
@@ -180,7 +184,10 @@ fn spot(
     let frustum = Frustum::from_slopes(window, near, far).ok()?;
     let slope = libm::tan(0.5 * f64::from(shadow.softness));
     Some(Fit {
-        shot: Shot { camera, view_to_clip: frustum.view_to_clip(Convention::CHAPTER) },
+        view_projection: ViewProjection {
+            camera,
+            view_to_clip: frustum.view_to_clip(Convention::CHAPTER),
+        },
         size,
         middle: camera.eye().raw() + gaze.raw() * (0.5 * (near + far)),
         spread: slope / slope_of_texel,

@@ -53,7 +53,7 @@ pub(super) fn wasted(adviser: &Adviser<'_>) -> Option<Advice> {
 
 /// The distance of the near plane, if the projection is a perspective that looks straight ahead.
 fn near(adviser: &Adviser<'_>) -> Option<f64> {
-    let rows = adviser.scene.shot.view_to_clip.rows();
+    let rows = adviser.scene.view_projection.view_to_clip.rows();
     let [.., [_, _, z, depth], last] = rows;
     // Where z = w: depth - z·n = n.
     (last == [0.0, 0.0, -1.0, 0.0]).then(|| depth / (1.0 + z))

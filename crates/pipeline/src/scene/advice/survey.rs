@@ -1,11 +1,11 @@
 //! What becomes of a model's points, lines and triangles on their way to the picture.
 
-use crate::model::{Instance, Primitive};
-use crate::render::Shot;
-use crate::scene::Placed;
+use camera::ViewProjection;
 use clip::{Outcode, PlaneIndex, Volume, clip_point, clip_segment, clip_triangle};
 use glam::DVec3;
 use homog::{Clip, HPoint, Point, World};
+use model::ModelInstance;
+use model::{Instance, Primitive};
 
 /// Directions in which rays leave the eye: no edge of a model that a person made lies along one.
 const RAYS: [DVec3; 3] = [
@@ -34,10 +34,14 @@ pub(super) struct Survey {
 }
 
 impl Survey {
-    pub(super) fn of(shot: &Shot, placed: &Placed, eye: Option<Point<World>>) -> Self {
+    pub(super) fn of(
+        view_projection: &ViewProjection,
+        placed: &ModelInstance,
+        eye: Option<Point<World>>,
+    ) -> Self {
         let mut survey = Self::default();
         for (instance, primitive) in placed.model.shown_primitives() {
-            survey.count(shot, placed, instance, primitive, eye);
+            survey.count(view_projection, placed, instance, primitive, eye);
         }
         survey
     }
@@ -73,8 +77,8 @@ impl Survey {
 
     fn count(
         &mut self,
-        shot: &Shot,
-        placed: &Placed,
+        view_projection: &ViewProjection,
+        placed: &ModelInstance,
         instance: Instance,
         primitive: &Primitive,
         eye: Option<Point<World>>,
@@ -83,10 +87,10 @@ impl Survey {
         let to_world = posed.to_model.then(placed.model_to_world);
         let world: Vec<Point<World>> =
             posed.positions.iter().map(|at| to_world.point(at.map(f64::from).into())).collect();
-        let world_to_clip = shot.world_to_clip();
+        let world_to_clip = view_projection.world_to_clip();
         let clip: Vec<HPoint<Clip>> = world.iter().map(|&at| world_to_clip.point(at)).collect();
         let codes: Vec<Outcode> = clip.iter().map(|&at| Volume::CHAPTER.outcode(at)).collect();
-        let world_to_view = shot.camera.world_to_view();
+        let world_to_view = view_projection.camera.world_to_view();
         let sign = if to_world.raw().determinant() < 0.0 { -1 } else { 1 };
         for item in primitive.indices.chunks_exact(primitive.topology.corners()) {
             let item: Vec<usize> = item.iter().map(|&at| at as usize).collect();
@@ -159,7 +163,7 @@ fn crossing(ray: DVec3, [a, b, c]: [DVec3; 3]) -> i64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::Topology;
+    use model::Topology;
 
     #[test]
     fn a_ray_leaves_through_faces_that_turn_their_back_to_it() {

@@ -1,0 +1,131 @@
+//! `alberti animate`: a turntable, or an animation of the model, as pictures, an animated PNG or GIF, or raw frames.
+
+mod sink;
+
+use super::Failure;
+use super::loading::LoadArgs;
+use super::look::LookArgs;
+use super::progress::Counter;
+use super::render::{open, threads, warn};
+use model::ModelInstance;
+use pipeline::film::{Film, FilmError, Motion};
+use pipeline::scene::file::{Choice, Finite, SceneFile};
+use pipeline::scene::{CameraPath, ResolveOptions, chosen_animation};
+use pipeline::{Origin, ResolveError, Scene};
+use sink::Sink;
+use std::path::PathBuf;
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct AnimateArgs {
+    /// A scene (.ron) or a model (.gltf, .glb)
+    input: PathBuf,
+    /// Where the pictures go: `name_{frame:04}.png` for a file each, `name.png` for an animated PNG, `name.gif`, or - for raw
+    /// RGBA frames on the standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// Turn the models by so many degrees instead of playing their animation [default: 360, if they have none]
+    #[arg(long, value_name = "DEGREES", num_args = 0..=1, require_equals = true, default_missing_value = "360", value_parser = finite)]
+    turntable: Option<Finite>,
+    /// How many pictures [default: as many as the animation needs; 120 for a turntable]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    frames: Option<u32>,
+    /// Pictures a second
+    #[arg(long, value_name = "N", default_value = "30", value_parser = rate)]
+    fps: f64,
+    /// The time of the animation at which it begins, in seconds [default: 0]
+    #[arg(long, value_name = "SECONDS", value_parser = finite, allow_negative_numbers = true)]
+    from: Option<Finite>,
+    /// The time at which it ends [default: where the animation does]
+    #[arg(long, value_name = "SECONDS", value_parser = finite, allow_negative_numbers = true)]
+    to: Option<Finite>,
+    /// Threads to use; the pictures do not depend on it [default: as many as there are cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    threads: Option<u16>,
+    #[command(flatten)]
+    look: LookArgs,
+    #[command(flatten)]
+    load: LoadArgs,
+}
+
+pub(crate) fn run(args: &AnimateArgs) -> Result<(), Failure> {
+    let (origin, mut file) = open(&args.input, &args.look.import(&args.load))?;
+    args.look.override_in(&mut file);
+    let scene =
+        Scene::resolve(&origin, &file, &ResolveOptions { import: args.look.import(&args.load) })?;
+    warn(&scene, &[]);
+    let film = args.film(&origin, &file, scene)?;
+    let mut sink = Sink::open(&args.input, &args.output, &film, args.fps)?;
+    let counter = Counter::start(film.frames());
+    let drawn = film.draw(threads(args.threads), |frame, picture| {
+        counter.count();
+        sink.take(frame, picture)
+    });
+    match drawn {
+        Ok(()) => sink.finish(),
+        Err(FilmError::Sink(failure)) => Err(failure),
+        Err(FilmError::Render(error)) => Err(error.into()),
+        Err(other) => Err(Failure::Usage(other.to_string())),
+    }
+}
+
+impl AnimateArgs {
+    fn film(&self, origin: &Origin, file: &SceneFile, scene: Scene) -> Result<Film, Failure> {
+        let animations = animations(&scene.models, file)?;
+        let ends = scene.models.iter().zip(&animations).filter_map(|(placed, &animation)| {
+            Some(placed.model.animations.get(animation?)?.duration_seconds)
+        });
+        let end = ends.fold(0.0, f64::max);
+        let path = CameraPath::of(origin, file).map_err(ResolveError::from)?;
+        let [begin, end] = path.as_ref().map_or([0.0, end], CameraPath::span);
+        let from = self.from.map_or(begin, Finite::value);
+        let to = self.to.map_or(end, Finite::value);
+        let motion = match self.turntable {
+            None if animations.iter().any(Option::is_some) => Motion::Clip { animations, from, to },
+            // The camera moves, and nothing else.
+            None if path.is_some() => Motion::Turntable { angle: 0.0 },
+            degrees => {
+                Motion::Turntable { angle: degrees.map_or(360.0, Finite::value).to_radians() }
+            }
+        };
+        let frames = match (&motion, self.frames) {
+            (_, Some(frames)) => frames as usize,
+            (Motion::Turntable { .. }, None) if path.is_none() => 120,
+            (_, None) => libm::round((to - from).abs() * self.fps).clamp(1.0, 100_000.0) as usize,
+        };
+        let film = Film::new(origin, file, scene, motion, frames)?;
+        match path {
+            None => Ok(film),
+            Some(path) => Ok(film.along(origin, &path, [from, to])?),
+        }
+    }
+}
+
+/// For each model the animation that the file chooses, else its first.
+fn animations(models: &[ModelInstance], file: &SceneFile) -> Result<Vec<Option<usize>>, Failure> {
+    let chosen = |(placed, choice): (&ModelInstance, Option<&Choice>)| {
+        if placed.model.animations.is_empty() && choice.is_none() {
+            return Ok(None);
+        }
+        chosen_animation(&placed.model, choice).map(Some).map_err(|(problem, help)| {
+            let help = help.map_or(String::new(), |help| format!("\n  = help: {help}"));
+            Failure::Usage(format!("{}: {problem}{help}", placed.model.name))
+        })
+    };
+    let choices = file
+        .models
+        .iter()
+        .flat_map(|model| std::iter::repeat_n(model.animation.as_ref(), model.copies()));
+    models.iter().zip(choices).map(chosen).collect()
+}
+
+fn finite(text: &str) -> Result<Finite, String> {
+    text.parse()
+        .ok()
+        .and_then(Finite::new)
+        .ok_or_else(|| "expected a number, such as 1.5".to_owned())
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    let rate = text.parse().ok().filter(|rate: &f64| (0.1..=1000.0).contains(rate));
+    rate.ok_or_else(|| "expected a number from 0.1 to 1000".to_owned())
+}

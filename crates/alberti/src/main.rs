@@ -1,0 +1,92 @@
+//! The program `alberti`: pictures of glTF models, without a GPU, a display or a browser.
+
+mod animate;
+mod args;
+mod batch;
+mod check;
+mod color;
+mod compare;
+mod compare_projections;
+mod curve;
+mod demo;
+mod explain;
+mod failure;
+mod figure;
+mod format;
+mod info;
+mod light;
+mod loading;
+mod look;
+mod manual;
+mod matrix;
+mod paint;
+mod part;
+mod passes;
+mod pick;
+mod progress;
+mod reference;
+mod render;
+mod report;
+mod scene;
+mod section;
+mod sheet;
+mod show;
+mod subject;
+mod sweep;
+mod template;
+
+use args::{Args, Command};
+use clap::{CommandFactory, Parser};
+use failure::Failure;
+use std::io::Write;
+use std::process::ExitCode;
+
+/// Exit codes: 0 done, 1 the input or the work failed, or a check has found errors, 2 wrong usage (by clap).
+fn main() -> ExitCode {
+    match run(Args::parse()) {
+        Ok(code) => code,
+        Err(failure) => {
+            complain("error", &failure.told());
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Does what was asked for.
+pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
+    color::choose(args.color);
+    match args.command {
+        Command::Render(args) => return render::run(&args),
+        Command::Sheet(args) => sheet::run(&args)?,
+        Command::Info(args) => info::run(&args)?,
+        Command::Check(args) => return check::run(&args),
+        Command::Matrix(args) => matrix::run(&args)?,
+        Command::Explain(args) => explain::run(&args)?,
+        Command::CompareProjections(args) => compare_projections::run(&args)?,
+        Command::Sweep(args) => sweep::run(&args)?,
+        Command::Curve(args) => curve::run(&args)?,
+        Command::Demo(args) => demo::run(&args)?,
+        Command::Animate(args) => animate::run(&args)?,
+        Command::Batch(args) => return batch::run(&args),
+        Command::Scene(args) => return scene::run(&args),
+        Command::Completions(args) => manual::completions(&args, Args::command())?,
+        Command::Man(args) => manual::pages(&args, Args::command())?,
+        Command::Reference(args) => reference::run(&args, Args::command())?,
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Writes to the standard output. A reader who has seen enough and closed it is no failure.
+pub(crate) fn say(bytes: &[u8]) -> Result<(), Failure> {
+    let mut stdout = std::io::stdout().lock();
+    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error.into()),
+        _ => Ok(()),
+    }
+}
+
+/// Tells the person something on the standard error stream. That the stream may be closed is no reason to fail.
+pub(crate) fn complain(level: &str, message: &str) {
+    let level = color::level(level, color::on_stderr());
+    let _ = writeln!(std::io::stderr(), "{level}: {message}");
+}

@@ -1,0 +1,53 @@
+//! `alberti scene fmt`: lays out scene files.
+
+use crate::{Failure, say};
+use pipeline::scene::{laid_out, parse};
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct FmtArgs {
+    /// Scenes (.ron); `-` reads one from the standard input and writes it to the standard output
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// Write nothing; name the files that are laid out otherwise, and end with 1 if there are any
+    #[arg(long)]
+    check: bool,
+}
+
+pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, Failure> {
+    let mut differ = Vec::new();
+    for path in &args.files {
+        let text = read(path)?;
+        let name = path.display().to_string();
+        parse(&name, &text).map_err(pipeline::ResolveError::from)?;
+        let better = laid_out(&name, &text).map_err(pipeline::ResolveError::from)?;
+        let same = better == text;
+        if !same {
+            differ.push(name);
+        }
+        match (args.check, path.as_os_str() == "-") {
+            (true, _) => {}
+            (false, true) => say(better.as_bytes())?,
+            (false, false) if same => {}
+            (false, false) => pipeline::write_file(path, better.as_bytes())?,
+        }
+    }
+    if !args.check || differ.is_empty() {
+        return Ok(ExitCode::SUCCESS);
+    }
+    say(format!("{}\n", differ.join("\n")).as_bytes())?;
+    Ok(ExitCode::FAILURE)
+}
+
+fn read(path: &Path) -> Result<String, Failure> {
+    let mut text = String::new();
+    let read = if path.as_os_str() == "-" {
+        std::io::stdin().read_to_string(&mut text).map(drop)
+    } else {
+        std::fs::read_to_string(path).map(|read| text = read)
+    };
+    read.map_err(|cause| Failure::Usage(format!("cannot read {}: {cause}", path.display())))?;
+    Ok(text)
+}

@@ -1,0 +1,167 @@
+//! `alberti scene init`: a scene file for a model, to go on from.
+
+use crate::loading::LoadArgs;
+use crate::{Failure, complain, say};
+use model::{Model, Topology};
+use pipeline::scene::{ResolveOptions, laid_out};
+use pipeline::{Origin, ResolveError, Scene};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct InitArgs {
+    /// A model (.gltf, .glb)
+    model: PathBuf,
+    /// Where the scene goes; `-` is the standard output [default: beside the model, with .ron]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Replace a file that is there
+    #[arg(long)]
+    force: bool,
+    #[command(flatten)]
+    load: LoadArgs,
+}
+
+pub(crate) fn run(args: &InitArgs) -> Result<(), Failure> {
+    let output = args.output.clone().unwrap_or_else(|| args.model.with_extension("ron"));
+    let to_stdout = output.as_os_str() == "-";
+    if !to_stdout && !args.force && output.exists() {
+        let name = output.display();
+        return Err(Failure::Usage(format!(
+            "{name} is there already\n  = help: choose another name with -o FILE, or replace it with --force"
+        )));
+    }
+    let (origin, file) = Origin::bare_model(&args.model);
+    let scene = Scene::resolve(&origin, &file, &ResolveOptions { import: args.load.options() })?;
+    let folder = if to_stdout { Path::new("") } else { output.parent().unwrap_or(Path::new("")) };
+    let path = from_folder(folder, &args.model);
+    let text = starter(&path, &output.display().to_string(), &scene);
+    let text = laid_out(&path, &text).map_err(ResolveError::from)?;
+    if to_stdout {
+        say(text.as_bytes())?;
+    } else {
+        pipeline::write_file(&output, text.as_bytes())?;
+    }
+    if path.starts_with("..") || Path::new(&path).is_absolute() {
+        let folder = args.model.parent().unwrap_or(Path::new(".")).display();
+        let message = format!(
+            "the model is not below the scene's folder: give --allow-outside {folder} to whoever reads it"
+        );
+        complain("warning", &message);
+    }
+    Ok(())
+}
+
+/// The path of a file as it is written in a scene of this folder, with `/` between its parts.
+fn from_folder(folder: &Path, file: &Path) -> String {
+    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let (Ok(from), Ok(to)) = (here.canonicalize(), file.canonicalize()) else {
+        return file.display().to_string();
+    };
+    let common = from.components().zip(to.components()).take_while(|(a, b)| a == b).count();
+    let up = from.components().skip(common).map(|_| "..".to_owned());
+    let down =
+        to.components().skip(common).map(|part| part.as_os_str().to_string_lossy().into_owned());
+    up.chain(down).collect::<Vec<_>>().join("/")
+}
+
+/// The text of the scene. Writing to a `String` cannot fail.
+fn starter(path: &str, output: &str, scene: &Scene) -> String {
+    let placed = &scene.models[0];
+    let model = &placed.model;
+    let mut text = head(model, path, output);
+    let _ = write!(text, "Scene(\nmodels: [\nModel(\npath: {path:?},\n");
+    states(&mut text, model);
+    text.push_str(
+        "// translate: (0, 0, 0), rotate_degrees: (0, 30, 0), scale: 1,\n),\n],\ncamera: Camera(\n",
+    );
+    views(&mut text, scene);
+    text.push_str("// or Orthographic(), Isometric, Cavalier(), TwoPoint() …\nprojection: Perspective(fov_y_degrees: 35),\n),\n");
+    if model.lights.is_empty() {
+        text.push_str("// Lux of a sun, besides the light from all around; a white matt surface shows lux / π.\n");
+        text.push_str("// lights: [Sun(direction: (-1, -2, -1), lux: 2.6)],\n");
+    } else {
+        text.push_str("// The lights of the model; more can be added: Sun(direction: (-1, -2, -1), lux: 2.6).\n");
+        text.push_str("lights: [FromModels],\n");
+    }
+    text.push_str(
+        "// or Sky(), Uniform(), File(path: …)\nenvironment: Studio(strength: 0.6),\n\n// or Flat, Wireframe, Lines(hidden: Dashed)\nstyle: Shaded,\n\
+         image: Image(\nsize: (960, 720),\n// or Transparent\nbackground: Color(\"#f4f1ea\"),\n),\n\
+         // overlays: [Axes(), Grid()],\n)\n",
+    );
+    text
+}
+
+/// What the model is, and what to do with the scene.
+fn head(model: &Model, path: &str, output: &str) -> String {
+    let triangles =
+        model.shown_primitives().filter(|(_, part)| part.topology == Topology::Triangles);
+    let triangles: usize = triangles.map(|(_, part)| part.count()).sum();
+    let size =
+        model.bounds().map_or([0.0; 3], |bounds| (bounds.max() - bounds.min()).raw().to_array());
+    let [x, y, z] = size;
+    format!(
+        "// {}: {triangles} triangles, {x:.3} wide, {y:.3} high, {z:.3} deep.\n\
+         // Draw it: alberti render {output}\n\
+         // What is wrong with it: alberti scene check {output}\n\
+         // What else it may say: alberti scene doc\n",
+        one_line(path)
+    )
+}
+
+/// The states that the model's file offers.
+fn states(text: &mut String, model: &Model) {
+    let names = |all: Vec<Option<&str>>, field: &str, text: &mut String| {
+        for (number, name) in all.into_iter().enumerate() {
+            let choice = name.map_or(format!("Index({number})"), |name| format!("Name({name:?})"));
+            let _ = writeln!(text, "// {field}: {choice},");
+        }
+    };
+    if model.scenes.len() > 1 {
+        text.push_str("// Scenes of the model, without one its default:\n");
+        names(model.scenes.iter().map(|scene| scene.name.as_deref()).collect(), "scene", text);
+    }
+    if !model.variants.is_empty() {
+        text.push_str("// Variants of its materials:\n");
+        names(model.variants.iter().map(|name| Some(name.as_str())).collect(), "variant", text);
+    }
+    if let Some(longest) = model.animations.iter().map(|one| one.duration_seconds).reduce(f64::max)
+    {
+        let _ = writeln!(text, "// Animations, of up to {longest:.3} s, and the time in seconds:");
+        names(model.animations.iter().map(|one| one.name.as_deref()).collect(), "animation", text);
+        text.push_str("// time: 0.5,\n");
+    }
+}
+
+/// The view that frames everything, the same in numbers, and the cameras of the model.
+fn views(text: &mut String, scene: &Scene) {
+    let model = &scene.models[0].model;
+    let camera = scene.view_projection.camera;
+    let middle = model.bounds().map(|bounds| bounds.center().raw()).unwrap_or_default();
+    let (eye, gaze) = (camera.eye().raw(), camera.gaze().raw());
+    let target = eye + gaze * (middle - eye).dot(gaze);
+    let triple = |p: glam::DVec3| format!("({:.4}, {:.4}, {:.4})", p.x, p.y, p.z);
+    text.push_str("// Everything, from the front, a little from the right and from above.\n");
+    text.push_str(
+        "view: Frame(from: ThreeQuarter, padding_percent: 5),\n// That place in numbers:\n",
+    );
+    let _ = writeln!(text, "// view: LookAt(eye: {}, target: {}),", triple(eye), triple(target));
+    let mut cameras = Vec::new();
+    for instance in model.instances() {
+        let node = &model.nodes[instance.node];
+        let Some(number) = node.camera else { continue };
+        let name = model.cameras[number].name.as_ref().or(node.name.as_ref());
+        cameras.push(name.map_or(format!("Index({number})"), |name| format!("Name({name:?})")));
+    }
+    if !cameras.is_empty() {
+        text.push_str("// Cameras of the model; they bring their projections along:\n");
+    }
+    for camera in cameras {
+        let _ = writeln!(text, "// view: FromModel({camera}),");
+    }
+}
+
+/// A name that cannot end a comment.
+fn one_line(name: &str) -> String {
+    name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+}

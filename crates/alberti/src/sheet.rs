@@ -1,0 +1,265 @@
+//! `alberti sheet`: the views of a scene or a bare model on paper, to scale.
+
+use super::Failure;
+use super::format::Format;
+use super::loading::LoadArgs;
+use super::pick::PickArgs;
+use super::progress::Progress;
+use super::render::{open, threads, warn};
+use super::section::SectionArgs;
+use clap::ValueEnum;
+use drawing::Page;
+use pipeline::scene::ResolveOptions;
+use pipeline::scene::file::{
+    AngleFile, AxonometricFile, HiddenFile, OrientationFile, PaperFile, SheetFile, UnitFile,
+};
+use pipeline::{Picture, Scene};
+use std::path::PathBuf;
+use viewport::{Paper, Resolution};
+
+/// The resolution of sheets as PNG.
+const DOTS_PER_INCH: f64 = 150.0;
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct SheetArgs {
+    /// A scene (.ron) or a model (.gltf, .glb)
+    input: PathBuf,
+    /// Where the sheet goes: .pdf, .svg or .png [default: the input's name with .pdf, in the current folder]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// The paper [default: a3]
+    #[arg(long, value_name = "SIZE")]
+    paper: Option<PaperArg>,
+    /// How the paper lies [default: a4, a5 and letter upright, all others on their long side]
+    #[arg(long)]
+    orientation: Option<OrientationArg>,
+    /// Where views lie: first angle, usual in Europe and China, or third, usual in America [default: first]
+    #[arg(long)]
+    angle: Option<AngleArg>,
+    /// The scale, paper to thing, such as 1:50 [default: the largest of the standard series that fits]
+    #[arg(long, value_name = "N:M", value_parser = parse_scale)]
+    scale: Option<(u32, u32)>,
+    /// What a unit of the model is [default: m]
+    #[arg(long)]
+    unit: Option<UnitArg>,
+    /// The fourth view [default: isometric]
+    #[arg(long, value_name = "VIEW")]
+    axonometric: Option<AxonometricArg>,
+    /// What becomes of hidden lines in the first three views [default: dashed]
+    #[arg(long)]
+    hidden: Option<HiddenArg>,
+    /// Leave out the overall dimensions
+    #[arg(long)]
+    no_dimensions: bool,
+    /// What the sheet shows [default: the names of the models]
+    #[arg(long)]
+    title: Option<String>,
+    /// Who made it
+    #[arg(long)]
+    author: Option<String>,
+    /// When, as it is to be written
+    #[arg(long)]
+    date: Option<String>,
+    /// The number of the drawing
+    #[arg(long)]
+    number: Option<String>,
+    #[command(flatten)]
+    section: SectionArgs,
+    #[command(flatten)]
+    pick: PickArgs,
+    /// Threads to use; the sheet does not depend on it [default: as many as there are cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    threads: Option<u16>,
+    #[command(flatten)]
+    load: LoadArgs,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum PaperArg {
+    A0,
+    A1,
+    A2,
+    A3,
+    A4,
+    A5,
+    Letter,
+    Tabloid,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum OrientationArg {
+    Portrait,
+    Landscape,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum AngleArg {
+    First,
+    Third,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum UnitArg {
+    M,
+    Cm,
+    Mm,
+    In,
+    Ft,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum AxonometricArg {
+    None,
+    Isometric,
+    Dimetric,
+    Trimetric,
+    ThreeQuarter,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum HiddenArg {
+    Removed,
+    Dashed,
+    Drawn,
+}
+
+pub(crate) fn run(args: &SheetArgs) -> Result<(), Failure> {
+    let output = args.output.clone().map_or_else(|| beside(args), Ok)?;
+    let format = Format::of(&output)?;
+    let progress = Progress::start("loading");
+    let (origin, mut file) = open(&args.input, &args.load.options())?;
+    file.models.iter_mut().for_each(|model| args.pick.override_in(model));
+    args.section.add_to(&mut file);
+    // The views are the sheet's; what the scene says of its camera does not matter.
+    file.camera = pipeline::scene::file::CameraFile::default();
+    let mut described = file.sheet.take().unwrap_or_default();
+    override_with(&mut described, args);
+    let sheet = pipeline::scene::resolve_sheet(&origin, &described)
+        .map_err(pipeline::ResolveError::from)?;
+    let options = ResolveOptions { import: args.load.options() };
+    let scene = Scene::resolve(&origin, &file, &options)?;
+    progress.stage("drawing");
+    let page = sheet.draw(&scene.models, &scene.sections, threads(args.threads))?;
+    progress.stage("writing");
+    let warnings = page.warnings.clone();
+    let bytes = match format {
+        Format::Png => picture(&page)?.to_png(),
+        Format::Svg | Format::Pdf => format.vectors(&[page]),
+    };
+    pipeline::write_file(&output, &bytes)?;
+    drop(progress);
+    warn(&scene, &warnings);
+    Ok(())
+}
+
+/// The name of the input with another ending, in the current folder.
+fn beside(args: &SheetArgs) -> Result<PathBuf, Failure> {
+    let stem = args.input.file_stem();
+    let stem = stem.ok_or_else(|| Failure::Usage("name the output with -o FILE".to_owned()))?;
+    Ok(PathBuf::from(stem).with_extension("pdf"))
+}
+
+/// A page as pixels, at 150 dots to the inch.
+pub(super) fn picture(page: &Page) -> Result<Picture, Failure> {
+    let size = || {
+        let paper = Paper::new(page.size.x, page.size.y).ok()?;
+        let [width, height] = paper.pixels(Resolution::dots_per_inch(DOTS_PER_INCH).ok()?)?;
+        page.to_picture(width, height)
+    };
+    size().ok_or_else(|| Failure::Usage("the paper is too large for a picture".to_owned()))
+}
+
+/// What the flags say goes before what the scene says.
+fn override_with(sheet: &mut SheetFile, args: &SheetArgs) {
+    args.paper.into_iter().for_each(|paper| sheet.paper = paper.into());
+    args.orientation.into_iter().for_each(|way| sheet.orientation = Some(way.into()));
+    args.angle.into_iter().for_each(|angle| sheet.angle = angle.into());
+    args.unit.into_iter().for_each(|unit| sheet.unit = unit.into());
+    args.axonometric.into_iter().for_each(|view| sheet.axonometric = view.into());
+    args.hidden.into_iter().for_each(|hidden| sheet.hidden = hidden.into());
+    sheet.scale = args.scale.or(sheet.scale);
+    sheet.dimensions &= !args.no_dimensions;
+    let texts = [
+        (&mut sheet.title, &args.title),
+        (&mut sheet.author, &args.author),
+        (&mut sheet.date, &args.date),
+        (&mut sheet.number, &args.number),
+    ];
+    for (place, text) in texts {
+        text.iter().for_each(|text| place.clone_from(text));
+    }
+}
+
+fn parse_scale(text: &str) -> Result<(u32, u32), String> {
+    let fault = || "expected paper:thing, such as 1:50 or 2:1".to_owned();
+    let (paper, thing) = text.split_once(':').ok_or_else(fault)?;
+    let number = |digits: &str| digits.trim().parse().ok().filter(|n| *n > 0).ok_or_else(fault);
+    Ok((number(paper)?, number(thing)?))
+}
+
+impl From<PaperArg> for PaperFile {
+    fn from(arg: PaperArg) -> Self {
+        match arg {
+            PaperArg::A0 => Self::A0,
+            PaperArg::A1 => Self::A1,
+            PaperArg::A2 => Self::A2,
+            PaperArg::A3 => Self::A3,
+            PaperArg::A4 => Self::A4,
+            PaperArg::A5 => Self::A5,
+            PaperArg::Letter => Self::Letter,
+            PaperArg::Tabloid => Self::Tabloid,
+        }
+    }
+}
+
+impl From<OrientationArg> for OrientationFile {
+    fn from(arg: OrientationArg) -> Self {
+        match arg {
+            OrientationArg::Portrait => Self::Portrait,
+            OrientationArg::Landscape => Self::Landscape,
+        }
+    }
+}
+
+impl From<AngleArg> for AngleFile {
+    fn from(arg: AngleArg) -> Self {
+        match arg {
+            AngleArg::First => Self::First,
+            AngleArg::Third => Self::Third,
+        }
+    }
+}
+
+impl From<UnitArg> for UnitFile {
+    fn from(arg: UnitArg) -> Self {
+        match arg {
+            UnitArg::M => Self::Metre,
+            UnitArg::Cm => Self::Centimetre,
+            UnitArg::Mm => Self::Millimetre,
+            UnitArg::In => Self::Inch,
+            UnitArg::Ft => Self::Foot,
+        }
+    }
+}
+
+impl From<AxonometricArg> for AxonometricFile {
+    fn from(arg: AxonometricArg) -> Self {
+        match arg {
+            AxonometricArg::None => Self::None,
+            AxonometricArg::Isometric => Self::Isometric,
+            AxonometricArg::Dimetric => Self::Dimetric,
+            AxonometricArg::Trimetric => Self::Trimetric,
+            AxonometricArg::ThreeQuarter => Self::ThreeQuarter,
+        }
+    }
+}
+
+impl From<HiddenArg> for HiddenFile {
+    fn from(arg: HiddenArg) -> Self {
+        match arg {
+            HiddenArg::Removed => Self::Removed,
+            HiddenArg::Dashed => Self::Dashed,
+            HiddenArg::Drawn => Self::Drawn,
+        }
+    }
+}

@@ -1,0 +1,310 @@
+//! The canvas: pages as pictures, their strokes and fills through tiny-skia, which nothing else in the workspace names.
+//!
+//! Surfaces never come here. Filling neighbouring triangles with anti-aliased paths would let the background shine
+//! through their seams, and tiny-skia breaks ties the other way round (RA-3).
+
+use crate::{
+    Cap, Ink, Join, Layer, MILLIMETRES_PER_PIXEL, Page, Pasted, Pen, Polyline, millimetres,
+};
+use homog::PixelRect;
+use shade::{Channel, Picture};
+use tiny_skia::{
+    Color, ColorU8, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap,
+    PremultipliedColorU8, Stroke, StrokeDash, Transform,
+};
+
+/// How many points a path may have before another is begun: long ones are slow to fill, and short ones cost a call each.
+const POINTS: usize = 256;
+
+/// The largest piece of a picture that is drawn on at once. Coordinates are rounded from its corner on, so pixels depend on which piece
+/// they are in; as pieces are counted from the corner of the whole picture, they do not depend on the region that is wanted.
+const PIECE: [u32; 2] = [4096, 2048];
+
+impl Page {
+    /// The page as a picture of this size in pixels, stretched to fill it; transparent where there is no paper. `None` if it
+    /// would have no pixels, or more than memory holds.
+    #[must_use]
+    pub fn to_picture(&self, width: u32, height: u32) -> Option<Picture> {
+        let whole = PixelRect::from_size(width, height);
+        if !(1..=raster::MAX_SIDE).contains(&width) || !(1..=raster::MAX_SIDE).contains(&height) {
+            return None;
+        }
+        Some(self.to_region([width, height], whole))
+    }
+
+    /// A region of the picture of this size in pixels.
+    #[must_use]
+    pub fn to_region<C: Channel>(&self, size: [u32; 2], region: PixelRect) -> Picture<C> {
+        let [width, height] = size.map(f64::from);
+        let mut picture = Picture::default();
+        picture.resize(region.width, region.height);
+        let [r, g, b] = self.paper.unwrap_or_default();
+        let alpha = if self.paper.is_some() { 255 } else { 0 };
+        picture.pixels.fill([r, g, b, alpha].map(C::of_byte));
+        let scale = [width / self.size.x, height / self.size.y];
+        RegionCanvas { picture: &mut picture, region }.draw(
+            size,
+            &self.pictures,
+            &self.layers,
+            scale,
+        );
+        picture
+    }
+}
+
+/// Draws layers of a page of 96 pixels to the inch over what is a region of a picture of this size.
+pub fn draw_over<C: Channel>(
+    picture: &mut Picture<C>,
+    size: [u32; 2],
+    region: PixelRect,
+    layers: &[Layer],
+) {
+    RegionCanvas { picture, region }.draw(size, &[], layers, [1.0 / MILLIMETRES_PER_PIXEL; 2]);
+}
+
+/// The pixels of a region of a picture, to be drawn over.
+struct RegionCanvas<'a, C> {
+    picture: &'a mut Picture<C>,
+    region: PixelRect,
+}
+
+impl<C: Channel> RegionCanvas<'_, C> {
+    /// Draws layers over the region, with this many pixels for a millimetre.
+    fn draw(&mut self, size: [u32; 2], pictures: &[Pasted], layers: &[Layer], scale: [f64; 2]) {
+        if layers.is_empty() && pictures.is_empty() {
+            return;
+        }
+        let region = self.region;
+        let first = [region.x / PIECE[0], region.y / PIECE[1]];
+        let last = [region.x + region.width - 1, region.y + region.height - 1];
+        let last = [last[0] / PIECE[0], last[1] / PIECE[1]];
+        for row in first[1]..=last[1] {
+            for column in first[0]..=last[0] {
+                let (x, y) = (column * PIECE[0], row * PIECE[1]);
+                let width = PIECE[0].min(size[0] - x);
+                let height = PIECE[1].min(size[1] - y);
+                let piece = PixelRect { x, y, width, height };
+                self.draw_piece(piece, |canvas| {
+                    pictures.iter().for_each(|pasted| canvas.paste(pasted, scale));
+                    layers.iter().for_each(|layer| canvas.layer(layer, scale));
+                });
+            }
+        }
+    }
+
+    /// Draws layers over what a region has of a piece. Also what is not wanted of the piece is drawn: lines are cut at its borders, and
+    /// cut elsewhere they could be rounded to other pixels.
+    fn draw_piece(&mut self, piece: PixelRect, draw: impl FnOnce(&mut Canvas)) {
+        let Some(shown) = piece.intersection(self.region) else { return };
+        let Some(pixmap) = Pixmap::new(piece.width, piece.height) else { return };
+        let mut canvas = Canvas { pixmap, corner: [piece.x, piece.y] };
+        self.copy(shown, &mut canvas, |pixel, place| *place = C::laid_down(*pixel));
+        draw(&mut canvas);
+        self.copy(shown, &mut canvas, |pixel, place| {
+            *pixel = C::taken_up(*pixel, *place);
+        });
+    }
+
+    /// Goes through the pixels of a region that are on a canvas.
+    fn copy(
+        &mut self,
+        shown: PixelRect,
+        canvas: &mut Canvas,
+        each: impl Fn(&mut [C; 4], &mut PremultipliedColorU8),
+    ) {
+        let region = self.region;
+        let (across, width) = (region.width as usize, canvas.pixmap.width() as usize);
+        let within = |from: [u32; 2]| [(shown.x - from[0]) as usize, (shown.y - from[1]) as usize];
+        let ([left, top], [first, skipped]) = (within([region.x, region.y]), within(canvas.corner));
+        let (count, high) = (shown.width as usize, shown.height as usize);
+        let rows = self.picture.pixels.chunks_exact_mut(across).skip(top).take(high);
+        let places = canvas.pixmap.pixels_mut().chunks_exact_mut(width).skip(skipped);
+        for (row, places) in rows.zip(places) {
+            let places = &mut places[first..first + count];
+            for (pixel, place) in row[left..left + count].iter_mut().zip(places) {
+                each(pixel, place);
+            }
+        }
+    }
+}
+
+/// How pixels come onto a canvas and off it. Those of 8 bits are drawn on; those of 16 stay where they are, and the drawing is laid
+/// over them.
+trait OnCanvas: Channel {
+    fn laid_down(pixel: [Self; 4]) -> PremultipliedColorU8;
+    fn taken_up(pixel: [Self; 4], place: PremultipliedColorU8) -> [Self; 4];
+}
+
+impl<C: Channel> OnCanvas for C {
+    fn laid_down(pixel: [C; 4]) -> PremultipliedColorU8 {
+        if C::BITS > 8 {
+            return PremultipliedColorU8::TRANSPARENT;
+        }
+        let [r, g, b, alpha] = pixel.map(C::to_byte);
+        ColorU8::from_rgba(r, g, b, alpha).premultiply()
+    }
+
+    fn taken_up(pixel: [C; 4], place: PremultipliedColorU8) -> [C; 4] {
+        if C::BITS > 8 {
+            let over = [place.red(), place.green(), place.blue(), place.alpha()];
+            return C::under(pixel, over);
+        }
+        let straight = place.demultiply();
+        [straight.red(), straight.green(), straight.blue(), straight.alpha()].map(C::of_byte)
+    }
+}
+
+/// A picture to draw pages on.
+struct Canvas {
+    pixmap: Pixmap,
+    /// Where its corner is in the picture.
+    corner: [u32; 2],
+}
+
+impl Canvas {
+    /// Draws a layer over what is there, with this many pixels for a millimetre.
+    fn layer(&mut self, layer: &Layer, scale: [f64; 2]) {
+        let mut paint = Paint { anti_alias: true, ..Paint::default() };
+        paint.set_color(color(layer.pen.ink));
+        let pixels = 0.5 * (scale[0] + scale[1]);
+        let whole = stroke(&layer.pen, &[], pixels);
+        for group in &layer.groups {
+            let (dashed, lines): (Vec<_>, Vec<_>) = group
+                .strokes
+                .iter()
+                .map(|line| (line, layer.pen.fitted_dashes(line)))
+                .partition(|(_, dashes)| !dashes.is_empty());
+            let (corner, lines) = (self.corner, lines.into_iter().map(|(line, _)| line));
+            for path in paths(lines, scale, corner, POINTS) {
+                self.pixmap.stroke_path(&path, &paint, &whole, Transform::identity(), None);
+            }
+            for (line, dashes) in dashed {
+                let stroke = stroke(&layer.pen, &dashes, pixels);
+                for path in paths([line], scale, corner, POINTS) {
+                    self.pixmap.stroke_path(&path, &paint, &stroke, Transform::identity(), None);
+                }
+            }
+            // Holes must be in the path of what they are holes of.
+            for path in paths(&group.fills, scale, self.corner, usize::MAX) {
+                let rule = FillRule::EvenOdd;
+                self.pixmap.fill_path(&path, &paint, rule, Transform::identity(), None);
+            }
+        }
+    }
+
+    /// Puts a picture under all lines: each pixel is the mean of what it covers.
+    fn paste(&mut self, pasted: &Pasted, scale: [f64; 2]) {
+        let Pasted { corner, size, picture, .. } = pasted;
+        let (width, height) = (self.pixmap.width(), self.pixmap.height());
+        let first = self.corner;
+        let span = |axis: usize, side: u32, sides: u32| {
+            // Pixels of the pasted picture for one of the canvas, and where the canvas begins in it.
+            let pixels = f64::from(side) / (f64::from(size[axis]) / 1000.0 * scale[axis]);
+            let start = -f64::from(corner[axis]) / 1000.0 * scale[axis] * pixels;
+            (first[axis]..first[axis] + sides).map(move |at| {
+                let from = start + f64::from(at) * pixels;
+                [from, from + pixels].map(|edge| edge.clamp(0.0, f64::from(side)))
+            })
+        };
+        let columns: Vec<[f64; 2]> = span(0, picture.width, width).collect();
+        let rows = span(1, picture.height, height);
+        let places = self.pixmap.pixels_mut().chunks_exact_mut(width as usize);
+        for (row, places) in rows.zip(places) {
+            for (column, place) in columns.iter().zip(places) {
+                let below = place.demultiply();
+                let below = [below.red(), below.green(), below.blue(), below.alpha()];
+                let [r, g, b, alpha] = over(mean(picture, *column, row), below);
+                *place = ColorU8::from_rgba(r, g, b, alpha).premultiply();
+            }
+        }
+    }
+}
+
+fn color([r, g, b]: Ink) -> Color {
+    Color::from_rgba8(r, g, b, 255)
+}
+
+fn stroke(pen: &Pen, dashes: &[f64], scale: f64) -> Stroke {
+    let dashes = dashes.iter().map(|dash| (dash * scale) as f32).collect::<Vec<_>>();
+    Stroke {
+        width: (pen.width * scale) as f32,
+        miter_limit: 4.0,
+        line_cap: match pen.cap {
+            Cap::Butt => LineCap::Butt,
+            Cap::Round => LineCap::Round,
+            Cap::Square => LineCap::Square,
+        },
+        line_join: match pen.join {
+            Join::Miter => LineJoin::Miter,
+            Join::Round => LineJoin::Round,
+            Join::Bevel => LineJoin::Bevel,
+        },
+        // None for no dashes.
+        dash: StrokeDash::new(dashes, 0.0),
+    }
+}
+
+/// The mean of an area of a picture: red, green and blue times alpha, and alpha, from 0 to 255; nothing beside the picture.
+fn mean(picture: &Picture, columns: [f64; 2], rows: [f64; 2]) -> [f64; 4] {
+    let cells = |[from, to]: [f64; 2]| {
+        let first = from as u32;
+        (first..libm::ceil(to) as u32)
+            .map(move |at| (at, to.min(f64::from(at) + 1.0) - from.max(f64::from(at))))
+    };
+    let area = (columns[1] - columns[0]) * (rows[1] - rows[0]);
+    let mut sum = [0.0; 4];
+    if area <= 0.0 {
+        return sum;
+    }
+    for (y, height) in cells(rows) {
+        for (x, width) in cells(columns) {
+            let Some([r, g, b, alpha]) = picture.pixel(x, y) else { continue };
+            let share = width * height / area;
+            let alpha = f64::from(alpha) * share;
+            let color = [r, g, b].map(|channel| f64::from(channel) * alpha / 255.0);
+            let part = [color[0], color[1], color[2], alpha];
+            sum.iter_mut().zip(part).for_each(|(sum, part)| *sum += part);
+        }
+    }
+    sum
+}
+
+/// A colour times its alpha over a straight one, as a straight one.
+fn over([r, g, b, alpha]: [f64; 4], below: [u8; 4]) -> [u8; 4] {
+    let rest = f64::from(below[3]) * (1.0 - alpha / 255.0);
+    let whole = alpha + rest;
+    if whole <= 0.0 {
+        return [0; 4];
+    }
+    let mixed = |above: f64, below: u8| {
+        libm::round((above * 255.0 + f64::from(below) * rest) / whole) as u8
+    };
+    [mixed(r, below[0]), mixed(g, below[1]), mixed(b, below[2]), libm::round(whole) as u8]
+}
+
+/// The lines as paths of about so many points, in pixels.
+fn paths<'a>(
+    lines: impl IntoIterator<Item = &'a Polyline>,
+    scale: [f64; 2],
+    corner: [u32; 2],
+    most: usize,
+) -> Vec<Path> {
+    let mut paths = Vec::new();
+    let mut path = PathBuilder::new();
+    for line in lines {
+        if path.len() >= most {
+            paths.extend(std::mem::take(&mut path).finish());
+        }
+        for (at, point) in line.points.iter().enumerate() {
+            let [x, y] = [0, 1].map(|axis| {
+                (millimetres(*point)[axis] * scale[axis] - f64::from(corner[axis])) as f32
+            });
+            if at == 0 { path.move_to(x, y) } else { path.line_to(x, y) }
+        }
+        if line.closed {
+            path.close();
+        }
+    }
+    paths.extend(path.finish());
+    paths
+}

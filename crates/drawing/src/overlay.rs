@@ -1,0 +1,274 @@
+//! Overlays: what a lesson draws into a picture to explain it.
+//!
+//! ```text
+//!    ──────────●─ · ─ · ─ horizon ─ · ─ · ─●──     axes of the world, a grid on the ground,
+//!              V  ╲  ╲             ╱   ╱   V       the horizon, vanishing points with the lines
+//!               x   ╲ ┌───────────┐ ╱       z      that run to them, and what another camera sees
+//!                     │           │
+//! ```
+//! Axes, grid and view volume stand in the world, and the models hide them; the others are drawn on the picture. What is behind the
+//! eye is cut off before the divide; the near and the far plane do not count.
+
+mod perspective;
+mod volume;
+
+use super::edges::Surface;
+use super::label::{Align, Label};
+use super::linetype::LineType;
+use super::look::HiddenLines;
+use super::page::{Cap, Group, Ink, Layer, MILLIMETRES_PER_PIXEL, Pen, Polyline};
+use super::sight::Sight;
+use super::visibility::Obstacles;
+use crate::Subject;
+use camera::ViewProjection;
+use glam::{DMat4, DVec2, DVec3, DVec4};
+use homog::{Bounds, Clip, Point, Projective, Vector, World};
+
+/// Something drawn over a picture.
+#[derive(Clone, Debug)]
+pub enum Overlay {
+    /// The axes of the world from its origin, of this length; `None` for one that goes with the models.
+    Axes(Option<f64>),
+    /// A grid on the ground, y = 0, with this distance of its lines; `None` for a round one that goes with the models.
+    Grid(Option<f64>),
+    /// Where horizontal directions vanish.
+    Horizon,
+    /// Where the axes vanish, with lines from the corners of the box around the models.
+    VanishingPoints,
+    /// What another camera sees: its view volume, and the eye.
+    Volume(Box<ViewProjection>),
+    /// The edges of the surfaces, where they can be seen; line drawings have them anyway.
+    Edges,
+}
+
+const RED: Ink = [179, 38, 30];
+const GREEN: Ink = [30, 122, 52];
+const BLUE: Ink = [26, 86, 176];
+const GREY: Ink = [150, 156, 163];
+const BROWN: Ink = [140, 90, 20];
+
+/// The axes of the world, their names and their colours.
+const AXES: [(Vector<World>, &str, Ink); 3] =
+    [(Vector::X, "x", RED), (Vector::Y, "y", GREEN), (Vector::Z, "z", BLUE)];
+
+/// The width of lines, the height of letters, the length of arrowheads, in millimetres.
+const WIDTH: f64 = 0.25;
+const LETTERS: f64 = 3.0;
+const ARROW: f64 = 2.4;
+
+/// The most lines of a grid in each direction.
+const MOST_LINES: f64 = 200.0;
+
+/// The layers of all overlays, on a page of the picture's size.
+#[must_use]
+pub fn overlays(subject: &Subject<'_>, overlays: &[Overlay], hidden: HiddenLines) -> Vec<Layer> {
+    if overlays.is_empty() {
+        return Vec::new();
+    }
+    let Some(glass) = Glass::of(subject, hidden) else { return Vec::new() };
+    let layers = overlays.iter().enumerate().flat_map(|(number, overlay)| {
+        let layers = match overlay {
+            Overlay::Axes(length) => glass.axes(*length),
+            Overlay::Grid(step) => glass.grid(*step),
+            Overlay::Horizon => glass.horizon(),
+            Overlay::VanishingPoints => glass.vanishing_points(),
+            Overlay::Volume(view_projection) => glass.volume(view_projection),
+            // They are of the surfaces, and are drawn with them.
+            Overlay::Edges => Vec::new(),
+        };
+        layers
+            .into_iter()
+            .map(move |layer| Layer { id: format!("overlay-{}-{}", number + 1, layer.id), ..layer })
+    });
+    layers.filter(|layer| layer.groups.iter().any(|group| !group.strokes.is_empty())).collect()
+}
+
+/// The picture as a sheet of glass before the eye, on which one draws.
+struct Glass {
+    world_to_clip: Projective<World, Clip>,
+    /// Half the width and height of the page in millimetres.
+    half: DVec2,
+    /// The box around the models.
+    bounds: Bounds<World>,
+    /// What hides; `None` if one sees through everything.
+    obstacles: Option<Obstacles>,
+}
+
+/// The parts of lines that can be seen, and those that cannot.
+#[derive(Default)]
+struct Sighted {
+    visible: Vec<Polyline>,
+    hidden: Vec<Polyline>,
+}
+
+/// How much farther than the depths of the models one sees, before and behind them.
+const REACH: f64 = 1000.0;
+
+impl Glass {
+    /// `None` if there are no models to draw over.
+    fn of(subject: &Subject<'_>, hidden: HiddenLines) -> Option<Self> {
+        let bounds = Bounds::of(model::world_points(subject.models))?;
+        let size = DVec2::from(subject.size.map(f64::from));
+        Some(Self {
+            world_to_clip: subject.view_projection.world_to_clip(),
+            half: size * (0.5 * MILLIMETRES_PER_PIXEL),
+            bounds,
+            obstacles: obstacles(subject, hidden),
+        })
+    }
+
+    /// The image of a place: x and y before the divide, and w.
+    fn image(&self, place: Point<World>) -> DVec3 {
+        flat(self.world_to_clip.point(place).raw())
+    }
+
+    /// The image of a direction, w not negative.
+    fn far_image(&self, direction: Vector<World>) -> DVec3 {
+        let image = flat(self.world_to_clip.direction(direction).raw());
+        if image.z < 0.0 { -image } else { image }
+    }
+
+    /// Where a place after the divide is on the page.
+    fn on_page(&self, ndc: DVec2) -> DVec2 {
+        self.half + DVec2::new(ndc.x, -ndc.y) * self.half
+    }
+
+    /// The part of a segment that is in the picture, on the page.
+    fn segment(&self, a: DVec3, b: DVec3) -> Option<[DVec2; 2]> {
+        let (mut from, mut to) = (0.0_f64, 1.0_f64);
+        for side in [DVec3::X, -DVec3::X, DVec3::Y, -DVec3::Y] {
+            let [start, end] = [a, b].map(|image| image.z + image.dot(side));
+            if start < 0.0 && end < 0.0 {
+                return None;
+            }
+            if start < 0.0 {
+                from = from.max(start / (start - end));
+            } else if end < 0.0 {
+                to = to.min(start / (start - end));
+            }
+        }
+        let at = |t: f64| {
+            let image = a.lerp(b, t);
+            (image.z > 0.0).then(|| self.on_page(image.truncate() / image.z))
+        };
+        if from < to { Some([at(from)?, at(to)?]) } else { None }
+    }
+
+    /// A line of the world as strokes.
+    fn line(&self, from: Point<World>, to: Point<World>, strokes: &mut Sighted) {
+        let stroke = |[a, b]: [f64; 2]| {
+            let [a, b] = [a, b].map(|t| self.image(from.lerp(to, t)));
+            Polyline::through(&self.segment(a, b)?, false)
+        };
+        let Some(obstacles) = &self.obstacles else {
+            return strokes.visible.extend(stroke([0.0, 1.0]));
+        };
+        let parts = obstacles.parts([from, to]);
+        strokes.visible.extend(parts.visible.into_iter().filter_map(stroke));
+        strokes.hidden.extend(parts.hidden.into_iter().filter_map(stroke));
+    }
+
+    /// Where a place is on the page, if it is in the picture.
+    fn seen(&self, image: DVec3) -> Option<DVec2> {
+        let inside = image.z > 0.0 && image.x.abs() <= image.z && image.y.abs() <= image.z;
+        inside.then(|| self.on_page(image.truncate() / image.z))
+    }
+
+    fn axes(&self, length: Option<f64>) -> Vec<Layer> {
+        let reach = self.bounds.diagonal();
+        let length = length.unwrap_or(if reach > 0.0 { 0.6 * reach } else { 1.0 });
+        let axes = AXES.into_iter();
+        axes.flat_map(|(direction, name, ink)| self.axis(direction * length, name, ink)).collect()
+    }
+
+    /// The line in its visible and its hidden parts, and its arrowhead with its name.
+    fn axis(&self, reach: Vector<World>, name: &str, ink: Ink) -> [Layer; 3] {
+        let tip = Point::ORIGIN + reach;
+        let [visible, hidden] = self.lines(&format!("axis-{name}"), ink, &[[Point::ORIGIN, tip]]);
+        let mut head = layer(&format!("axis-{name}-name"), &format!("axis {name}: name"), ink);
+        let ends = [Point::ORIGIN, tip].map(|place| self.image(place));
+        let ends = self.segment(ends[0], ends[1]).filter(|_| self.seen(ends[1]).is_some());
+        if let Some([from, tip]) = ends {
+            let along = (tip - from).normalize_or_zero();
+            let at = tip + along * (0.9 * LETTERS) + DVec2::new(0.0, 0.35 * LETTERS);
+            let label = Label::new(name, at, LETTERS).aligned(Align::Middle);
+            let fills = arrowhead(tip, along).into_iter().collect();
+            head.groups.push(Group { strokes: label.strokes(), fills, ..Group::default() });
+        }
+        [visible, hidden, head]
+    }
+
+    /// Lines of the world as a layer of their visible parts, and one of their hidden parts, dashed.
+    fn lines(&self, name: &str, ink: Ink, lines: &[[Point<World>; 2]]) -> [Layer; 2] {
+        let mut strokes = Sighted::default();
+        lines.iter().for_each(|[from, to]| self.line(*from, *to, &mut strokes));
+        let mut visible = layer(name, name, ink);
+        let mut hidden = layer(&format!("{name}-hidden"), &format!("{name}: hidden"), ink);
+        hidden.pen.width *= 0.6;
+        hidden.pen.dashes = LineType::Dashed.dashes(hidden.pen.width * 0.6);
+        visible.groups.push(Group { strokes: strokes.visible, ..Group::default() });
+        hidden.groups.push(Group { strokes: strokes.hidden, ..Group::default() });
+        [visible, hidden]
+    }
+
+    fn grid(&self, step: Option<f64>) -> Vec<Layer> {
+        let (min, max) = (self.bounds.min(), self.bounds.max());
+        let size = (max.x() - min.x()).max(max.z() - min.z()).max(self.bounds.diagonal() * 0.1);
+        let step = step.unwrap_or_else(|| round_step(size / 8.0)).max(size / MOST_LINES);
+        let range = |low: f64, high: f64| {
+            let (low, high) = (libm::floor(low / step) - 1.0, libm::ceil(high / step) + 1.0);
+            (low, ((high - low) as u32).min(2 * MOST_LINES as u32))
+        };
+        let ((x, columns), (z, rows)) = (range(min.x(), max.x()), range(min.z(), max.z()));
+        let at = |column: f64, row: f64| Point::new((x + column) * step, 0.0, (z + row) * step);
+        let (width, depth) = (f64::from(columns), f64::from(rows));
+        let across = (0..=rows).map(|row| (at(0.0, row.into()), at(width, row.into())));
+        let along = (0..=columns).map(|column| (at(column.into(), 0.0), at(column.into(), depth)));
+        let mut strokes = Sighted::default();
+        across.chain(along).for_each(|(from, to)| self.line(from, to, &mut strokes));
+        let mut layer = layer("grid", &format!("grid, {step} apart"), GREY);
+        layer.pen.width = 0.13;
+        layer.groups.push(Group { strokes: strokes.visible, ..Group::default() });
+        vec![layer]
+    }
+}
+
+/// The faces of the models, unless the scene is drawn as if they were of glass.
+fn obstacles(subject: &Subject<'_>, hidden: HiddenLines) -> Option<Obstacles> {
+    if hidden == HiddenLines::Drawn {
+        return None;
+    }
+    let viewport = subject.viewport().ok()?;
+    // Depth does not decide what is seen beside the models, only its order counts.
+    let deep = DMat4::from_diagonal(DVec4::new(1.0, 1.0, 1.0 / REACH, 1.0));
+    let view_to_clip = Projective::from_raw(deep * subject.view_projection.view_to_clip.raw());
+    let sight = Sight::new(&ViewProjection { view_to_clip, ..subject.view_projection }, &viewport);
+    let surface = Surface::of(subject);
+    Some(Obstacles::new(surface.triangles(), sight, surface.tolerance()))
+}
+
+/// x, y and w.
+fn flat(image: DVec4) -> DVec3 {
+    DVec3::new(image.x, image.y, image.w)
+}
+
+fn layer(id: &str, title: &str, ink: Ink) -> Layer {
+    Layer::new(id, title, Pen { cap: Cap::Butt, ..Pen::of_width(WIDTH, ink) })
+}
+
+/// An arrowhead whose tip is at a place, for a line that comes along a direction.
+fn arrowhead(tip: DVec2, along: DVec2) -> Option<Polyline> {
+    let across = DVec2::new(-along.y, along.x) * (ARROW / 6.0);
+    let base = tip - along * ARROW;
+    Polyline::through(&[tip, base + across, base - across], true)
+}
+
+/// The greatest of 1, 2 and 5 times a power of ten that is no longer than this.
+fn round_step(most: f64) -> f64 {
+    if !(most > 0.0 && most.is_finite()) {
+        return 1.0;
+    }
+    let power = libm::pow(10.0, libm::floor(libm::log10(most)));
+    let fits = |factor: &f64| factor * power <= most;
+    [5.0, 2.0, 1.0].into_iter().find(fits).map_or(power, |factor| factor * power)
+}

@@ -1,0 +1,264 @@
+//! Sheets: the views of an object on paper, to scale, with frame, title block and overall dimensions.
+//!
+//! ```text
+//!   first angle                              third angle
+//!   ┌──────────────────────────────┐         ┌──────────────────────────────┐
+//!   │  ├─────────┤     ├───┤       │         │   ┌───────┐      ╱╲          │
+//!   │ ┬┌───────┐       ┌───┐       │         │   │  top  │     ╱  ╲  iso    │
+//!   │ ││ front │       │left       │         │   └───────┘     ╲  ╱         │
+//!   │ ┴└───────┘       └───┘       │         │ ┬┌───────┐      ┌─────┐      │
+//!   │  ┌───────┐        ╱╲         │         │ ││ front │      │right│      │
+//!   │  │  top  │       ╱  ╲ iso    │         │ ┴└───────┘      └─────┘      │
+//!   │  └───────┘       ╲  ╱        │         │  ├───────┤      ├─────┤      │
+//!   │ 0──1──2 m       ┌────────────┤         │ 0──1──2 m       ┌────────────┤
+//!   └─────────────────┴────────────┘         └─────────────────┴────────────┘
+//! ```
+//! Views of one row have the same heights at the same places, those of one column the same widths (ISO 5456-2); the scale is one of
+//! the standard series (ISO 5455); frame and title block follow ISO 5457 and ISO 7200, dimensions ISO 129-1.
+
+mod arrange;
+mod cut_line;
+mod dimension;
+mod frame;
+mod scale_bar;
+mod symbol;
+mod title_block;
+mod view;
+
+use super::label::{Align, Label};
+use super::layout::Placement;
+use super::linetype::IsoGroup;
+use super::look::{HiddenLines, LineLook, Widths};
+use super::page::{Group, Ink, Layer, Page};
+use crate::DrawError;
+use arrange::{Arrangement, Placed};
+use camera::NamedView;
+use glam::DVec2;
+use homog::{Plane, World};
+use model::{ModelInstance, model_names, world_points};
+use projection::SheetAngle;
+use view::View;
+use viewport::{DrawingScale, Paper, Rectangle};
+
+/// The ink of sheets.
+const INK: Ink = [0, 0, 0];
+
+/// A sheet: what is on it, and how.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Sheet {
+    /// The paper as it lies.
+    pub paper: Paper,
+    /// Its name, such as A3.
+    pub paper_name: String,
+    /// Where views lie.
+    pub angle: SheetAngle,
+    /// The scale; `None` for the largest of the standard series that fits.
+    pub scale: Option<DrawingScale>,
+    /// Millimetres in a unit of the scene.
+    pub unit: f64,
+    /// Which side stands beside the front view.
+    pub side: NamedView,
+    /// From where the axonometric view is; `None` for no such view.
+    pub axonometric: Option<NamedView>,
+    /// How the lines of the views look.
+    pub look: LineLook,
+    /// Whether overall dimensions are drawn.
+    pub dimensions: bool,
+    /// What the title block says.
+    pub titles: Titles,
+}
+
+/// What the title block says.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Titles {
+    /// What the drawing shows; empty for the names of the models.
+    pub title: String,
+    /// Who made it.
+    pub author: String,
+    /// When, as a text.
+    pub date: String,
+    /// The drawing's number.
+    pub number: String,
+}
+
+/// Why there is no sheet.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SheetError {
+    /// A view cannot be drawn.
+    #[error(transparent)]
+    Draw(#[from] DrawError),
+    /// The models have no points, lines or triangles.
+    #[error("there is nothing to draw: the models have no points, lines or triangles")]
+    Empty,
+    /// A view has no camera or no projection.
+    #[error("the {view} view cannot be drawn: {reason}")]
+    View {
+        /// The view.
+        view: NamedView,
+        /// What is wrong.
+        reason: String,
+    },
+    /// The views are too large for the paper.
+    #[error(
+        "the views do not fit on {paper} at {scale}: they need {:.0} x {:.0} mm and there are {:.0} x {:.0} mm{remedy}",
+        need[0], need[1], room[0], room[1]
+    )]
+    TooLarge {
+        /// The paper.
+        paper: String,
+        /// The scale.
+        scale: DrawingScale,
+        /// The width and height of the views at this scale, in millimetres.
+        need: [f64; 2],
+        /// The width and height there is for them.
+        room: [f64; 2],
+        /// What would do.
+        remedy: String,
+    },
+}
+
+impl Sheet {
+    /// Technical drawing on paper of this size: first angle, the view from the left, an isometric view, dimensions; lines wider
+    /// on larger paper.
+    #[must_use]
+    pub fn on(paper: Paper, paper_name: impl Into<String>) -> Self {
+        let group = match paper.width().max(paper.height()) {
+            side if side > 650.0 => IsoGroup::SEVENTH,
+            side if side < 250.0 => IsoGroup::THIRD,
+            _ => IsoGroup::HALF,
+        };
+        Self {
+            paper,
+            paper_name: paper_name.into(),
+            angle: SheetAngle::First,
+            scale: None,
+            unit: 1000.0,
+            side: NamedView::Left,
+            axonometric: Some(NamedView::Isometric),
+            look: LineLook { widths: Widths::Iso(group), ..LineLook::TECHNICAL },
+            dimensions: true,
+            titles: Titles::default(),
+        }
+    }
+
+    /// The sheet of models, cut open by sections, with up to `threads` threads; their number does not change it.
+    ///
+    /// # Errors
+    /// If there is nothing to draw, a view cannot be drawn, or the views are larger than the paper.
+    pub fn draw(
+        &self,
+        models: &[ModelInstance],
+        sections: &[Plane<World>],
+        threads: usize,
+    ) -> Result<Page, SheetError> {
+        let points = world_points(models);
+        let view = |name: NamedView| View::of(&points, name, self.unit);
+        let [front, top, side] = [view(NamedView::Front)?, view(NamedView::Top)?, view(self.side)?];
+        let axonometric = self.axonometric.map(view).transpose()?;
+        let arrangement = Arrangement::of(self, [&front, &top, &side], axonometric.as_ref())?;
+        let title = if self.titles.title.is_empty() {
+            model_names(models)
+        } else {
+            self.titles.title.clone()
+        };
+        let size = DVec2::new(self.paper.width(), self.paper.height());
+        let mut page = Page::new(size, title, Some([255; 3]));
+        let ink = self.look.ink.unwrap_or(INK);
+        for placed in &arrangement.placed {
+            self.draw_view(&mut page, placed, (models, sections), threads)?;
+        }
+        page.layers.extend(cut_line::layers(self, sections, &arrangement, ink));
+        self.draw_apparatus(&mut page, &arrangement, ink);
+        Ok(page)
+    }
+
+    /// The lines of a view. Hidden ones would only confuse in an axonometric view, and where a cut shows what is inside.
+    fn draw_view(
+        &self,
+        page: &mut Page,
+        placed: &Placed<'_>,
+        (models, sections): (&[ModelInstance], &[Plane<World>]),
+        threads: usize,
+    ) -> Result<(), SheetError> {
+        let view = placed.view;
+        let mut sections = sections.to_vec();
+        sections.retain(|plane| placed.shows(*plane));
+        let is_outside = NamedView::PRINCIPAL.contains(&view.name) && sections.is_empty();
+        let hidden = if is_outside { self.look.hidden } else { HiddenLines::Removed };
+        let look = LineLook { hidden, ..self.look };
+        let drawing = view.draw((models, &sections), &look, placed.scale, threads)?;
+        let placement = view.placement(&drawing, placed.scale, placed.centre);
+        let (prefix, ink) = (format!("{}-", view.name), self.look.ink.unwrap_or(INK));
+        page.pictures.extend(drawing.pasted(placement, &prefix));
+        page.layers.extend(drawing.layers(&look, placement, &prefix, ink));
+        page.warnings.extend(drawing.warnings);
+        page.warnings.sort_unstable();
+        page.warnings.dedup();
+        Ok(())
+    }
+
+    /// What says that a view has another scale than the sheet, below it.
+    fn other_scales(&self, arrangement: &Arrangement<'_>, ink: Ink) -> Option<Layer> {
+        let other = arrangement.placed.iter().find(|placed| placed.scale != arrangement.scale)?;
+        let (area, height) = (other.area(), self.lettering());
+        let at = DVec2::new(other.centre.x, area.y() + area.height() + 1.8 * height);
+        let text = other.scale.to_string();
+        let label = Label::new(&text, at, height).aligned(Align::Middle);
+        let mut layer = Layer::new("other-scale", "scale of the last view", label.pen(ink));
+        layer.groups.push(Group { strokes: label.strokes(), ..Group::default() });
+        Some(layer)
+    }
+
+    /// Dimensions, scale bar, frame and title block.
+    fn draw_apparatus(&self, page: &mut Page, arrangement: &Arrangement<'_>, ink: Ink) {
+        if self.dimensions {
+            page.layers.extend(dimension::overall(self, arrangement, ink));
+        }
+        page.layers.extend(self.other_scales(arrangement, ink));
+        page.layers.push(scale_bar::layer(self, arrangement.scale, ink));
+        let block = self.title_block_area();
+        page.layers.push(frame::layer(self.paper, block, ink));
+        let title = page.title.clone();
+        page.layers.extend(title_block::layers(self, &title, arrangement.scale, block, ink));
+    }
+
+    /// The group of line widths.
+    fn line_group(&self) -> IsoGroup {
+        match self.look.widths {
+            Widths::Iso(group) => group,
+            _ => IsoGroup::HALF,
+        }
+    }
+
+    /// The height of letters: a standard size (ISO 3098) that goes with the paper.
+    fn lettering(&self) -> f64 {
+        match self.line_group().wide() {
+            wide if wide < 0.4 => 2.5,
+            wide if wide < 0.6 => 3.5,
+            _ => 5.0,
+        }
+    }
+
+    /// The area within the frame.
+    fn drawing_area(&self) -> Rectangle {
+        frame::inside(self.paper)
+    }
+
+    /// Where the scale bar is: in the lower left corner of the frame, or above the title block where that takes the whole width.
+    fn scale_bar_area(&self) -> Rectangle {
+        scale_bar::area(self)
+    }
+
+    /// Where the title block is: in the lower right corner of the frame.
+    fn title_block_area(&self) -> Rectangle {
+        title_block::area(self.drawing_area())
+    }
+}
+
+/// A rectangle by numbers that are known to be right.
+fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Rectangle {
+    let fallback = || Rectangle::of_size(1.0, 1.0);
+    let rectangle = Rectangle::new(x, y, width.max(1e-6), height.max(1e-6)).or_else(|_| fallback());
+    rectangle.unwrap_or_else(|_| Paper::A4.area())
+}

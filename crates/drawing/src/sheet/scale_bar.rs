@@ -1,0 +1,110 @@
+//! The scale bar: it still tells the truth when a sheet is copied larger or smaller.
+//!
+//! ```text
+//!   ┌────┬────┬─────────┐
+//!   │████│    │█████████│      0 to a round length, halves and a whole
+//!   └────┴────┴─────────┘
+//!   0              100 mm
+//! ```
+
+use super::{Sheet, rectangle};
+use crate::{Align, Cap, Group, Ink, Join, Label, Layer, Pen, Polyline};
+use glam::DVec2;
+use viewport::{DrawingScale, Rectangle};
+
+/// The longest bar in millimetres.
+const LONGEST: f64 = 60.0;
+
+/// The height of the bar.
+const HEIGHT: f64 = 1.2;
+
+/// The height of its labels, in heights of the sheet's letters.
+const LETTERS: f64 = 0.7;
+
+/// The parts of the bar, every other one filled.
+const PARTS: u32 = 4;
+
+/// The room for the bar and its labels.
+pub(super) fn area(sheet: &Sheet) -> Rectangle {
+    let (frame, block) = (sheet.drawing_area(), sheet.title_block_area());
+    let letters = sheet.lettering() * LETTERS;
+    let (width, height) = (LONGEST.min(frame.width() * 0.5) + 16.0, HEIGHT + letters + 6.0);
+    let is_beside = block.x() - frame.x() > width;
+    let bottom = if is_beside { frame.y() + frame.height() } else { block.y() };
+    rectangle(frame.x(), bottom - height, width, height)
+}
+
+/// The bar, in its area.
+pub(super) fn layer(sheet: &Sheet, scale: DrawingScale, ink: Ink) -> Layer {
+    let area = area(sheet);
+    let letters = sheet.lettering() * LETTERS;
+    let thing = round_length(scale.to_thing(area.width() - 16.0));
+    let length = scale.to_paper(thing);
+    let corner = DVec2::new(area.x() + 6.0, area.y() + 1.0);
+    let pen = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::of_width(0.18, ink) };
+    let mut layer = Layer::new("scale-bar", "scale bar", pen);
+    let mut bar = Group { strokes: vec![part(corner, 0.0, length)], ..Group::default() };
+    let step = length / f64::from(PARTS);
+    let filled = (0..PARTS).step_by(2).map(|at| part(corner, f64::from(at) * step, step));
+    bar.fills.extend(filled);
+    let (unit, name) = unit(thing);
+    let marks = [("0".to_owned(), 0.0), (format!("{} {name}", thing / unit), length)];
+    for (text, x) in marks {
+        let at = corner + DVec2::new(x, HEIGHT + 1.2 + letters);
+        let label = Label::new(&text, at, letters).aligned(Align::Middle);
+        bar.strokes.extend(label.strokes());
+    }
+    layer.groups.push(bar);
+    layer
+}
+
+/// A part of the bar as a rectangle.
+fn part(corner: DVec2, from: f64, length: f64) -> Polyline {
+    let low = corner + DVec2::new(from, 0.0);
+    let corners = [
+        low,
+        low + DVec2::new(length, 0.0),
+        low + DVec2::new(length, HEIGHT),
+        low + DVec2::new(0.0, HEIGHT),
+    ];
+    Polyline::through(&corners, true)
+        .unwrap_or(Polyline { points: vec![[0, 0], [1, 0]], closed: false })
+}
+
+/// The greatest length of the form 1, 2 or 5 times a power of ten that is no longer than this.
+fn round_length(most: f64) -> f64 {
+    let mut power = 1e-6;
+    while power * 10.0 <= most {
+        power *= 10.0;
+    }
+    let fits = |factor: &&f64| **factor * power <= most * (1.0 + 1e-9);
+    let rounded = [5.0, 2.0, 1.0].iter().find(fits).map_or(power, |factor| factor * power);
+    // Powers below 1 are not exact; the label shall not show it.
+    if rounded < 1.0 { 1.0 / libm::round(1.0 / rounded) } else { libm::round(rounded) }
+}
+
+/// The unit a length is told in: millimetres in it, and its name.
+fn unit(length: f64) -> (f64, &'static str) {
+    if length >= 1e6 {
+        (1e6, "km")
+    } else if length >= 1e3 {
+        (1e3, "m")
+    } else {
+        (1.0, "mm")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_are_round() {
+        for (most, round) in
+            [(60.0, 50.0), (3000.0, 2000.0), (1.2, 1.0), (0.6, 0.5), (10.0, 10.0), (4.99, 2.0)]
+        {
+            assert_eq!(round_length(most), round);
+        }
+        assert_eq!(unit(2000.0), (1e3, "m"));
+    }
+}

@@ -1,0 +1,120 @@
+//! The title block (ISO 7200): what the sheet shows, who made it, and at what scale, in the lower right corner.
+//!
+//! ```text
+//!   ┌──────────────────┬────────────┬───────────────────────┐
+//!   │ Author           │ Date       │ Number                │
+//!   ├──────────────────┴────────────┴───────────────────────┤
+//!   │ Title                                                 │
+//!   ├───────┬───────┬──────────────┬───────────┬────────────┤
+//!   │ Scale │ Paper │ Dimensions   │ Projection│ Drawn with │
+//!   └───────┴───────┴──────────────┴───────────┴────────────┘
+//! ```
+
+use super::frame::outline;
+use super::symbol::projection_symbol;
+use super::{Sheet, rectangle};
+use crate::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline};
+use glam::DVec2;
+use viewport::{DrawingScale, Rectangle};
+
+/// The width of the block where the paper is wide enough, and its height, in millimetres.
+const SIZE: [f64; 2] = [180.0, 32.0];
+
+/// The heights of letters: of names of fields, of what is in them, of the title.
+const NAME: f64 = 1.8;
+const VALUE: f64 = 3.5;
+const TITLE: f64 = 5.0;
+
+/// From the border of a field to its text.
+const INSET: f64 = 1.5;
+
+/// A field: where it begins and ends, as parts of the block; its name; and what is in it.
+struct Field<'a> {
+    x: [f64; 2],
+    y: [f64; 2],
+    name: &'a str,
+    value: String,
+    height: f64,
+}
+
+/// Where the block is within the frame.
+pub(super) fn area(frame: Rectangle) -> Rectangle {
+    let width = SIZE[0].min(frame.width());
+    let height = SIZE[1].min(frame.height() * 0.3);
+    let (right, bottom) = (frame.x() + frame.width(), frame.y() + frame.height());
+    rectangle(right - width, bottom - height, width, height)
+}
+
+/// The borders, the lettering in its three widths, and the symbol.
+pub(super) fn layers(
+    sheet: &Sheet,
+    title: &str,
+    scale: DrawingScale,
+    area: Rectangle,
+    ink: Ink,
+) -> Vec<Layer> {
+    let fields = fields(sheet, title, scale);
+    let border = |width| Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::of_width(width, ink) };
+    let mut borders = Layer::new("title-block", "title block", border(0.35));
+    borders.groups.push(Group { strokes: vec![outline(area)], ..Group::default() });
+    let mut names = Layer::new("title-block-names", "title block: names", Pen::of_width(0.18, ink));
+    let heading = Pen::of_width(0.5, ink);
+    let mut heading = Layer::new("title-block-title", "title block: title", heading);
+    let mut values = Layer::new("title-block-text", "title block: text", Pen::of_width(0.35, ink));
+    for field in &fields {
+        let place =
+            |x: f64, y: f64| DVec2::new(area.x() + x * area.width(), area.y() + y * area.height());
+        let (low, high) = (place(field.x[0], field.y[0]), place(field.x[1], field.y[1]));
+        let size = high - low;
+        let cell = rectangle(low.x, low.y, size.x, size.y);
+        borders.groups[0].strokes.push(outline(cell));
+        let room = size.x - 2.0 * INSET;
+        let small = NAME.min(size.y * 0.2);
+        let name = Label::new(field.name, low + DVec2::new(INSET, INSET * 0.8 + small), small);
+        names.groups.push(text(&name.no_wider_than(room)));
+        let foot = low + DVec2::new(INSET, size.y - size.y * 0.19);
+        let value = Label::new(&field.value, foot, field.height.min(size.y * 0.42));
+        let layer = if field.height == TITLE { &mut heading } else { &mut values };
+        layer.groups.push(text(&value.no_wider_than(room)));
+        if field.name == PROJECTION {
+            names.groups.push(symbol(sheet, cell));
+        }
+    }
+    vec![borders, names, heading, values]
+}
+
+const PROJECTION: &str = "Projection";
+
+fn fields<'a>(sheet: &Sheet, title: &str, scale: DrawingScale) -> Vec<Field<'a>> {
+    let rows = [[0.0, 0.31], [0.31, 0.69], [0.69, 1.0]];
+    let field = |row: usize, from: f64, to: f64, name: &'a str, value: &str| Field {
+        x: [from, to],
+        y: rows[row],
+        name,
+        value: value.to_owned(),
+        height: if row == 1 { TITLE } else { VALUE },
+    };
+    let titles = &sheet.titles;
+    vec![
+        field(0, 0.0, 0.4, "Author", &titles.author),
+        field(0, 0.4, 0.64, "Date", &titles.date),
+        field(0, 0.64, 1.0, "Number", &titles.number),
+        field(1, 0.0, 1.0, "Title", title),
+        field(2, 0.0, 0.17, "Scale", &scale.to_string()),
+        field(2, 0.17, 0.31, "Paper", &sheet.paper_name),
+        field(2, 0.31, 0.52, "Dimensions in", "mm"),
+        field(2, 0.52, 0.74, PROJECTION, ""),
+        field(2, 0.74, 1.0, "Drawn with", "alberti"),
+    ]
+}
+
+fn symbol(sheet: &Sheet, cell: Rectangle) -> Group {
+    let height = (cell.height() * 0.62).min(cell.width() * 0.2);
+    let middle = DVec2::new(cell.x() + cell.width() * 0.6, cell.y() + cell.height() - height * 0.8);
+    let strokes: Vec<Polyline> = projection_symbol(sheet.angle, middle, height);
+    Group { strokes, ..Group::default() }
+}
+
+fn text(label: &Label<'_>) -> Group {
+    Group { strokes: label.strokes(), ..Group::default() }
+}

@@ -1,0 +1,167 @@
+//! From a glTF file to a [`Model`]: nothing in the file is trusted.
+//!
+//! ```text
+//!  bytes ──container──► JSON ──json──► Root ──scene, material, primitive, …──► Model
+//!                       binary chunk ─┐          │
+//!  other files ──resolver──► buffers ─┴─► accessor, elements, image
+//! ```
+//!
+//! The `gltf` crate lends its JSON types and nothing else: its own importer panics on malformed files and reads any
+//! file a URI names. Here every index, length and size is checked before it is used, URIs name files below one folder
+//! only, everything a file can declare has a [limit](Limits), and a fault says where it is, what is wrong and what to
+//! do. What makes the shape unreadable refuses the file; what only spoils the look is a [`Warning`](crate::Warning).
+//! A lenient reader has warnings of both, as long as something is left to load. [`check`] tells all that is wrong.
+
+mod accessor;
+mod animation;
+mod attribute;
+mod budget;
+mod buffers;
+mod build;
+mod camera;
+mod check;
+mod choice;
+mod container;
+mod decode;
+mod decoding;
+mod draco;
+mod edges;
+mod elements;
+mod error;
+mod extensions;
+mod image;
+mod instancing;
+mod jpeg;
+mod json;
+#[cfg(feature = "basisu")]
+mod ktx2;
+mod lights;
+mod limits;
+mod material;
+mod meshopt;
+mod morph;
+mod normals;
+mod placement;
+mod pointer;
+mod primitive;
+mod repair;
+mod resolver;
+mod scene;
+mod skin;
+mod texture;
+mod topology;
+mod untyped;
+mod warnings;
+mod webp;
+
+pub use decode::decode_bounded as decode_image;
+
+pub use check::{Problem, Report, Severity, check, check_bytes};
+pub use choice::Choice;
+pub use error::{Fault, FaultKind, ImportError};
+pub use extensions::{ExtensionUse, extension_use};
+pub use limits::Limits;
+
+use crate::Model;
+use crate::Timings;
+use accessor::Source;
+use buffers::Buffers;
+use container::Container;
+use json::Document;
+use resolver::Resolver;
+use std::path::{Path, PathBuf};
+use warnings::Warnings;
+
+/// How a file is loaded.
+#[derive(Clone, Debug, Default)]
+pub struct ImportOptions {
+    /// The largest sizes that are accepted.
+    pub limits: Limits,
+    /// The folder that all files the glTF file refers to must be below. Default: the folder of the glTF file.
+    pub root: Option<PathBuf>,
+    /// Other folders that files may be below: `..` and symbolic links may lead there. Default: none.
+    pub allow_outside: Vec<PathBuf>,
+    /// Whether what is broken, missing or unknown is left out with a warning wherever something else is left to load, in place
+    /// of an error. Limits hold all the same. Default: no.
+    pub lenient: bool,
+    /// The scene of the file that is shown. Default: its default scene, else its first.
+    pub scene: Option<Choice>,
+    /// The variant of the file that is shown (KHR_materials_variants). Default: none.
+    pub variant: Option<Choice>,
+    /// What is done with images.
+    pub images: Images,
+    /// What the stages of loading are measured with. Default: not at all.
+    pub timings: Timings,
+}
+
+/// What is done with the images of a file.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Images {
+    /// Those that visible surfaces show are decoded; no other is read.
+    #[default]
+    Decode,
+    /// None is decoded, but the headers of all are read.
+    Headers,
+}
+
+/// Loads a `.gltf` or `.glb` file; which of the two it is, its content says.
+///
+/// Soft faults do not stop it: they are in [`Model::warnings`]. A file with nothing to draw loads as well.
+///
+/// ```no_run
+/// use model::{ImportOptions, load};
+/// let model = load("chair.glb".as_ref(), &ImportOptions::default())?;
+/// let triangles: usize = model.meshes.iter().flat_map(|mesh| &mesh.primitives).map(|p| p.count()).sum();
+/// for warning in &model.warnings {
+///     println!("{}: {}", warning.pointer, warning.message);
+/// }
+/// # Ok::<(), model::ImportError>(())
+/// ```
+///
+/// # Errors
+/// The file, or one it refers to, cannot be read or may not be; is not glTF 2.0 or breaks its rules; requires an
+/// unknown extension; exceeds a limit; has no such scene or variant as the options ask for.
+pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> {
+    let read = || resolver::read_file(path, &options.limits, "");
+    let loaded = options.timings.measure("read", read).and_then(|bytes| {
+        let resolver = Resolver::new(path, bytes.len(), options)?;
+        read_model(path, &bytes, &resolver, options)
+    });
+    loaded.map_err(|fault| ImportError { file: path.to_owned(), fault })
+}
+
+/// Loads a model whose file is in memory, as [`load`] does; `name` stands for its path in messages.
+///
+/// Without a [root](ImportOptions::root) the file must be complete in itself: no other file is read, whatever it says. With
+/// one, the files it names begin at that folder.
+///
+/// # Errors
+/// As for [`load`].
+pub fn load_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<Model, ImportError> {
+    let path = Path::new(name);
+    let loaded = Resolver::in_memory(bytes.len(), options)
+        .and_then(|resolver| read_model(path, bytes, &resolver, options));
+    loaded.map_err(|fault| ImportError { file: path.to_owned(), fault })
+}
+
+fn read_model(
+    path: &Path,
+    bytes: &[u8],
+    resolver: &Resolver<'_>,
+    options: &ImportOptions,
+) -> Result<Model, Fault> {
+    let limits = resolver.limits;
+    let mut warnings = Warnings::new(options.lenient);
+    let container = Container::find(bytes, &mut warnings)?;
+    let json = &bytes[container.json];
+    let parse = || Document::parse(json, limits, &mut warnings);
+    let document = options.timings.measure("parse", parse)?;
+    let chunk = container.binary.map(|range| &bytes[range]);
+    extensions::check(&document.root, &mut warnings)?;
+    let buffers = Buffers::new(&document.root, resolver, chunk, limits);
+    let source = Source::new(&document.root, &buffers, limits);
+    let mut model = build::build(&document, &source, options, &mut warnings)?;
+    model.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    model.warnings = warnings.into_list();
+    Ok(model)
+}

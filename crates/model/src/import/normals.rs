@@ -1,0 +1,83 @@
+//! Normals as the model promises them: of unit length, one for each vertex.
+
+use crate::{Primitive, Topology};
+use glam::DVec3;
+
+/// What was wrong with the normals.
+#[derive(Default, Debug, PartialEq, Eq)]
+pub(super) struct Repairs {
+    /// Normals that pointed somewhere but were not of unit length.
+    pub(super) lengths: usize,
+    /// Normals that pointed nowhere (zero, infinite, not a number).
+    pub(super) replaced: usize,
+}
+
+/// Makes every normal a unit vector. One that has no direction becomes the mean normal of the triangles around its
+/// vertex, or (0, 0, 1) where they have none either.
+///
+/// Lengths that rounding to bytes explains are corrected without being counted.
+pub(super) fn unify(primitive: &mut Primitive) -> Repairs {
+    let mut repairs = Repairs::default();
+    let Some(mut normals) = primitive.normals.take() else { return repairs };
+    let mut lost = Vec::new();
+    for (vertex, normal) in normals.iter_mut().enumerate() {
+        let [x, y, z] = normal.map(f64::from);
+        let square = x * x + y * y + z * z;
+        if (square - 1.0).abs() < 1e-6 {
+            continue;
+        }
+        if square > 1e-30 && square.is_finite() {
+            let length = square.sqrt();
+            *normal = [x / length, y / length, z / length].map(|x| x as f32);
+            repairs.lengths += usize::from((length - 1.0).abs() > 0.02);
+        } else {
+            lost.push(vertex);
+        }
+    }
+    repairs.replaced = lost.len();
+    if !lost.is_empty() {
+        let means = mean_normals(primitive);
+        for vertex in lost {
+            let mean = means[vertex];
+            let unit = if mean.length_squared() > 0.0 { mean.normalize() } else { DVec3::Z };
+            normals[vertex] = unit.to_array().map(|x| x as f32);
+        }
+    }
+    primitive.normals = Some(normals);
+    repairs
+}
+
+/// For each vertex the sum of its triangles' normals, each as long as twice the triangle's area.
+fn mean_normals(primitive: &Primitive) -> Vec<DVec3> {
+    let mut sums = vec![DVec3::ZERO; primitive.positions.len()];
+    if primitive.topology != Topology::Triangles {
+        return sums;
+    }
+    for corners in primitive.indices.as_chunks::<3>().0 {
+        let [a, b, c] =
+            corners.map(|i| DVec3::from(primitive.positions[i as usize].map(f64::from)));
+        let normal = (b - a).cross(c - a);
+        for &corner in corners {
+            sums[corner as usize] += normal;
+        }
+    }
+    sums
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_and_lost_directions_are_mended() {
+        let mut primitive = Primitive {
+            indices: vec![0, 1, 2],
+            positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [5.0; 3]],
+            normals: Some(vec![[0.0, 0.0, 2.0], [0.0; 3], [f32::NAN, 0.0, 0.0], [0.0; 3]]),
+            ..Primitive::default()
+        };
+        assert_eq!(unify(&mut primitive), Repairs { lengths: 1, replaced: 3 });
+        let up = [0.0, 1.0, 0.0];
+        assert_eq!(primitive.normals.unwrap(), [[0.0, 0.0, 1.0], up, up, [0.0, 0.0, 1.0]]);
+    }
+}

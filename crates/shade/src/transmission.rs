@@ -1,0 +1,84 @@
+//! Transmission: what light that passes through a surface becomes of (KHR_materials_transmission, KHR_materials_volume).
+//!
+//! ```text
+//!   behind ──►│░░░░░│──► behind × passing × tint        tint = base colour × attenuation colour ^ (thickness / attenuation distance)
+//!              glass
+//! ```
+//! Surfaces are thin: light is neither bent nor blurred by roughness, and goes straight through the thickness that the material tells
+//! (Beer's law). Red, green and blue pass in their own shares. A fragment has one alpha all the same, for what picks up alpha, a
+//! transparent background above all: that of a grey as bright as the tint. A transparent picture of tinted glass therefore
+//! shows, laid over something, that grey; where Alberti draws what is behind, it has the tint.
+
+use super::Shading;
+use super::inputs::Inputs;
+use super::seen::Wide;
+use model::{AlphaMode, MaterialExtensions};
+use raster::{Eight, Fragments, WIDE, Work};
+
+/// What of white light a body leaves; `scale` is how much longer things are in the world than in its mesh.
+#[inline(always)]
+pub(super) fn tint<const N: usize>(
+    extensions: &MaterialExtensions,
+    inputs: &Inputs<N>,
+    scale: f32,
+    lane: usize,
+) -> [f32; 3] {
+    let volume = extensions.volume.as_deref().copied().unwrap_or_default();
+    let way = inputs.layers.thickness[lane] * scale / volume.attenuation_distance;
+    let mut tint = [0.0; 3];
+    for channel in 0..3 {
+        let left = if way > 0.0 { libm::powf(volume.attenuation_color[channel], way) } else { 1.0 };
+        tint[channel] = inputs.base[channel][lane] * left;
+    }
+    tint
+}
+
+/// The grey that is as bright as a colour (Rec. 709).
+#[inline(always)]
+pub(super) fn grey_of([r, g, b]: [f32; 3]) -> f32 {
+    0.2126 * r + 0.7152 * g + 0.0722 * b
+}
+
+/// What eight translucent fragments with these alphas let through.
+pub(super) struct ThroughEight<'a> {
+    pub(super) shading: &'a Shading<'a>,
+    pub(super) fragments: &'a Fragments<'a>,
+    pub(super) alphas: &'a Eight,
+}
+
+impl Work for ThroughEight<'_> {
+    type Output = [Eight; 3];
+
+    #[inline(always)]
+    fn run(self) -> [Eight; 3] {
+        let Self { shading, fragments, alphas } = self;
+        let mut through = [alphas.map(|alpha| 1.0 - alpha); 3];
+        let mut done = [false; WIDE];
+        while let Some(first) = done.iter().position(|&is_done| !is_done) {
+            let (draw, ids, own) = shading.draws.lanes_of(fragments, first);
+            for lane in 0..WIDE {
+                done[lane] |= own[lane];
+            }
+            if !draw.material.transmits() {
+                continue;
+            }
+            let items = draw.items(&ids, fragments.are_of_one());
+            let is_blended = draw.material.alpha_mode == AlphaMode::Blend;
+            let corners = draw.corners(&items);
+            let inputs = Inputs::of(draw, &corners, &Wide::new(fragments));
+            for lane in (0..WIDE).filter(|&lane| own[lane]) {
+                let there = if is_blended { inputs.base[3][lane] } else { 1.0 };
+                let tint = tint(&draw.material.extensions, &inputs, draw.scale, lane);
+                let passing = (there - alphas[lane]) / grey_of(tint);
+                // Grey passes as it is, and so does what no number tells.
+                if passing.is_finite() && (tint[0] != tint[1] || tint[1] != tint[2]) {
+                    for channel in 0..3 {
+                        let share = 1.0 - there + passing * tint[channel];
+                        through[channel][lane] = share.clamp(0.0, 1.0);
+                    }
+                }
+            }
+        }
+        through
+    }
+}
