@@ -7,7 +7,7 @@ use std::process::Command;
 
 /// The top folder of the project.
 #[must_use]
-pub fn root() -> &'static Path {
+pub fn project_root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
 }
 
@@ -15,7 +15,7 @@ pub fn root() -> &'static Path {
 ///
 /// # Errors
 /// If `$ALBERTI` is no file, or the program does not build.
-pub fn program() -> Result<PathBuf, String> {
+pub fn program_path() -> Result<PathBuf, String> {
     if let Some(path) = std::env::var_os("ALBERTI").map(PathBuf::from) {
         let missing = || format!("ALBERTI names {}, which is no file", path.display());
         return path.is_file().then(|| path.clone()).ok_or_else(missing);
@@ -31,7 +31,8 @@ pub fn program() -> Result<PathBuf, String> {
     if folder.ends_with("release") {
         cargo.arg("--release");
     }
-    let status = cargo.current_dir(root()).status().map_err(|error| format!("cargo: {error}"))?;
+    let status =
+        cargo.current_dir(project_root()).status().map_err(|error| format!("cargo: {error}"))?;
     let path = folder.join(format!("alberti{}", std::env::consts::EXE_SUFFIX));
     if status.success() { Ok(path) } else { Err("the program does not build".to_owned()) }
 }
@@ -43,10 +44,10 @@ pub fn program() -> Result<PathBuf, String> {
 pub fn read_png(path: &Path) -> Result<(u32, u32, Vec<[u8; 4]>), String> {
     let with_path = |error: String| format!("{}: {error}", path.display());
     let file = File::open(path).map_err(|error| with_path(error.to_string()))?;
-    decode(BufReader::new(file)).map_err(with_path)
+    decode_png(BufReader::new(file)).map_err(with_path)
 }
 
-fn decode(source: BufReader<File>) -> Result<(u32, u32, Vec<[u8; 4]>), String> {
+fn decode_png(source: BufReader<File>) -> Result<(u32, u32, Vec<[u8; 4]>), String> {
     let mut decoder = png::Decoder::new(source);
     decoder.set_transformations(
         png::Transformations::normalize_to_color8() | png::Transformations::ALPHA,
@@ -71,11 +72,11 @@ struct Readme;
 
 #[cfg(test)]
 mod tests {
-    use super::root;
+    use super::project_root;
 
     #[test]
     fn the_scene_in_the_readme_is_the_committed_one() {
-        let read = |name: &str| std::fs::read_to_string(root().join(name)).expect(name);
+        let read = |name: &str| std::fs::read_to_string(project_root().join(name)).expect(name);
         let readme = read("README.md");
         let shown = readme.split("```ron\n").nth(1).and_then(|rest| rest.split("```").next());
         let scene = read("scenes/mexican_hat.ron");

@@ -14,66 +14,66 @@ mod points;
 mod scene;
 mod triangles;
 
-use measure::Way;
+use measure::Variant;
 use std::process::ExitCode;
 
 /// A job, and the ways to do it: the first is the measure of the others.
 struct Benchmark {
     name: &'static str,
     about: &'static str,
-    ways: fn() -> Vec<Way>,
+    variants: fn() -> Vec<Variant>,
 }
 
 const BENCHMARKS: &[Benchmark] = &[
     Benchmark {
         name: "points/cached",
         about: "100,000 points to clip space, a thousand of them a hundred times",
-        ways: points::to_clip_cached,
+        variants: points::to_clip_cached,
     },
     Benchmark {
         name: "points/uncached",
         about: "100,000 points to clip space, each from main memory",
-        ways: points::to_clip_uncached,
+        variants: points::to_clip_uncached,
     },
     Benchmark {
         name: "affine/cached",
         about: "100,000 points to world space, a thousand of them a hundred times",
-        ways: points::to_world_cached,
+        variants: points::to_world_cached,
     },
     Benchmark {
         name: "affine/uncached",
         about: "100,000 points to world space, each from main memory",
-        ways: points::to_world_uncached,
+        variants: points::to_world_uncached,
     },
     Benchmark {
         name: "outcodes/cached",
         about: "the outcodes of 100,000 points, a thousand of them a hundred times",
-        ways: outcodes::cached,
+        variants: outcodes::cached_blocks,
     },
     Benchmark {
         name: "outcodes/uncached",
         about: "the outcodes of 100,000 points, each from main memory",
-        ways: outcodes::uncached,
+        variants: outcodes::uncached_blocks,
     },
     Benchmark {
         name: "project/cached",
         about: "100,000 positions in f32 to clip space with outcodes, a thousand a hundred times",
-        ways: outcodes::project_cached,
+        variants: outcodes::project_cached,
     },
     Benchmark {
         name: "project/uncached",
         about: "100,000 positions in f32 to clip space with outcodes, each from main memory",
-        ways: outcodes::project_uncached,
+        variants: outcodes::project_uncached,
     },
     Benchmark {
         name: "triangles/visible",
         about: "100,000 triangles of a floor, nine in ten of them wholly visible",
-        ways: triangles::mostly_visible,
+        variants: triangles::mostly_visible,
     },
     Benchmark {
         name: "triangles/cut",
         about: "100,000 triangles, all of them cut by at least one plane",
-        ways: triangles::all_cut,
+        variants: triangles::all_clipped,
     },
 ];
 
@@ -84,9 +84,9 @@ fn main() -> ExitCode {
         names.is_empty() || names.iter().any(|part| benchmark.name.contains(part.as_str()))
     };
     let mut count = 0;
-    for Benchmark { name, about, ways } in BENCHMARKS.iter().filter(chosen) {
+    for Benchmark { name, about, variants: ways } in BENCHMARKS.iter().filter(chosen) {
         println!("{name}: {about}");
-        for line in measure::compared(ways()) {
+        for line in measure::compare_variants(ways()) {
             println!("{line}");
         }
         count += 1;

@@ -4,7 +4,7 @@ use glam::{DMat4, DVec4};
 use homog::{Affine, Clip, Model, Point, Projective, Vector, World};
 
 /// How many points or triangles a way deals with in one turn.
-pub const COUNT: usize = 100_000;
+pub const POINT_COUNT: usize = 100_000;
 
 /// The points of a turn, as blocks to go through: one small block again and again, which stays in the
 /// nearest cache, or one large block, a different one each turn, which has long left all caches.
@@ -17,24 +17,24 @@ pub enum Blocks {
 /// Before a block of 100,000 points is gone through again, 12 turns of every way have gone through more
 /// than 60 MB each.
 const LARGE_BLOCKS: usize = 12;
-const SMALL: usize = 1_000;
+const SMALL_BLOCK: usize = 1_000;
 
 impl Blocks {
     /// How many items there are in all.
-    pub fn total(self) -> usize {
+    pub fn total_points(self) -> usize {
         match self {
-            Self::Cached => SMALL,
-            Self::Uncached => LARGE_BLOCKS * COUNT,
+            Self::Cached => SMALL_BLOCK,
+            Self::Uncached => LARGE_BLOCKS * POINT_COUNT,
         }
     }
 
     /// Calls `each` with the ranges of one turn.
-    pub fn each(self, turn: usize, mut each: impl FnMut(std::ops::Range<usize>)) {
+    pub fn for_each_block(self, turn: usize, mut each: impl FnMut(std::ops::Range<usize>)) {
         match self {
-            Self::Cached => (0..COUNT / SMALL).for_each(|_| each(0..SMALL)),
+            Self::Cached => (0..POINT_COUNT / SMALL_BLOCK).for_each(|_| each(0..SMALL_BLOCK)),
             Self::Uncached => {
-                let start = turn % LARGE_BLOCKS * COUNT;
-                each(start..start + COUNT);
+                let start = turn % LARGE_BLOCKS * POINT_COUNT;
+                each(start..start + POINT_COUNT);
             }
         }
     }

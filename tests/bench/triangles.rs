@@ -1,7 +1,7 @@
 //! Clipping triangles of meshes.
 
-use crate::measure::Way;
-use crate::scene::{COUNT, coordinate};
+use crate::measure::Variant;
+use crate::scene::{POINT_COUNT, coordinate};
 use clip::{Outcode, Volume, clip_triangle};
 use glam::DVec4;
 use homog::{Clip, HPoint};
@@ -14,13 +14,13 @@ struct Mesh {
 }
 
 impl Mesh {
-    fn corners(&self, triangle: [usize; 3]) -> [HPoint<Clip>; 3] {
+    fn triangle_points(&self, triangle: [usize; 3]) -> [HPoint<Clip>; 3] {
         triangle.map(|i| self.points[i])
     }
 }
 
 /// A square of 2 × 224 × 224 triangles, of which the rim of the picture cuts or hides one in ten.
-fn floor() -> Mesh {
+fn floor_mesh() -> Mesh {
     const SIDE: usize = 224;
     let at = |i: usize| (i as f64 / SIDE as f64 * 2.0 - 1.0) * 1.05;
     let point = |i: usize, j: usize| {
@@ -36,12 +36,12 @@ fn floor() -> Mesh {
         [[a, b, c], [a, c, d]]
     });
     let mut triangles: Vec<_> = halves.collect();
-    triangles.truncate(COUNT);
+    triangles.truncate(POINT_COUNT);
     Mesh { points, triangles }
 }
 
 /// Triangles around the border of the picture.
-fn border() -> Mesh {
+fn border_mesh() -> Mesh {
     let point = |i: usize| {
         let out = if i.is_multiple_of(3) { 1.5 } else { 0.8 };
         let along = coordinate(11 * i);
@@ -49,13 +49,13 @@ fn border() -> Mesh {
         let w = 3.0 + coordinate(i);
         HPoint::new(x * w, y * w, 0.3 * w, w)
     };
-    let points = (0..3 * COUNT).map(point).collect();
-    Mesh { points, triangles: (0..COUNT).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect() }
+    let points = (0..3 * POINT_COUNT).map(point).collect();
+    Mesh { points, triangles: (0..POINT_COUNT).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect() }
 }
 
 /// Sutherland and Hodgman's loop as a textbook has it: all six planes, one after the other, no weights
 /// and no regard to which way a shared edge runs.
-fn textbook(triangle: [DVec4; 3], polygon: &mut Polygon) {
+fn clip_as_in_textbooks(triangle: [DVec4; 3], polygon: &mut Polygon) {
     polygon.corners[..3].copy_from_slice(&triangle);
     polygon.count = 3;
     for plane in PLANES {
@@ -96,42 +96,43 @@ const PLANES: [DVec4; 6] = [
     DVec4::new(0.0, 0.0, -1.0, 1.0),
 ];
 
-pub fn mostly_visible() -> Vec<Way> {
-    ways(floor)
+pub fn mostly_visible() -> Vec<Variant> {
+    variants(floor_mesh)
 }
 
-pub fn all_cut() -> Vec<Way> {
-    ways(border)
+pub fn all_clipped() -> Vec<Variant> {
+    variants(border_mesh)
 }
 
-fn ways(mesh: fn() -> Mesh) -> Vec<Way> {
+fn variants(mesh: fn() -> Mesh) -> Vec<Variant> {
     let plain = mesh();
     let mut polygon = Polygon { corners: [DVec4::ZERO; 9], count: 0 };
-    let by_textbook = Way::new("plain loop of the textbook's six planes", move || {
+    let by_textbook = Variant::new("plain loop of the textbook's six planes", move || {
         for &triangle in black_box(&plain.triangles) {
-            textbook(plain.corners(triangle).map(HPoint::raw), &mut polygon);
+            clip_as_in_textbooks(plain.triangle_points(triangle).map(HPoint::raw), &mut polygon);
             black_box(&mut polygon);
         }
     });
     let each = mesh();
-    let clip_each = Way::new("clip_triangle of each, with weights", move || {
+    let clip_each = Variant::new("clip_triangle of each, with weights", move || {
         for &triangle in black_box(&each.triangles) {
-            black_box(clip_triangle(each.corners(triangle), &Volume::CHAPTER).vertices());
+            black_box(clip_triangle(each.triangle_points(triangle), &Volume::CHAPTER).vertices());
         }
     });
     let sorted = mesh();
     let mut codes = vec![Outcode::INSIDE; sorted.points.len()];
-    let by_outcodes = Way::new("Volume::outcodes, then clip_triangle where needed", move || {
-        black_box(Volume::CHAPTER.outcodes(black_box(&sorted.points), &mut codes));
-        for &triangle in &sorted.triangles {
-            let of_corners = triangle.map(|i| codes[i]);
-            let corners = sorted.corners(triangle);
-            if Outcode::accepts(&of_corners) {
-                black_box(corners);
-            } else if Outcode::rejects(&of_corners).is_inside() {
-                black_box(clip_triangle(corners, &Volume::CHAPTER).vertices());
+    let by_outcodes =
+        Variant::new("Volume::outcodes, then clip_triangle where needed", move || {
+            black_box(Volume::CHAPTER.compute_outcodes(black_box(&sorted.points), &mut codes));
+            for &triangle in &sorted.triangles {
+                let of_corners = triangle.map(|i| codes[i]);
+                let corners = sorted.triangle_points(triangle);
+                if Outcode::trivially_accepts(&of_corners) {
+                    black_box(corners);
+                } else if Outcode::trivially_rejects(&of_corners).is_inside() {
+                    black_box(clip_triangle(corners, &Volume::CHAPTER).vertices());
+                }
             }
-        }
-    });
+        });
     vec![by_textbook, clip_each, by_outcodes]
 }

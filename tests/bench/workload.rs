@@ -7,19 +7,19 @@
 #![allow(clippy::print_stdout, reason = "a program speaks on its standard output")]
 
 use homog::Point;
-use raster::{Cover, Cull, Fragment, Frame, Instructions, Samples, ScreenVertex, Surface};
+use raster::{CullMode, Fragment, Frame, Opacity, Samples, ScreenVertex, SimdLevel, Surface};
 use std::process::ExitCode;
 
-const SIZE: (u32, u32) = (640, 360);
-const SMALL: u32 = 20_000;
-const LARGE: u32 = 40;
+const IMAGE_SIZE: (u32, u32) = (640, 360);
+const SMALL_TRIANGLES: u32 = 20_000;
+const LARGE_TRIANGLES: u32 = 40;
 
 /// Numbers without rhyme that are the same everywhere (Knuth's constants).
-struct Dice(u64);
+struct Random(u64);
 
-impl Dice {
+impl Random {
     /// Between 0 and 1.
-    fn throw(&mut self) -> f64 {
+    fn next_unit(&mut self) -> f64 {
         self.0 =
             self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
@@ -27,10 +27,10 @@ impl Dice {
 }
 
 /// A colour of the triangle's name, blended over its corners.
-struct Names;
+struct IdSurface;
 
-impl Surface for Names {
-    fn keeps(&self, _: &Fragment<'_>) -> bool {
+impl Surface for IdSurface {
+    fn passes_alpha_test(&self, _: &Fragment<'_>) -> bool {
         true
     }
 
@@ -47,7 +47,7 @@ fn main() -> ExitCode {
         println!("give the number of samples: 1, 4, 8 or 16");
         return ExitCode::FAILURE;
     };
-    match work(samples) {
+    match draw_workload(samples) {
         Ok(sum) => {
             println!("{sum:08x}");
             ExitCode::SUCCESS
@@ -59,35 +59,38 @@ fn main() -> ExitCode {
     }
 }
 
-fn work(samples: Samples) -> Result<u32, raster::RasterError> {
-    let (width, height) = SIZE;
+fn draw_workload(samples: Samples) -> Result<u32, raster::RasterError> {
+    let (width, height) = IMAGE_SIZE;
     let frame = Frame::new(width, height, samples)?;
-    let mut frame = frame.with_instructions(Instructions::baseline());
-    let mut dice = Dice(2024);
-    let vertices: Vec<_> = (0..SMALL).flat_map(|_| small(&mut dice)).collect();
-    let triangles: Vec<_> = (0..SMALL).map(|n| [3 * n, 3 * n + 1, 3 * n + 2]).collect();
-    frame.mesh(&vertices, &triangles, 0, Cover::Solid, Cull::Nothing);
-    for n in 0..LARGE {
-        let depth = f64::from(n) / f64::from(LARGE);
-        let far =
-            [(-50.0, -50.0), (1400.0, -30.0), (-30.0, 800.0)].map(|(x, y)| vertex(x, y, depth));
+    let mut frame = frame.with_simd_level(SimdLevel::baseline());
+    let mut dice = Random(2024);
+    let vertices: Vec<_> = (0..SMALL_TRIANGLES).flat_map(|_| small_triangle(&mut dice)).collect();
+    let triangles: Vec<_> = (0..SMALL_TRIANGLES).map(|n| [3 * n, 3 * n + 1, 3 * n + 2]).collect();
+    frame.add_mesh(&vertices, &triangles, 0, Opacity::Opaque, CullMode::Nothing);
+    for n in 0..LARGE_TRIANGLES {
+        let depth = f64::from(n) / f64::from(LARGE_TRIANGLES);
+        let far = [(-50.0, -50.0), (1400.0, -30.0), (-30.0, 800.0)]
+            .map(|(x, y)| screen_vertex(x, y, depth));
         if let [Some(p), Some(q), Some(r)] = far {
-            frame.triangle([p, q, r], SMALL + n, Cover::Solid);
+            frame.add_triangle([p, q, r], SMALL_TRIANGLES + n, Opacity::Opaque);
         }
     }
     let mut pixels = vec![[0_u8; 4]; (width * height) as usize];
     let encode = |color: [f32; 4]| color.map(|channel| (channel * 255.0) as u8);
-    frame.draw(&Names, [0.0; 4], 1, &mut pixels, encode);
+    frame.draw(&IdSurface, [0.0; 4], 1, &mut pixels, encode);
     let mix = |sum: u32, byte: &u8| (sum ^ u32::from(*byte)).wrapping_mul(16_777_619);
     Ok(pixels.as_flattened().iter().fold(2_166_136_261, mix))
 }
 
 /// A triangle of up to six pixels each way, with everything from the nearest to the farthest.
-fn small(dice: &mut Dice) -> [Option<ScreenVertex>; 3] {
-    let (x, y) = (dice.throw() * f64::from(SIZE.0), dice.throw() * f64::from(SIZE.1));
-    [(); 3].map(|()| vertex(x + dice.throw() * 6.0, y + dice.throw() * 6.0, dice.throw()))
+fn small_triangle(dice: &mut Random) -> [Option<ScreenVertex>; 3] {
+    let (x, y) =
+        (dice.next_unit() * f64::from(IMAGE_SIZE.0), dice.next_unit() * f64::from(IMAGE_SIZE.1));
+    [(); 3].map(|()| {
+        screen_vertex(x + dice.next_unit() * 6.0, y + dice.next_unit() * 6.0, dice.next_unit())
+    })
 }
 
-fn vertex(x: f64, y: f64, depth: f64) -> Option<ScreenVertex> {
+fn screen_vertex(x: f64, y: f64, depth: f64) -> Option<ScreenVertex> {
     ScreenVertex::snap(Point::new(x, y, depth), 2.0 - depth)
 }

@@ -1,7 +1,7 @@
 //! Where the check and the validator differ, and why.
 
 use crate::manifest::Row;
-use model::import::{Report, Severity};
+use model::import::{CheckReport, Severity};
 use std::collections::BTreeSet;
 
 const KTX: &str = "KHR_texture_ktx, for images of several layers, is not read";
@@ -68,14 +68,18 @@ const MILDER: &[(&str, &str, &str)] = &[
 ];
 
 /// How a report differs from what is expected of a file.
-pub fn differs(row: &Row, report: &Report, found: &BTreeSet<&'static str>) -> Option<String> {
+pub fn difference_from_validator(
+    row: &Row,
+    report: &CheckReport,
+    actual: &BTreeSet<&'static str>,
+) -> Option<String> {
     let listed: BTreeSet<&str> = row.validator_errors.iter().map(String::as_str).collect();
     let allowed = |table: &[(&str, &str, &str)], code: &str| {
         table.iter().any(|(end, known, _)| row.path.ends_with(end) && *known == code)
     };
     if row.group() != "bad" {
-        let wrong = found.iter().find(|code| !allowed(STRICTER, code))?;
-        let problem = report.problems.iter().find(|problem| problem.code == *wrong)?;
+        let wrong = actual.iter().find(|code| !allowed(STRICTER, code))?;
+        let problem = report.diagnostics.iter().find(|problem| problem.code == *wrong)?;
         return Some(format!("no error is listed: {problem}"));
     }
     if !listed.is_empty() && report.errors == 0 {
@@ -85,14 +89,14 @@ pub fn differs(row: &Row, report: &Report, found: &BTreeSet<&'static str>) -> Op
     let whole = |code: &str| {
         code.starts_with("GLB_") || ["INVALID_JSON", "NOT_GLTF", "TYPE_MISMATCH"].contains(&code)
     };
-    let lost = report.problems.iter().find(|p| p.pointer.is_empty() && !whole(p.code));
+    let lost = report.diagnostics.iter().find(|p| p.pointer.is_empty() && !whole(p.code));
     if let Some(problem) = lost.filter(|problem| problem.severity == Severity::Error) {
         return Some(format!("an error without a place: {problem}"));
     }
     let missing: Vec<&str> = listed
         .iter()
         .copied()
-        .filter(|code| !found.contains(code) && !allowed(MILDER, code))
+        .filter(|code| !actual.contains(code) && !allowed(MILDER, code))
         .collect();
-    if missing.is_empty() { None } else { Some(format!("{missing:?} not found, but {found:?}")) }
+    if missing.is_empty() { None } else { Some(format!("{missing:?} not found, but {actual:?}")) }
 }

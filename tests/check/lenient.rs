@@ -1,15 +1,15 @@
 //! What a lenient reader makes of broken files: everything that others load, and more.
 
 use crate::manifest::Row;
-use model::import::{FaultKind, ImportOptions, load};
+use model::import::{ImportErrorKind, ImportOptions, load};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 /// What stops even a lenient reader: that nothing can be made of the file at all.
-const HOPELESS: [FaultKind; 2] = [FaultKind::Format, FaultKind::Version];
+const UNREADABLE: [ImportErrorKind; 2] = [ImportErrorKind::Format, ImportErrorKind::Version];
 
 /// Loads the broken files strictly and leniently, and prints how many load; gives what is wrong.
-pub fn check(folder: &Path, rows: &[Row]) -> Vec<String> {
+pub fn check_lenient_loading(folder: &Path, rows: &[Row]) -> Vec<String> {
     let (mut failures, mut counts) = (Vec::new(), [0; 3]);
     for row in rows.iter().filter(|row| row.group() == "bad") {
         let path = folder.join(&row.path);
@@ -22,7 +22,7 @@ pub fn check(folder: &Path, rows: &[Row]) -> Vec<String> {
             Ok((Err(error), Ok(model))) if model.warnings.is_empty() => {
                 Some(format!("leniently nothing is told of {error}"))
             }
-            Ok((_, Err(error))) if !HOPELESS.contains(&error.fault.kind) => {
+            Ok((_, Err(error))) if !UNREADABLE.contains(&error.diagnostic.kind) => {
                 Some(format!("not even leniently it loads: {error}"))
             }
             Ok((strict, lenient)) => {

@@ -16,7 +16,7 @@ mod manifest;
 mod tally;
 
 use manifest::Row;
-use model::import::{ImportOptions, Report, Severity, check};
+use model::import::{CheckReport, ImportOptions, Severity, check_file};
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -24,7 +24,7 @@ use std::process::ExitCode;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
-use tally::Tally;
+use tally::CodeTally;
 
 fn main() -> ExitCode {
     let chosen = std::env::var_os("ASSETS").map(PathBuf::from);
@@ -35,7 +35,7 @@ fn main() -> ExitCode {
         println!("0 passed, 0 failed, 1 skipped");
         return ExitCode::SUCCESS;
     }
-    let failures = match run(folder) {
+    let failures = match check_corpus(folder) {
         Ok((passed, failures)) => {
             failures.iter().for_each(|failure| println!("FAILED {failure}"));
             println!("{passed} passed, {} failed, 0 skipped", failures.len());
@@ -51,52 +51,52 @@ fn main() -> ExitCode {
 }
 
 /// Checks the files of a folder; gives the number of those that are as expected, and what is wrong with the others.
-fn run(folder: &Path) -> Result<(usize, Vec<String>), String> {
+fn check_corpus(folder: &Path) -> Result<(usize, Vec<String>), String> {
     let filters: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
     let prints = std::env::args().any(|argument| argument == "--all");
-    let mut rows = manifest::read(folder)?;
+    let mut rows = manifest::read_manifest(folder)?;
     rows.retain(|row| filters.is_empty() || filters.iter().any(|f| row.path.contains(f.as_str())));
     let start = Instant::now();
     let reports = check_all(folder, &rows);
     println!("{} files in {:.1} s", rows.len(), start.elapsed().as_secs_f64());
-    let (mut passed, mut failures, mut tally) = (0, Vec::new(), Tally::default());
+    let (mut passed, mut failures, mut tally) = (0, Vec::new(), CodeTally::default());
     for (row, report) in rows.iter().zip(&reports) {
         let Some(report) = report else {
             failures.push(format!("{}: panic", row.path));
             continue;
         };
-        let found = codes(report);
+        let actual = error_codes(report);
         if prints {
             println!("{}: {}", row.path, report.summary());
-            report.problems.iter().for_each(|problem| println!("    {problem}"));
+            report.diagnostics.iter().for_each(|problem| println!("    {problem}"));
         }
-        tally.note(row, &found);
-        match expected::differs(row, report, &found) {
+        tally.add_file(row, &actual);
+        match expected::difference_from_validator(row, report, &actual) {
             Some(difference) => failures.push(format!("{}: {difference}", row.path)),
             None => passed += 1,
         }
     }
-    tally.print();
-    failures.extend(lenient::check(folder, &rows));
+    tally.print_table();
+    failures.extend(lenient::check_lenient_loading(folder, &rows));
     Ok((passed, failures))
 }
 
 /// The names of all kinds of errors in a report.
-fn codes(report: &Report) -> BTreeSet<&'static str> {
-    let errors = report.problems.iter().filter(|problem| problem.severity == Severity::Error);
+fn error_codes(report: &CheckReport) -> BTreeSet<&'static str> {
+    let errors = report.diagnostics.iter().filter(|problem| problem.severity == Severity::Error);
     errors.map(|problem| problem.code).collect()
 }
 
 /// Checks all files, two at a time; `None` where there was a panic.
-fn check_all(folder: &Path, rows: &[Row]) -> Vec<Option<Report>> {
-    let reports: Vec<Mutex<Option<Report>>> = rows.iter().map(|_| Mutex::new(None)).collect();
+fn check_all(folder: &Path, rows: &[Row]) -> Vec<Option<CheckReport>> {
+    let reports: Vec<Mutex<Option<CheckReport>>> = rows.iter().map(|_| Mutex::new(None)).collect();
     let next = AtomicUsize::new(0);
     let work = || {
         loop {
             let at = next.fetch_add(1, Ordering::Relaxed);
             let Some(row) = rows.get(at) else { break };
             let path = folder.join(&row.path);
-            let work = AssertUnwindSafe(|| check(&path, &ImportOptions::default()));
+            let work = AssertUnwindSafe(|| check_file(&path, &ImportOptions::default()));
             if let (Ok(report), Ok(mut slot)) = (catch_unwind(work), reports[at].lock()) {
                 *slot = Some(report);
             }

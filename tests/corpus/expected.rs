@@ -32,27 +32,27 @@ const INSTANCED: &[(&str, usize)] =
     &[("blender-gpu-instancing", 4_032 * (958 + 941) + 2), ("simple-instancing", 12 * 125)];
 
 /// How many triangles the scene of a model has.
-pub fn triangles(row: &Row) -> Option<usize> {
+pub fn expected_triangles(row: &Row) -> Option<usize> {
     let folder = row.path.strip_prefix("models/")?.split('/').next()?;
     let instanced = INSTANCED.iter().find(|(name, _)| *name == folder);
     instanced.map(|(_, triangles)| *triangles).or(row.scene_triangles)
 }
 
 /// Why a model is to be refused, if it is.
-pub fn refusal(row: &Row) -> Option<&'static str> {
+pub fn expected_refusal(row: &Row) -> Option<&'static str> {
     let folder = row.path.strip_prefix("models/")?.split('/').next()?;
     REFUSED.iter().find(|(name, _)| *name == folder).map(|(_, reason)| *reason)
 }
 
 /// How a verdict differs from what is expected; outside of `models` every refusal is.
-pub fn differs(row: &Row, verdict: &Verdict) -> Option<String> {
+pub fn difference_from_expected(row: &Row, verdict: &Verdict) -> Option<String> {
     if matches!(verdict, Verdict::Blank) && !BLANK.iter().any(|(end, _)| row.path.ends_with(end)) {
         return Some("nothing is to be seen in the picture".to_owned());
     }
     if row.group() != "models" {
         return None;
     }
-    match (refusal(row), verdict) {
+    match (expected_refusal(row), verdict) {
         (None, Verdict::Refused(reason)) => Some(format!("refused: {reason}")),
         (Some(expected), Verdict::Refused(reason)) if !reason.contains(expected) => {
             Some(format!("refused, and not because of {expected}: {reason}"))

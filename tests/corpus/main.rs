@@ -26,7 +26,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use verdict::Verdict;
 
 /// The size of the pictures.
-const SIZE: (u32, u32) = (64, 48);
+const PICTURE_SIZE: (u32, u32) = (64, 48);
 
 /// The groups of files that are drawn.
 const GROUPS: [&str; 3] = ["models", "validator-valid", "bad"];
@@ -48,7 +48,7 @@ fn main() -> ExitCode {
         println!("0 passed, 0 failed, 1 skipped");
         return ExitCode::SUCCESS;
     }
-    match run(folder, chosen.is_none()) {
+    match draw_corpus(folder, chosen.is_none()) {
         Ok((passed, failed)) => {
             println!("{passed} passed, {failed} failed, 0 skipped");
             if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
@@ -62,18 +62,18 @@ fn main() -> ExitCode {
 }
 
 /// Draws the files of a folder and prints what became of them. `known` says that it is the folder the tables are about.
-fn run(folder: &Path, known: bool) -> Result<(usize, usize), String> {
+fn draw_corpus(folder: &Path, known: bool) -> Result<(usize, usize), String> {
     let filters: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
-    let mut rows = manifest::read(folder)?;
+    let mut rows = manifest::read_manifest(folder)?;
     rows.retain(|row| filters.is_empty() || filters.iter().any(|f| row.path.contains(f.as_str())));
     rows.retain(|row| GROUPS.contains(&row.group()));
-    let program = Program::find()?;
+    let program = Program::build()?;
     let verdicts = draw_all(&program, folder, &rows)?;
     let mut failures = Vec::new();
     let mut tallies: BTreeMap<&str, Tally> = BTreeMap::new();
     for (row, verdict) in rows.iter().zip(&verdicts) {
         let tally = tallies.entry(row.group()).or_default();
-        if let Some(failure) = failure(row, verdict, known) {
+        if let Some(failure) = failure_message(row, verdict, known) {
             failures.push(format!("{}: {failure}", row.path));
             tally.failed += 1;
             continue;
@@ -85,7 +85,7 @@ fn run(folder: &Path, known: bool) -> Result<(usize, usize), String> {
         }
     }
     print_refusals(&rows, &verdicts);
-    let counted = triangles::check(folder, &rows, known, &mut failures);
+    let counted = triangles::check_triangle_counts(folder, &rows, known, &mut failures);
     for (group, Tally { drawn, blank, refused, failed }) in &tallies {
         println!("{group}: {drawn} drawn, {blank} drawn blank, {refused} refused, {failed} failed");
     }
@@ -97,10 +97,10 @@ fn run(folder: &Path, known: bool) -> Result<(usize, usize), String> {
     Ok((drawn_or_refused + counted, failures.len()))
 }
 
-fn failure(row: &Row, verdict: &Verdict, known: bool) -> Option<String> {
+fn failure_message(row: &Row, verdict: &Verdict, known: bool) -> Option<String> {
     match verdict {
         Verdict::Broken(problem) => Some(problem.clone()),
-        verdict if known => expected::differs(row, verdict),
+        verdict if known => expected::difference_from_expected(row, verdict),
         _ => None,
     }
 }
@@ -132,9 +132,10 @@ fn draw_all(program: &Program, folder: &Path, rows: &[Row]) -> Result<Vec<Verdic
             let at = next.fetch_add(1, Ordering::Relaxed);
             let Some(row) = rows.get(at) else { break };
             let picture = pictures.join(format!("{at}.png"));
-            let run = program.render(&folder.join(&row.path), &picture, SIZE);
-            let verdict =
-                run.map_or_else(Verdict::Broken, |run| verdict::judge(row, &run, &picture, SIZE));
+            let run = program.render(&folder.join(&row.path), &picture, PICTURE_SIZE);
+            let verdict = run.map_or_else(Verdict::Broken, |run| {
+                verdict::judge_run(row, &run, &picture, PICTURE_SIZE)
+            });
             if let Ok(mut slot) = verdicts[at].lock() {
                 *slot = Some(verdict);
             }

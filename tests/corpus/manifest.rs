@@ -25,7 +25,7 @@ impl Row {
 }
 
 /// Reads `MANIFEST.tsv`; every file it names must exist.
-pub fn read(folder: &Path) -> Result<Vec<Row>, String> {
+pub fn read_manifest(folder: &Path) -> Result<Vec<Row>, String> {
     let path = folder.join("MANIFEST.tsv");
     let text = std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     let mut lines = text.lines();

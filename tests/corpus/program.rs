@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 /// So long a file may take. The largest has eight million triangles and takes three seconds of a processor without
 /// optimisation; the machine may have other work to do.
-const LIMIT: Duration = Duration::from_secs(30);
+const TIME_LIMIT: Duration = Duration::from_secs(30);
 
 /// The program `alberti`.
 pub struct Program {
@@ -25,8 +25,8 @@ pub struct Run {
 
 impl Program {
     /// The program that all tests use.
-    pub fn find() -> Result<Self, String> {
-        Ok(Self { path: alberti_tests::program()? })
+    pub fn build() -> Result<Self, String> {
+        Ok(Self { path: alberti_tests::program_path()? })
     }
 
     /// Draws a file into `picture`, as large as `size`, and waits no longer than the limit.
@@ -45,7 +45,7 @@ impl Program {
             .stderr(stderr)
             .spawn()
             .map_err(|error| format!("the program does not start: {error}"))?;
-        let end = Instant::now() + LIMIT;
+        let end = Instant::now() + TIME_LIMIT;
         let mut hung = false;
         let status = loop {
             if let Some(status) = process.try_wait().map_err(|error| error.to_string())? {

@@ -7,24 +7,29 @@ use model::{Model, Primitive, Topology};
 use std::path::Path;
 
 /// Counts the triangles of all models that load; gives the number of files that agree with the manifest.
-pub fn check(folder: &Path, rows: &[Row], known: bool, failures: &mut Vec<String>) -> usize {
+pub fn check_triangle_counts(
+    folder: &Path,
+    rows: &[Row],
+    known: bool,
+    failures: &mut Vec<String>,
+) -> usize {
     let mut agreed = 0;
     for row in rows.iter().filter(|row| row.group() == "models") {
-        let Some(expected) = expected::triangles(row) else { continue };
+        let Some(expected) = expected::expected_triangles(row) else { continue };
         let Ok(model) = load(&folder.join(&row.path), &ImportOptions::default()) else { continue };
-        let found = shown(&model);
-        if found == expected || known && expected::refusal(row).is_some() {
+        let actual = count_triangles(&model);
+        if actual == expected || known && expected::expected_refusal(row).is_some() {
             agreed += 1;
         } else {
             let path = &row.path;
-            failures.push(format!("{path}: {found} triangles, {expected} in the manifest"));
+            failures.push(format!("{path}: {actual} triangles, {expected} in the manifest"));
         }
     }
     agreed
 }
 
-fn shown(model: &Model) -> usize {
-    let meshes = model.shown_meshes().filter_map(|at| model.nodes[at.node].mesh);
+fn count_triangles(model: &Model) -> usize {
+    let meshes = model.mesh_instances().filter_map(|at| model.nodes[at.node].mesh);
     let primitives = meshes.flat_map(|mesh| &model.meshes[mesh].primitives);
-    primitives.filter(|p| p.topology == Topology::Triangles).map(Primitive::count).sum()
+    primitives.filter(|p| p.topology == Topology::Triangles).map(Primitive::item_count).sum()
 }

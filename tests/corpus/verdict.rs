@@ -19,7 +19,7 @@ pub enum Verdict {
 }
 
 /// Judges a run that was to draw `row` into `picture`.
-pub fn judge(row: &Row, run: &Run, picture: &Path, size: (u32, u32)) -> Verdict {
+pub fn judge_run(row: &Row, run: &Run, picture: &Path, size: (u32, u32)) -> Verdict {
     let said = run.stderr.trim();
     if run.hung {
         return Verdict::Broken("it takes longer than 30 s".to_owned());
@@ -28,7 +28,7 @@ pub fn judge(row: &Row, run: &Run, picture: &Path, size: (u32, u32)) -> Verdict 
         return Verdict::Broken(format!("panic: {said}"));
     }
     match run.code {
-        Some(0) => match look(picture, size) {
+        Some(0) => match picture_has_content(picture, size) {
             Ok(true) => Verdict::Drawn,
             Ok(false) => Verdict::Blank,
             Err(problem) => Verdict::Broken(problem),
@@ -36,7 +36,7 @@ pub fn judge(row: &Row, run: &Run, picture: &Path, size: (u32, u32)) -> Verdict 
         Some(1) if picture.exists() => {
             Verdict::Broken("it failed and left a picture behind".to_owned())
         }
-        Some(1) => match reason(said, row.file_name()) {
+        Some(1) => match refusal_reason(said, row.file_name()) {
             Some(reason) => Verdict::Refused(reason),
             None => Verdict::Broken(format!("the message does not name the file: {said:?}")),
         },
@@ -46,7 +46,7 @@ pub fn judge(row: &Row, run: &Run, picture: &Path, size: (u32, u32)) -> Verdict 
 }
 
 /// What the message says besides the file's name; `None` if it lacks the name or says nothing else.
-fn reason(message: &str, file: &str) -> Option<String> {
+fn refusal_reason(message: &str, file: &str) -> Option<String> {
     let errors = message.lines().skip_while(|line| !line.starts_with("error"));
     let error = errors.collect::<Vec<_>>().join("\n");
     let (before, after) = error.split_once(file)?;
@@ -59,7 +59,7 @@ fn reason(message: &str, file: &str) -> Option<String> {
 }
 
 /// Whether anything is to be seen in the picture, which must be a PNG of the given size.
-fn look(picture: &Path, size: (u32, u32)) -> Result<bool, String> {
+fn picture_has_content(picture: &Path, size: (u32, u32)) -> Result<bool, String> {
     let file = File::open(picture).map_err(|error| format!("there is no picture: {error}"))?;
     let broken = |error: png::DecodingError| format!("the picture is no PNG: {error}");
     let mut reader = png::Decoder::new(BufReader::new(file)).read_info().map_err(broken)?;

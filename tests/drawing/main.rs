@@ -9,20 +9,20 @@
 
 mod views;
 
-use drawing::{Agreement, Hidden, LineDrawing, Options, draw, verify};
+use drawing::{Agreement, DrawOptions, HiddenEdges, LineDrawing, draw, verify_with_z_buffer};
 use model::Model;
 use model::import::{ImportOptions, load};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use views::{Kind, SIDES, scene};
+use views::{DIRECTIONS, ViewKind, build_scene};
 
 /// The share of the visible length that may disagree.
-const ALLOWED: f64 = 0.002;
+const MAX_DISAGREEMENT: f64 = 0.002;
 
 /// Models that may disagree more, and why.
-const EXPLAINED: &[(&str, f64, &str)] = &[(
+const EXCEPTIONS: &[(&str, f64, &str)] = &[(
     "ship-light-draco/model.gltf",
     0.005,
     "lines where quantised planks cross are seen through cracks a twentieth of a pixel wide, which no sample meets",
@@ -78,19 +78,19 @@ fn main() -> ExitCode {
     let others =
         filters.iter().filter(|f| !MODELS.contains(&f.as_str()) && folder.join(f).is_file());
     let models: Vec<String> = listed.chain(others.cloned()).collect();
-    let failed = judge_all(&folder, &models);
+    let failed = check_models(&folder, &models);
     println!("{} passed, {failed} failed, 0 skipped", models.len() - failed);
     if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
 /// Judges models, two at a time, and prints a line for each; how many failed.
-fn judge_all(folder: &Path, models: &[String]) -> usize {
+fn check_models(folder: &Path, models: &[String]) -> usize {
     let (next, failed) = (AtomicUsize::new(0), AtomicUsize::new(0));
     let work = || {
         while let Some(name) = models.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let explained = EXPLAINED.iter().find(|(other, ..)| other == name);
-            let allowed = explained.map_or(ALLOWED, |(_, allowed, _)| *allowed);
-            match judge(&folder.join(name), allowed) {
+            let explained = EXCEPTIONS.iter().find(|(other, ..)| other == name);
+            let allowed = explained.map_or(MAX_DISAGREEMENT, |(_, allowed, _)| *allowed);
+            match check_model(&folder.join(name), allowed) {
                 Ok(told) => println!("{name:60} {told}"),
                 Err(why) => {
                     println!("{name:60} FAILED: {why}");
@@ -107,54 +107,66 @@ fn judge_all(folder: &Path, models: &[String]) -> usize {
 }
 
 /// Draws a model from all sides; what was found of the worst side of each kind.
-fn judge(path: &Path, allowed: f64) -> Result<String, String> {
+fn check_model(path: &Path, allowed: f64) -> Result<String, String> {
     let model = load(path, &ImportOptions::default()).map_err(|error| error.to_string())?;
     let model = Arc::new(model);
-    let mut told = String::new();
-    for kind in Kind::ALL {
+    let mut summary = String::new();
+    for kind in ViewKind::ALL {
         let mut worst = 0.0_f64;
-        for side in 0..SIDES {
-            let (agreement, drawing) = compare(&model, kind, side)?;
-            worst = worst.max(agreement.disagreement());
-            if agreement.disagreement() > allowed {
-                return Err(denial(kind, side, &agreement, &drawing));
+        for side in 0..DIRECTIONS {
+            let (agreement, drawing) = measure_agreement(&model, kind, side)?;
+            worst = worst.max(agreement.disagreement_ratio());
+            if agreement.disagreement_ratio() > allowed {
+                return Err(describe_disagreement(kind, side, &agreement, &drawing));
             }
         }
-        told += &format!(" {kind:?} {:.4} %", worst * 100.0);
+        summary += &format!(" {kind:?} {:.4} %", worst * 100.0);
     }
-    Ok(told)
+    Ok(summary)
 }
 
 /// The share that is denied, and the lines with most of it.
-fn denial(kind: Kind, side: usize, found: &Agreement, drawing: &LineDrawing) -> String {
-    let share = found.disagreement() * 100.0;
-    let mut told =
-        format!("{kind:?} from side {side}: the z-buffer hides {share:.4} % of the length");
-    let mut places = found.places.clone();
+fn describe_disagreement(
+    kind: ViewKind,
+    side: usize,
+    agreement: &Agreement,
+    drawing: &LineDrawing,
+) -> String {
+    let percent = agreement.disagreement_ratio() * 100.0;
+    let mut message =
+        format!("{kind:?} from side {side}: the z-buffer hides {percent:.4} % of the length");
+    let mut places = agreement.denied_segments.clone();
     places.sort_by(|a, b| b.1.total_cmp(&a.1));
     for (place, length) in places.into_iter().take(5) {
-        told += &format!("\n  {length:.2} px of {:?}", drawing.lines[place]);
+        message += &format!("\n  {length:.2} px of {:?}", drawing.segments[place]);
     }
-    told
+    message
 }
 
-fn compare(
+fn measure_agreement(
     model: &Arc<Model>,
-    kind: Kind,
+    kind: ViewKind,
     side: usize,
 ) -> Result<(Agreement, LineDrawing), String> {
-    let scene = scene(model, kind, side)?;
-    let agreement = |options: &Options| {
-        let drawing = draw(&scene.subject(), options, 1).map_err(|error| error.to_string())?;
-        let agreement = verify(&scene.subject(), &drawing).map_err(|error| error.to_string())?;
+    let scene = build_scene(model, kind, side)?;
+    let agreement = |options: &DrawOptions| {
+        let drawing =
+            draw(&scene.drawing_subject(), options, 1).map_err(|error| error.to_string())?;
+        let agreement = verify_with_z_buffer(&scene.drawing_subject(), &drawing)
+            .map_err(|error| error.to_string())?;
         Ok::<_, String>((agreement, drawing))
     };
-    let (found, drawing) = agreement(&Options::hidden_removed())?;
+    let (found, drawing) = agreement(&DrawOptions::hidden_edges_removed())?;
     // The check itself can fail: it does where hidden lines are drawn as visible ones.
-    if kind == Kind::Perspective && side == 0 {
-        let (all, _) = agreement(&Options { hidden: Hidden::Ignored, ..Options::default() })?;
-        if found.visible < 0.5 * all.visible && all.disagreement() < 10.0 * ALLOWED {
-            let share = all.disagreement();
+    if kind == ViewKind::Perspective && side == 0 {
+        let (all, _) = agreement(&DrawOptions {
+            hidden_edges: HiddenEdges::Ignored,
+            ..DrawOptions::default()
+        })?;
+        if found.visible_length < 0.5 * all.visible_length
+            && all.disagreement_ratio() < 10.0 * MAX_DISAGREEMENT
+        {
+            let share = all.disagreement_ratio();
             return Err(format!("only {share} of what may be seen through is denied"));
         }
     }

@@ -11,23 +11,23 @@ use projection::{Convention, Frustum, Oblique, Orthographic};
 use std::sync::Arc;
 
 /// How many sides a model is seen from.
-pub const SIDES: usize = 6;
+pub const DIRECTIONS: usize = 6;
 
-const SIZE: (u32, u32) = (400, 300);
+const IMAGE_SIZE: (u32, u32) = (400, 300);
 
 /// How a model is projected.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Kind {
+pub enum ViewKind {
     Perspective,
     Isometric,
     Cavalier,
 }
 
-impl Kind {
+impl ViewKind {
     pub const ALL: [Self; 3] = [Self::Perspective, Self::Isometric, Self::Cavalier];
 
     /// Where the model is seen from.
-    fn from(self, side: usize) -> Vector<World> {
+    fn direction_from(self, side: usize) -> Vector<World> {
         let directions = match self {
             Self::Perspective => [
                 [0.0, 0.0, 1.0],
@@ -59,20 +59,20 @@ impl Kind {
 }
 
 /// A model in a picture that it fills.
-pub fn scene(model: &Arc<Model>, kind: Kind, side: usize) -> Result<Scene, String> {
-    let gaze = -kind.from(side);
+pub fn build_scene(model: &Arc<Model>, kind: ViewKind, side: usize) -> Result<Scene, String> {
+    let gaze = -kind.direction_from(side);
     let up = Basis::fallback_up(gaze);
     let up = if gaze.cross(Vector::Y).length() > 1e-6 { Vector::Y } else { up };
     let basis = Basis::from_gaze(gaze, up).map_err(|error| error.to_string())?;
     let model_to_world = Affine::scale(1.0, 1.0, 1.0);
     let points: Vec<Point<World>> =
-        model.shown_points().into_iter().map(|p| model_to_world.point(p)).collect();
+        model.scene_points().into_iter().map(|p| model_to_world.transform_point(p)).collect();
     let view_projection = match kind {
-        Kind::Perspective => perspective(&points, basis),
-        Kind::Isometric => parallel(&points, basis, None),
-        Kind::Cavalier => parallel(&points, basis, Some(std::f64::consts::FRAC_PI_4)),
+        ViewKind::Perspective => fit_perspective(&points, basis),
+        ViewKind::Isometric => fit_parallel(&points, basis, None),
+        ViewKind::Cavalier => fit_parallel(&points, basis, Some(std::f64::consts::FRAC_PI_4)),
     };
-    let (width, height) = SIZE;
+    let (width, height) = IMAGE_SIZE;
     let samples = raster::Samples::One;
     Ok(Scene {
         models: vec![ModelInstance { model: Arc::clone(model), model_to_world }],
@@ -81,24 +81,24 @@ pub fn scene(model: &Arc<Model>, kind: Kind, side: usize) -> Result<Scene, Strin
         ground: None,
         occlusion_radius: None,
         environment: None,
-        develop: shade::Develop::default(),
+        tone_mapper: shade::ToneMapper::default(),
         style: Style::Flat,
         image: ImageSpec {
             width,
             height,
             background: [0.0; 4],
-            backdrop: None,
+            environment_blur: None,
             samples,
-            anisotropy: 1,
+            max_anisotropy: 1,
         },
-        views: Vec::new(),
-        painting: None,
+        insets: Vec::new(),
+        backdrop: None,
         overlays: Vec::new(),
         sections: Vec::new(),
     })
 }
 
-fn perspective(points: &[Point<World>], basis: Basis) -> Result<ViewProjection, String> {
+fn fit_perspective(points: &[Point<World>], basis: Basis) -> Result<ViewProjection, String> {
     let slopes = Slopes { left: -0.4, right: 0.4, bottom: -0.3, top: 0.3 };
     let framing = frame_perspective(points.iter().copied(), basis, slopes, 0.02);
     let framing = framing.map_err(|error| error.to_string())?;
@@ -110,20 +110,20 @@ fn perspective(points: &[Point<World>], basis: Basis) -> Result<ViewProjection, 
 }
 
 /// Orthographic, or with depth drawn in full length in a direction.
-fn parallel(
+fn fit_parallel(
     points: &[Point<World>],
     basis: Basis,
     depth: Option<f64>,
 ) -> Result<ViewProjection, String> {
     let oblique = depth.map(Oblique::cavalier).transpose().map_err(|error| error.to_string())?;
     let projectors = oblique.map_or(-Vector::<View>::Z, Oblique::direction);
-    let aspect = f64::from(SIZE.0) / f64::from(SIZE.1);
+    let aspect = f64::from(IMAGE_SIZE.0) / f64::from(IMAGE_SIZE.1);
     let framing = frame_oblique(points.iter().copied(), basis, projectors, aspect, 0.02);
     let f = framing.map_err(|error| error.to_string())?;
     let room = 0.01 * (f.far - f.near) + 1e-3 * f.near;
     let window = Orthographic::new(f.left, f.right, f.bottom, f.top, f.near - room, f.far + room);
     let window = window.map_err(|error| error.to_string())?.view_to_clip(Convention::CHAPTER);
     let upright = Affine::<View, View>::scale(1.0, 1.0, 1.0);
-    let shear = oblique.map_or(upright, Oblique::depth_kept);
+    let shear = oblique.map_or(upright, Oblique::depth_preserving);
     Ok(ViewProjection { camera: f.camera, view_to_clip: shear.then_project(window) })
 }

@@ -11,14 +11,14 @@
 
 mod picture;
 
-use alberti_tests::root;
+use alberti_tests::project_root;
 use picture::{Difference, Picture};
 use std::path::Path;
 use std::process::{Command, ExitCode};
 use std::{env, fs};
 
 fn main() -> ExitCode {
-    match run() {
+    match compare_goldens() {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::FAILURE,
         Err(message) => {
@@ -29,13 +29,13 @@ fn main() -> ExitCode {
 }
 
 /// Whether all chosen scenes have their golden's pixels.
-fn run() -> Result<bool, String> {
+fn compare_goldens() -> Result<bool, String> {
     let chosen: Vec<String> = env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
     let wanted = |name: &String| chosen.is_empty() || chosen.contains(name);
-    let program = alberti_tests::program()?;
+    let program = alberti_tests::program_path()?;
     let (mut passed, mut failed) = (0, 0);
-    for name in scenes()?.iter().filter(|name| wanted(name)) {
-        match compare(&program, name) {
+    for name in scene_names()?.iter().filter(|name| wanted(name)) {
+        match compare_scene(&program, name) {
             Ok(()) => passed += 1,
             Err(message) => {
                 failed += 1;
@@ -48,9 +48,9 @@ fn run() -> Result<bool, String> {
 }
 
 /// The scenes by name. Goldens that no scene makes are found by `cargo xtask tidy`.
-fn scenes() -> Result<Vec<String>, String> {
+fn scene_names() -> Result<Vec<String>, String> {
     let entries =
-        fs::read_dir(root().join("scenes")).map_err(|error| format!("scenes: {error}"))?;
+        fs::read_dir(project_root().join("scenes")).map_err(|error| format!("scenes: {error}"))?;
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
     let scenes = paths.filter(|path| path.extension().is_some_and(|extension| extension == "ron"));
     let mut names: Vec<String> =
@@ -60,12 +60,13 @@ fn scenes() -> Result<Vec<String>, String> {
 }
 
 /// Draws a scene and holds it against its golden.
-fn compare(program: &Path, name: &str) -> Result<(), String> {
-    let beside = |ending: &str| root().join("tests/goldens").join(format!("{name}{ending}"));
+fn compare_scene(program: &Path, name: &str) -> Result<(), String> {
+    let beside =
+        |ending: &str| project_root().join("tests/goldens").join(format!("{name}{ending}"));
     let actual_path = beside(".actual.png");
-    render(program, &root().join(format!("scenes/{name}.ron")), &actual_path)?;
-    let actual = Picture::read(&actual_path)?;
-    let golden = Picture::read(&beside(".png")).map_err(|error| {
+    render_scene(program, &project_root().join(format!("scenes/{name}.ron")), &actual_path)?;
+    let actual = Picture::read_png(&actual_path)?;
+    let golden = Picture::read_png(&beside(".png")).map_err(|error| {
         format!(
             "{error}\n  Look at {name}.actual.png; \
              `cargo xtask golden --bless {name}` if it is right."
@@ -73,24 +74,24 @@ fn compare(program: &Path, name: &str) -> Result<(), String> {
     })?;
     match golden.difference(&actual) {
         None => {
-            remove(&actual_path);
-            remove(&beside(".diff.png"));
+            remove_file(&actual_path);
+            remove_file(&beside(".diff.png"));
             Ok(())
         }
         Some(Difference::Size(message)) => Err(message),
         Some(Difference::Pixels { message, map }) => {
-            map.write(&beside(".diff.png"))?;
+            map.write_png(&beside(".diff.png"))?;
             Err(format!("{message}\n  See tests/goldens/{name}.actual.png and {name}.diff.png."))
         }
     }
 }
 
 /// What an earlier run left; nothing is there to be removed most of the time.
-fn remove(path: &Path) {
+fn remove_file(path: &Path) {
     let _ = fs::remove_file(path);
 }
 
-fn render(program: &Path, scene: &Path, picture: &Path) -> Result<(), String> {
+fn render_scene(program: &Path, scene: &Path, picture: &Path) -> Result<(), String> {
     let mut command = Command::new(program);
     let output = command.arg("render").arg(scene).arg("-o").arg(picture).output();
     let output = output.map_err(|error| format!("{}: {error}", program.display()))?;

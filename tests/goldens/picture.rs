@@ -21,13 +21,13 @@ pub enum Difference {
 
 impl Picture {
     /// Reads a PNG of eight bits a channel.
-    pub fn read(path: &Path) -> Result<Self, String> {
+    pub fn read_png(path: &Path) -> Result<Self, String> {
         let (width, height, pixels) = alberti_tests::read_png(path)?;
         Ok(Self { width, height, pixels })
     }
 
     /// Writes the picture as a PNG.
-    pub fn write(&self, path: &Path) -> Result<(), String> {
+    pub fn write_png(&self, path: &Path) -> Result<(), String> {
         let file = File::create(path).map_err(|error| format!("{}: {error}", path.display()))?;
         let mut encoder = png::Encoder::new(BufWriter::new(file), self.width, self.height);
         encoder.set_color(png::ColorType::Rgba);
@@ -50,17 +50,18 @@ impl Picture {
         if differing.is_empty() {
             return None;
         }
-        let pixels =
-            pairs().map(|(a, b)| if a == b { faded(*a) } else { [220, 20, 60, 255] }).collect();
+        let pixels = pairs()
+            .map(|(a, b)| if a == b { fade_color(*a) } else { [220, 20, 60, 255] })
+            .collect();
         let map = Self { width: self.width, height: self.height, pixels };
-        Some(Difference::Pixels { message: self.message(actual, &differing), map })
+        Some(Difference::Pixels { message: self.difference_message(actual, &differing), map })
     }
 
-    fn message(&self, actual: &Self, differing: &[usize]) -> String {
+    fn difference_message(&self, actual: &Self, differing: &[usize]) -> String {
         let width = self.width as usize;
         let column = |i: &usize| i % width;
-        let (left, right) = bounds(differing.iter().map(column));
-        let (top, bottom) = bounds(differing.iter().map(|i| i / width));
+        let (left, right) = value_range(differing.iter().map(column));
+        let (top, bottom) = value_range(differing.iter().map(|i| i / width));
         let first = differing[0];
         let most = differing.iter().map(|&i| largest_step(self.pixels[i], actual.pixels[i])).max();
         format!(
@@ -79,7 +80,7 @@ impl Picture {
 }
 
 /// A quarter of the contrast, towards white: the ground on which differences stand out.
-fn faded([r, g, b, _]: [u8; 4]) -> [u8; 4] {
+fn fade_color([r, g, b, _]: [u8; 4]) -> [u8; 4] {
     let [r, g, b] = [r, g, b].map(|channel| 191 + channel / 4);
     [r, g, b, 255]
 }
@@ -88,6 +89,6 @@ fn largest_step(a: [u8; 4], b: [u8; 4]) -> u8 {
     a.into_iter().zip(b).map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0)
 }
 
-fn bounds(values: impl Iterator<Item = usize>) -> (usize, usize) {
+fn value_range(values: impl Iterator<Item = usize>) -> (usize, usize) {
     values.fold((usize::MAX, 0), |(low, high), value| (low.min(value), high.max(value)))
 }

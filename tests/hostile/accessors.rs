@@ -1,20 +1,20 @@
 //! Counts, offsets, lengths and strides that lie.
 
 use crate::case::{Case, Expected};
-use crate::document::{Document, floats};
+use crate::document::{Document, float_bytes};
 use serde_json::{Value, json};
 
-pub fn cases() -> Vec<Case> {
-    let mut cases = numbers();
-    cases.extend(strides());
-    cases.extend(sparse());
-    cases.extend(values());
-    cases.extend(zeros());
+pub fn accessor_cases() -> Vec<Case> {
+    let mut cases = number_cases();
+    cases.extend(stride_cases());
+    cases.extend(sparse_cases());
+    cases.extend(value_cases());
+    cases.extend(zero_cases());
     cases
 }
 
 /// Every number of accessors, views and buffers replaced by numbers that are wrong.
-fn numbers() -> Vec<Case> {
+fn number_cases() -> Vec<Case> {
     let wrong = [
         json!(0),
         json!(1),
@@ -63,8 +63,8 @@ fn numbers() -> Vec<Case> {
         "/meshes/0/primitives/0/material",
     ];
     let spoil = |(member, value): (&str, &Value)| {
-        let document = Document::rich().with(member, value.clone());
-        Case::of(format!("{member} is {value}"), &document, Expected::Anything)
+        let document = Document::with_all_members().with_value(member, value.clone());
+        Case::from_document(format!("{member} is {value}"), &document, Expected::Anything)
     };
     members
         .into_iter()
@@ -74,32 +74,36 @@ fn numbers() -> Vec<Case> {
 }
 
 /// Every stride from 0 to 300 over positions that have room for three elements of stride 252.
-fn strides() -> Vec<Case> {
+fn stride_cases() -> Vec<Case> {
     let stride = |stride: usize| {
-        let mut document = Document::triangle();
+        let mut document = Document::single_triangle();
         let bytes = vec![0; 2 * 252 + 12];
         let accessor = json!({"componentType": 5126, "type": "VEC3", "count": 3});
-        let number = document.accessor(&bytes, accessor);
+        let number = document.add_accessor(&bytes, accessor);
         let view = document.json["accessors"][number]["bufferView"].clone();
         document.json["bufferViews"][view.as_u64().unwrap_or(0) as usize]["byteStride"] =
             json!(stride);
         document.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = json!(number);
         let expected =
             if (12..=252).contains(&stride) { Expected::LoadsClean } else { Expected::Refused };
-        Case::of(format!("stride {stride}"), &document, expected)
+        Case::from_document(format!("stride {stride}"), &document, expected)
     };
     (0..=300).map(stride).collect()
 }
 
-fn sparse() -> Vec<Case> {
+fn sparse_cases() -> Vec<Case> {
     let case = |name: &str, indices: &[u8], sparse: Value, expected: Expected| {
-        let mut document = Document::triangle();
-        let at = document.view(indices);
-        let values = document.view(&floats(&[9.0; 6]));
+        let mut document = Document::single_triangle();
+        let at = document.add_buffer_view(indices);
+        let values = document.add_buffer_view(&float_bytes(&[9.0; 6]));
         let mut sparse = sparse;
         sparse["indices"] = json!({"bufferView": at, "componentType": 5121});
         sparse["values"] = json!({"bufferView": values});
-        Case::of(format!("sparse: {name}"), &document.with("/accessors/0/sparse", sparse), expected)
+        Case::from_document(
+            format!("sparse: {name}"),
+            &document.with_value("/accessors/0/sparse", sparse),
+            expected,
+        )
     };
     let refused = |text: &str| Expected::Says(text.to_owned());
     vec![
@@ -121,14 +125,14 @@ fn sparse() -> Vec<Case> {
 }
 
 /// Values that are no places, and indices that have no vertex.
-fn values() -> Vec<Case> {
+fn value_cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for wrong in
         [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN, f32::MIN_POSITIVE, 1e-45]
     {
         for accessor in [0, 2, 3, 6, 7, 8] {
             for word in 0..6 {
-                let mut document = Document::rich();
+                let mut document = Document::with_all_members();
                 let view = document.json["accessors"][accessor]["bufferView"].as_u64().unwrap_or(0);
                 let start = document.json["bufferViews"][view as usize]["byteOffset"]
                     .as_u64()
@@ -137,7 +141,7 @@ fn values() -> Vec<Case> {
                 {
                     bytes.copy_from_slice(&wrong.to_le_bytes());
                 }
-                cases.push(Case::of(
+                cases.push(Case::from_document(
                     format!("accessor {accessor}, word {word} is {wrong}"),
                     &document,
                     Expected::Anything,
@@ -148,12 +152,12 @@ fn values() -> Vec<Case> {
     for index in [3u16, 4, 255, 256, u16::MAX] {
         for place in 0..3 {
             for mode in 0..=7 {
-                let mut document =
-                    Document::triangle().with("/meshes/0/primitives/0/mode", json!(mode));
+                let mut document = Document::single_triangle()
+                    .with_value("/meshes/0/primitives/0/mode", json!(mode));
                 document.bytes[36 + 2 * place..38 + 2 * place]
                     .copy_from_slice(&index.to_le_bytes());
                 let expected = if mode == 7 { Expected::Refused } else { Expected::Loads };
-                cases.push(Case::of(
+                cases.push(Case::from_document(
                     format!("index {place} is {index} in mode {mode}"),
                     &document,
                     expected,
@@ -165,12 +169,12 @@ fn values() -> Vec<Case> {
 }
 
 /// Accessors without bytes: zeros, in bounded numbers.
-fn zeros() -> Vec<Case> {
+fn zero_cases() -> Vec<Case> {
     let case = |count: u64, expected: Expected| {
-        let mut document = Document::triangle().without("/accessors/0/bufferView");
+        let mut document = Document::single_triangle().without_value("/accessors/0/bufferView");
         document.json["accessors"][0]["count"] = json!(count);
-        let document = document.without("/meshes/0/primitives/0/indices");
-        Case::of(format!("{count} zeros"), &document, expected)
+        let document = document.without_value("/meshes/0/primitives/0/indices");
+        Case::from_document(format!("{count} zeros"), &document, expected)
     };
     let grown = |bytes: u64| {
         Expected::Says(format!(

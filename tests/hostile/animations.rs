@@ -1,21 +1,21 @@
 //! Animations whose keys and values are wrong.
 
 use crate::case::{Case, Expected};
-use crate::document::{Document, floats};
+use crate::document::{Document, float_bytes};
 use serde_json::{Value, json};
 
 /// A node that moves, turns, grows and morphs, each in its own way.
-fn moving() -> Document {
-    let mut document = Document::rich();
+fn animated_document() -> Document {
+    let mut document = Document::with_all_members();
     let scalars = |count: usize| json!({"componentType": 5126, "type": "SCALAR", "count": count});
-    let times = document.accessor(&floats(&[0.5, 1.0]), scalars(2));
-    let weights = document.accessor(&floats(&[0.0, 0.0, 1.0, 0.0, 1.0, 0.0]), scalars(6));
+    let times = document.add_accessor(&float_bytes(&[0.5, 1.0]), scalars(2));
+    let weights = document.add_accessor(&float_bytes(&[0.0, 0.0, 1.0, 0.0, 1.0, 0.0]), scalars(6));
     let vec3 = json!({"componentType": 5126, "type": "VEC3", "count": 2});
-    let scales = document.accessor(&floats(&[1.0, 1.0, 1.0, 2.0, 2.0, 2.0]), vec3);
+    let scales = document.add_accessor(&float_bytes(&[1.0, 1.0, 1.0, 2.0, 2.0, 2.0]), vec3);
     let vec4 = json!({"componentType": 5122, "type": "VEC4", "count": 2, "normalized": true});
     let turns = [[0, 0, 0, 32_767i16], [0, 23_170, 0, 23_170]];
     let turns: Vec<u8> = turns.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
-    let rotations = document.accessor(&turns, vec4);
+    let rotations = document.add_accessor(&turns, vec4);
     document.json["animations"] = json!([{
     "samplers": [
         {"input": times, "output": scales},
@@ -32,9 +32,9 @@ fn moving() -> Document {
     document
 }
 
-pub fn cases() -> Vec<Case> {
-    let whole = moving();
-    let mut cases = vec![Case::of("animation: whole", &whole, Expected::LoadsClean)];
+pub fn animation_cases() -> Vec<Case> {
+    let whole = animated_document();
+    let mut cases = vec![Case::from_document("animation: whole", &whole, Expected::LoadsClean)];
     let accessors = whole.json["accessors"].as_array().map_or(0, Vec::len);
     // Every word of times and values replaced by numbers that are none, or too large.
     for accessor in accessors - 4..accessors {
@@ -47,25 +47,25 @@ pub fn cases() -> Vec<Case> {
                 let mut document = whole.clone();
                 document.bytes[at..at + 4].copy_from_slice(&wrong.to_le_bytes());
                 let name = format!("animation: accessor {accessor}, byte {at} is {wrong}");
-                cases.push(Case::of(name, &document, Expected::Loads));
+                cases.push(Case::from_document(name, &document, Expected::Loads));
             }
         }
     }
-    cases.extend(members(&whole));
+    cases.extend(member_cases(&whole));
     let warns = |text: &str| Expected::Warns(text.to_owned());
     let matrix = "/animations/0/channels/0/target/node node 2 has a matrix, which cannot be animated; \
                   the channel is left out";
-    let node = whole.clone().with("/animations/0/channels/0/target/node", json!(2));
-    cases.push(Case::of("animation: of a matrix", &node, warns(matrix)));
+    let node = whole.clone().with_value("/animations/0/channels/0/target/node", json!(2));
+    cases.push(Case::from_document("animation: of a matrix", &node, warns(matrix)));
     let few = "/animations/0/samplers/0/output 6 numbers are not enough, or too many, for 2 keys; \
                the channel is left out";
-    let cubic = whole.with("/animations/0/samplers/0/interpolation", json!("CUBICSPLINE"));
-    cases.push(Case::of("animation: too few values", &cubic, warns(few)));
+    let cubic = whole.with_value("/animations/0/samplers/0/interpolation", json!("CUBICSPLINE"));
+    cases.push(Case::from_document("animation: too few values", &cubic, warns(few)));
     cases
 }
 
 /// Every member replaced by one that is wrong.
-fn members(whole: &Document) -> Vec<Case> {
+fn member_cases(whole: &Document) -> Vec<Case> {
     let wrong: [Value; 10] = [
         json!(0),
         json!(1),
@@ -83,15 +83,23 @@ fn members(whole: &Document) -> Vec<Case> {
         for member in ["input", "output", "interpolation"] {
             for wrong in &wrong {
                 let place = format!("/animations/0/samplers/{sampler}/{member}");
-                let document = whole.clone().with(&place, wrong.clone());
-                cases.push(Case::of(format!("{place} is {wrong}"), &document, Expected::Anything));
+                let document = whole.clone().with_value(&place, wrong.clone());
+                cases.push(Case::from_document(
+                    format!("{place} is {wrong}"),
+                    &document,
+                    Expected::Anything,
+                ));
             }
         }
         for member in ["sampler", "target/node", "target/path"] {
             for wrong in &wrong {
                 let place = format!("/animations/0/channels/{sampler}/{member}");
-                let document = whole.clone().with(&place, wrong.clone());
-                cases.push(Case::of(format!("{place} is {wrong}"), &document, Expected::Anything));
+                let document = whole.clone().with_value(&place, wrong.clone());
+                cases.push(Case::from_document(
+                    format!("{place} is {wrong}"),
+                    &document,
+                    Expected::Anything,
+                ));
             }
         }
     }

@@ -3,9 +3,9 @@
 use crate::case::{Case, Expected};
 use crate::document::Document;
 
-pub fn cases() -> Vec<Case> {
+pub fn byte_cases() -> Vec<Case> {
     let mut cases = Vec::new();
-    let whole = Document::triangle().glb();
+    let whole = Document::single_triangle().to_glb();
     for end in 0..whole.len() {
         cases.push(Case::new(
             format!("glb cut at {end}"),
@@ -32,7 +32,7 @@ pub fn cases() -> Vec<Case> {
             ));
         }
     }
-    let text = Document::triangle().json.to_string().into_bytes();
+    let text = Document::single_triangle().json.to_string().into_bytes();
     for end in 0..text.len() {
         cases.push(Case::new(
             format!("gltf cut at {end}"),

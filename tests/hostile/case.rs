@@ -37,35 +37,35 @@ impl Case {
         Self { name: name.into(), file, options: ImportOptions::default(), expected }
     }
 
-    pub fn of(name: impl Into<String>, document: &Document, expected: Expected) -> Self {
-        Self::new(name, document.glb(), expected)
+    pub fn from_document(name: impl Into<String>, document: &Document, expected: Expected) -> Self {
+        Self::new(name, document.to_glb(), expected)
     }
 
     /// Writes the file into a folder, loads it, and compares.
-    pub fn run(&self, folder: &Path) -> Result<(), String> {
+    pub fn check_file(&self, folder: &Path) -> Result<(), String> {
         let path = folder.join("model.gltf");
         std::fs::write(&path, &self.file).map_err(|error| error.to_string())?;
-        judge(&path, &self.options, &self.expected)
+        check_path(&path, &self.options, &self.expected)
     }
 
     /// Checks the file: a report that says whether it loads, and why not.
-    pub fn check(&self) -> Result<(), String> {
+    pub fn check_bytes(&self) -> Result<(), String> {
         let report = check_bytes("model.gltf", &self.file, &self.options);
-        let fault = load_bytes("model.gltf", &self.file, &self.options).err().map(|e| e.fault);
-        if report.refusal != fault {
-            return Err(format!("loading says {fault:?}, the report {:?}", report.refusal));
+        let fault = load_bytes("model.gltf", &self.file, &self.options).err().map(|e| e.diagnostic);
+        if report.load_error != fault {
+            return Err(format!("loading says {fault:?}, the report {:?}", report.load_error));
         }
         if fault.is_some() && report.errors == 0 {
             return Err("it is refused, and there is no error in the report".to_owned());
         }
         let all = report.errors + report.warnings + report.notes;
-        let is_whole = report.problems.len() + report.left_out() == all;
-        let is_short = report.problems.len() < 2_000;
-        let is_sorted = report.problems.is_sorted_by_key(|problem| problem.severity);
+        let is_whole = report.diagnostics.len() + report.omitted_count() == all;
+        let is_short = report.diagnostics.len() < 2_000;
+        let is_sorted = report.diagnostics.is_sorted_by_key(|problem| problem.severity);
         if is_whole && is_short && is_sorted {
             return Ok(());
         }
-        Err(format!("{} problems of {all} are listed", report.problems.len()))
+        Err(format!("{} problems of {all} are listed", report.diagnostics.len()))
     }
 
     /// Loads the file leniently: what loads otherwise loads so too, and what is left keeps every promise.
@@ -73,27 +73,29 @@ impl Case {
         let options = ImportOptions { lenient: true, ..self.options.clone() };
         let loads = load_bytes("model.gltf", &self.file, &self.options).is_ok();
         match load_bytes("model.gltf", &self.file, &options) {
-            Ok(model) => promises::check(&model),
-            Err(error) if loads => Err(format!("it loads, but not leniently: {}", error.fault)),
+            Ok(model) => promises::check_model(&model),
+            Err(error) if loads => {
+                Err(format!("it loads, but not leniently: {}", error.diagnostic))
+            }
             Err(_) => Ok(()),
         }
     }
 }
 
 /// Loads a file and compares what comes of it with what is expected.
-pub fn judge(path: &Path, options: &ImportOptions, expected: &Expected) -> Result<(), String> {
-    judge_loaded(&load(path, options), expected)
+pub fn check_path(path: &Path, options: &ImportOptions, expected: &Expected) -> Result<(), String> {
+    check_load_result(&load(path, options), expected)
 }
 
 /// Compares what came of a file with what is expected.
-pub fn judge_loaded(
+pub fn check_load_result(
     loaded: &Result<Model, ImportError>,
     expected: &Expected,
 ) -> Result<(), String> {
     if let Ok(model) = loaded {
-        promises::check(model)?;
+        promises::check_model(model)?;
     }
-    let said = loaded.as_ref().err().map(|error| error.fault.to_string());
+    let said = loaded.as_ref().err().map(|error| error.diagnostic.to_string());
     match (expected, loaded, said) {
         (Expected::Anything, ..) | (Expected::Loads, Ok(_), _) | (Expected::Refused, Err(_), _) => {
             Ok(())

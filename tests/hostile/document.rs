@@ -1,6 +1,6 @@
 //! Small valid glTF files, to be spoilt.
 
-use crate::glb::glb;
+use crate::glb::encode_glb;
 use serde_json::{Value, json};
 
 /// A glTF document with the bytes of its only buffer.
@@ -12,7 +12,7 @@ pub struct Document {
 
 impl Document {
     /// One triangle with indices: accessor 0 has the positions, accessor 1 the indices.
-    pub fn triangle() -> Self {
+    pub fn single_triangle() -> Self {
         let mut document = Self {
             json: json!({
                 "asset": {"version": "2.0"},
@@ -25,37 +25,38 @@ impl Document {
             bytes: Vec::new(),
         };
         let corners: [f32; 9] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
-        document.accessor(
-            &floats(&corners),
+        document.add_accessor(
+            &float_bytes(&corners),
             json!({"componentType": 5126, "type": "VEC3", "count": 3}),
         );
         let indices = [0u8, 0, 1, 0, 2, 0];
-        document.accessor(&indices, json!({"componentType": 5123, "type": "SCALAR", "count": 3}));
+        document
+            .add_accessor(&indices, json!({"componentType": 5123, "type": "SCALAR", "count": 3}));
         document
     }
 
     /// Everything that is read: a skinned, textured, coloured triangle with normals, a camera, an animation, a sparse accessor.
-    pub fn rich() -> Self {
-        let mut document = Self::triangle();
+    pub fn with_all_members() -> Self {
+        let mut document = Self::single_triangle();
         let vec3 = |count: usize| json!({"componentType": 5126, "type": "VEC3", "count": count});
-        let normals = document.accessor(&floats(&[0.0, 0.0, 1.0].repeat(3)), vec3(3));
+        let normals = document.add_accessor(&float_bytes(&[0.0, 0.0, 1.0].repeat(3)), vec3(3));
         let uv = json!({"componentType": 5126, "type": "VEC2", "count": 3});
-        let uvs = document.accessor(&floats(&[0.0, 1.0, 0.5, 0.25, 0.0, 0.75]), uv);
+        let uvs = document.add_accessor(&float_bytes(&[0.0, 1.0, 0.5, 0.25, 0.0, 0.75]), uv);
         let color = json!({"componentType": 5121, "type": "VEC4", "count": 3, "normalized": true});
-        let colors = document.accessor(&[255; 12], color);
+        let colors = document.add_accessor(&[255; 12], color);
         let joint = json!({"componentType": 5121, "type": "VEC4", "count": 3});
-        let joints = document.accessor(&[0; 12], joint);
+        let joints = document.add_accessor(&[0; 12], joint);
         let weight = json!({"componentType": 5126, "type": "VEC4", "count": 3});
-        let weights = document.accessor(&floats(&[1.0, 0.0, 0.0, 0.0].repeat(3)), weight);
-        let moved = document.accessor(&floats(&[0.5; 9]), vec3(3));
+        let weights = document.add_accessor(&float_bytes(&[1.0, 0.0, 0.0, 0.0].repeat(3)), weight);
+        let moved = document.add_accessor(&float_bytes(&[0.5; 9]), vec3(3));
         let identity: Vec<f32> = (0..16).map(|at| if at % 5 == 0 { 1.0 } else { 0.0 }).collect();
         let matrix = json!({"componentType": 5126, "type": "MAT4", "count": 1});
-        let bind = document.accessor(&floats(&identity), matrix);
+        let bind = document.add_accessor(&float_bytes(&identity), matrix);
         let time = json!({"componentType": 5126, "type": "SCALAR", "count": 2});
-        let times = document.accessor(&floats(&[0.0, 1.5]), time);
-        let moves = document.accessor(&floats(&[0.0; 6]), vec3(2));
-        let image = document.view(&super::images::png(2, 2));
-        let at = document.view(&[0, 0, 0, 0]);
+        let times = document.add_accessor(&float_bytes(&[0.0, 1.5]), time);
+        let moves = document.add_accessor(&float_bytes(&[0.0; 6]), vec3(2));
+        let image = document.add_buffer_view(&super::images::encode_png(2, 2));
+        let at = document.add_buffer_view(&[0, 0, 0, 0]);
         document.json["accessors"][0]["sparse"] = json!({"count": 1,
             "indices": {"bufferView": at, "componentType": 5123}, "values": {"bufferView": 0, "byteOffset": 0}});
         document.json["meshes"][0]["name"] = json!("triangle");
@@ -93,18 +94,19 @@ impl Document {
 
     /// What extensions add, and what few files have: tangents, a second set of joints, morph targets of all attributes,
     /// lights, variants, edges, pointers of animations, every KHR_materials extension.
-    pub fn lavish() -> Self {
-        let mut document = Self::rich();
+    pub fn with_extensions() -> Self {
+        let mut document = Self::with_all_members();
         let vec4 = json!({"componentType": 5126, "type": "VEC4", "count": 3});
-        let tangents = document.accessor(&floats(&[1.0, 0.0, 0.0, 1.0].repeat(3)), vec4.clone());
-        let colors = document.accessor(&floats(&[0.25; 12]), vec4.clone());
-        let weights = document.accessor(&floats(&[0.5; 12]), vec4);
+        let tangents =
+            document.add_accessor(&float_bytes(&[1.0, 0.0, 0.0, 1.0].repeat(3)), vec4.clone());
+        let colors = document.add_accessor(&float_bytes(&[0.25; 12]), vec4.clone());
+        let weights = document.add_accessor(&float_bytes(&[0.5; 12]), vec4);
         let bytes = |count: usize| json!({"componentType": 5121, "type": "SCALAR", "count": count});
         let joint = json!({"componentType": 5121, "type": "VEC4", "count": 3});
-        let joints = document.accessor(&[0; 12], joint);
-        let bits = document.accessor(&[0b10_01_10], bytes(1));
-        let string = document.accessor(&[0, 1, 255, 1, 2], bytes(5));
-        let outline = document.accessor(&[2, 0], bytes(2));
+        let joints = document.add_accessor(&[0; 12], joint);
+        let bits = document.add_accessor(&[0b10_01_10], bytes(1));
+        let string = document.add_accessor(&[0, 1, 255, 1, 2], bytes(5));
+        let outline = document.add_accessor(&[2, 0], bytes(2));
         let primitive = &mut document.json["meshes"][0]["primitives"][0];
         primitive["attributes"]["TANGENT"] = json!(tangents);
         primitive["attributes"]["JOINTS_1"] = json!(joints);
@@ -124,13 +126,13 @@ impl Document {
             "KHR_lights_punctual": {"lights": [{"type": "spot", "color": [1, 1, 1], "intensity": 3, "range": 2,
                 "name": "lamp", "spot": {"innerConeAngle": 0.25, "outerConeAngle": 0.5}}]}});
         document.json["nodes"][1]["extensions"] = json!({"KHR_lights_punctual": {"light": 0}});
-        document.paint();
-        document.point();
+        document.add_materials();
+        document.animate_by_pointers();
         document
     }
 
     /// Gives the material every extension.
-    fn paint(&mut self) {
+    fn add_materials(&mut self) {
         let texture = json!({"index": 0, "texCoord": 0});
         let material = &mut self.json["materials"][0];
         material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = texture.clone();
@@ -162,9 +164,9 @@ impl Document {
     }
 
     /// Animates a number of the material, of the light, of a texture and a weight by their pointers.
-    fn point(&mut self) {
+    fn animate_by_pointers(&mut self) {
         let one = json!({"componentType": 5126, "type": "SCALAR", "count": 2});
-        let output = self.accessor(&floats(&[0.0, 1.0]), one);
+        let output = self.add_accessor(&float_bytes(&[0.0, 1.0]), one);
         let animation = &mut self.json["animations"][0];
         let input = animation["samplers"][0]["input"].clone();
         let samplers = animation["samplers"].as_array_mut().expect("the animation has samplers");
@@ -184,7 +186,7 @@ impl Document {
     }
 
     /// Adds a buffer view with these bytes; gives its number.
-    pub fn view(&mut self, bytes: &[u8]) -> usize {
+    pub fn add_buffer_view(&mut self, bytes: &[u8]) -> usize {
         let start = self.bytes.len();
         self.bytes.extend(bytes);
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
@@ -195,8 +197,8 @@ impl Document {
     }
 
     /// Adds an accessor over a view of its own; gives its number.
-    pub fn accessor(&mut self, bytes: &[u8], mut accessor: Value) -> usize {
-        accessor["bufferView"] = json!(self.view(bytes));
+    pub fn add_accessor(&mut self, bytes: &[u8], mut accessor: Value) -> usize {
+        accessor["bufferView"] = json!(self.add_buffer_view(bytes));
         let accessors = self.json["accessors"].as_array_mut().expect("the document has accessors");
         accessors.push(accessor);
         accessors.len() - 1
@@ -204,7 +206,7 @@ impl Document {
 
     /// The document with the member at a JSON pointer set; its parent must exist.
     #[must_use]
-    pub fn with(mut self, pointer: &str, value: Value) -> Self {
+    pub fn with_value(mut self, pointer: &str, value: Value) -> Self {
         let (parent, member) = pointer.rsplit_once('/').expect("a pointer begins with a slash");
         let parent = self.json.pointer_mut(parent).expect("the parent exists");
         match member.parse::<usize>() {
@@ -216,7 +218,7 @@ impl Document {
 
     /// The document without the member at a JSON pointer.
     #[must_use]
-    pub fn without(mut self, pointer: &str) -> Self {
+    pub fn without_value(mut self, pointer: &str) -> Self {
         let (parent, member) = pointer.rsplit_once('/').expect("a pointer begins with a slash");
         let parent = self.json.pointer_mut(parent).expect("the parent exists");
         if let Some(members) = parent.as_object_mut() {
@@ -226,12 +228,12 @@ impl Document {
     }
 
     /// The document as a binary file.
-    pub fn glb(&self) -> Vec<u8> {
-        glb(self.json.to_string().as_bytes(), &self.bytes)
+    pub fn to_glb(&self) -> Vec<u8> {
+        encode_glb(self.json.to_string().as_bytes(), &self.bytes)
     }
 }
 
 /// Numbers as they lie in a buffer.
-pub fn floats(numbers: &[f32]) -> Vec<u8> {
+pub fn float_bytes(numbers: &[f32]) -> Vec<u8> {
     numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
 }

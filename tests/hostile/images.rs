@@ -5,7 +5,7 @@ use crate::document::Document;
 use serde_json::json;
 
 /// A valid PNG of one colour.
-pub fn png(width: u32, height: u32) -> Vec<u8> {
+pub fn encode_png(width: u32, height: u32) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgba);
@@ -16,18 +16,18 @@ pub fn png(width: u32, height: u32) -> Vec<u8> {
 }
 
 /// A PNG whose header says what it likes; the checksum is right.
-fn lying_png(width: u32, height: u32, depth: u8, color: u8) -> Vec<u8> {
-    let mut bytes = png(2, 2);
+fn png_with_false_size(width: u32, height: u32, depth: u8, color: u8) -> Vec<u8> {
+    let mut bytes = encode_png(2, 2);
     bytes[16..20].copy_from_slice(&width.to_be_bytes());
     bytes[20..24].copy_from_slice(&height.to_be_bytes());
     (bytes[24], bytes[25]) = (depth, color);
-    let checksum = crc(&bytes[12..29]);
+    let checksum = crc32(&bytes[12..29]);
     bytes[29..33].copy_from_slice(&checksum.to_be_bytes());
     bytes
 }
 
 /// The checksum of PNG (ISO 3309), bit by bit.
-fn crc(bytes: &[u8]) -> u32 {
+fn crc32(bytes: &[u8]) -> u32 {
     let step = |crc: u32, _| if crc & 1 == 1 { (crc >> 1) ^ 0xEDB8_8320 } else { crc >> 1 };
     !bytes.iter().fold(u32::MAX, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))
 }
@@ -47,100 +47,124 @@ fn jpeg_header(width: u16, height: u16, samplings: &[u8]) -> Vec<u8> {
 }
 
 /// A textured triangle with this image.
-fn textured(name: &str, image: &[u8], expected: Expected) -> Case {
-    let mut document = Document::rich();
-    let view = document.view(image);
-    Case::of(
+fn textured_case(name: &str, image: &[u8], expected: Expected) -> Case {
+    let mut document = Document::with_all_members();
+    let view = document.add_buffer_view(image);
+    Case::from_document(
         format!("image: {name}"),
-        &document.with("/images/0/bufferView", json!(view)),
+        &document.with_value("/images/0/bufferView", json!(view)),
         expected,
     )
 }
 
-fn warns(problem: &str) -> Expected {
+fn warning_containing(problem: &str) -> Expected {
     Expected::Warns(format!("/images/0 {problem}; the surface is shown without it"))
 }
 
 /// Headers of JPEG files with nothing after them, some of a kind that is not read.
-fn jpegs() -> [Case; 4] {
+fn jpeg_cases() -> [Case; 4] {
     [
-        textured("JPEG for printing", &jpeg_header(8, 8, &[0x11; 4]), Expected::Loads),
-        textured("JPEG, 65,500 squared", &jpeg_header(65_500, 65_500, &[0x11; 3]), Expected::Loads),
-        textured(
+        textured_case("JPEG for printing", &jpeg_header(8, 8, &[0x11; 4]), Expected::Loads),
+        textured_case(
+            "JPEG, 65,500 squared",
+            &jpeg_header(65_500, 65_500, &[0x11; 3]),
+            Expected::Loads,
+        ),
+        textured_case(
             "JPEG with colour finer than brightness",
             &jpeg_header(64, 64, &[0x11, 0x11, 0x22]),
-            warns(
+            warning_containing(
                 "the JPEG has more samples of its colour than of its brightness; save it with the \
                  usual sampling (4:4:4, 4:2:2 or 4:2:0)",
             ),
         ),
-        textured("JPEG without data", &jpeg_header(64, 64, &[0x11; 3]), Expected::Loads),
+        textured_case("JPEG without data", &jpeg_header(64, 64, &[0x11; 3]), Expected::Loads),
     ]
 }
 
 /// WebP files whose sizes lie.
-fn webps() -> [Case; 2] {
+fn webp_cases() -> [Case; 2] {
     [
-        textured(
+        textured_case(
             "WebP with a frame far larger than the image",
             b"RIFF\x28\0\0\0WEBPVP8X\x0A\0\0\0\0\0\0\0\xFF\0\0\x7F\0\0\
               VP8 \x0A\0\0\0\x90\x0B\0\x9D\x01\x2A\xFF\x3F\xFF\x3F",
-            warns("the WebP has a frame of 16383 x 16383 texels in an image of 256 x 128"),
+            warning_containing(
+                "the WebP has a frame of 16383 x 16383 texels in an image of 256 x 128",
+            ),
         ),
-        textured("WebP header", b"RIFF\xFF\xFF\xFF\xFFWEBPVP8 \xFF\xFF\xFF\xFF", Expected::Loads),
+        textured_case(
+            "WebP header",
+            b"RIFF\xFF\xFF\xFF\xFFWEBPVP8 \xFF\xFF\xFF\xFF",
+            Expected::Loads,
+        ),
     ]
 }
 
-pub fn cases() -> Vec<Case> {
+pub fn image_cases() -> Vec<Case> {
     let mut cases = vec![
-        textured(
+        textured_case(
             "100,000 squared",
-            &lying_png(100_000, 100_000, 8, 6),
-            warns("the image says 100000 x 100000 texels, which cannot be in 74 bytes"),
+            &png_with_false_size(100_000, 100_000, 8, 6),
+            warning_containing(
+                "the image says 100000 x 100000 texels, which cannot be in 74 bytes",
+            ),
         ),
-        textured("16,384 squared without data", &lying_png(16_384, 16_384, 8, 6), Expected::Loads),
-        textured(
+        textured_case(
+            "16,384 squared without data",
+            &png_with_false_size(16_384, 16_384, 8, 6),
+            Expected::Loads,
+        ),
+        textured_case(
             "2^31 wide",
-            &lying_png(i32::MAX as u32, 1, 8, 6),
-            warns("the image says 2147483647 x 1 texels, which cannot be in 74 bytes"),
+            &png_with_false_size(i32::MAX as u32, 1, 8, 6),
+            warning_containing("the image says 2147483647 x 1 texels, which cannot be in 74 bytes"),
         ),
-        textured(
+        textured_case(
             "20,000 wide",
-            &lying_png(20_000, 1, 8, 6),
-            warns("the image has 20000 x 1 texels, more than the limit of 16384"),
+            &png_with_false_size(20_000, 1, 8, 6),
+            warning_containing("the image has 20000 x 1 texels, more than the limit of 16384"),
         ),
-        textured("no width", &lying_png(0, 7, 8, 6), Expected::Loads),
-        textured("empty", &[], warns("the image is empty")),
-        textured(
+        textured_case("no width", &png_with_false_size(0, 7, 8, 6), Expected::Loads),
+        textured_case("empty", &[], warning_containing("the image is empty")),
+        textured_case(
             "text",
             b"hello",
-            warns("this is of an unknown format; only PNG, JPEG and WebP are read"),
+            warning_containing("this is of an unknown format; only PNG, JPEG and WebP are read"),
         ),
-        textured("GIF", b"GIF89a", warns("this is a GIF image; only PNG, JPEG and WebP are read")),
-        textured(
+        textured_case(
+            "GIF",
+            b"GIF89a",
+            warning_containing("this is a GIF image; only PNG, JPEG and WebP are read"),
+        ),
+        textured_case(
             "KTX2",
             b"\xABKTX 20\xBB\r\n\x1A\n",
-            warns("this is a KTX image; only PNG, JPEG and WebP are read"),
+            warning_containing("this is a KTX image; only PNG, JPEG and WebP are read"),
         ),
     ];
-    cases.extend(jpegs());
-    cases.extend(webps());
+    cases.extend(jpeg_cases());
+    cases.extend(webp_cases());
     for depth in [0, 1, 2, 3, 4, 8, 16, 32] {
         for color in 0..8 {
             let name = format!("PNG of {depth} bits, colour type {color}");
-            cases.push(textured(&name, &lying_png(2, 2, depth, color), Expected::Loads));
+            cases.push(textured_case(
+                &name,
+                &png_with_false_size(2, 2, depth, color),
+                Expected::Loads,
+            ));
         }
     }
-    let whole = png(9, 5);
+    let whole = encode_png(9, 5);
     for end in 0..whole.len() {
-        cases.push(textured(&format!("PNG cut at {end}"), &whole[..end], Expected::Loads));
+        cases.push(textured_case(&format!("PNG cut at {end}"), &whole[..end], Expected::Loads));
         let mut changed = whole.clone();
         changed[end] ^= 0xFF;
-        cases.push(textured(&format!("PNG byte {end} changed"), &changed, Expected::Loads));
+        cases.push(textured_case(&format!("PNG byte {end} changed"), &changed, Expected::Loads));
     }
     let header = jpeg_header(64, 64, &[0x11; 3]);
     for end in 0..header.len() {
-        cases.push(textured(&format!("JPEG cut at {end}"), &header[..end], Expected::Loads));
+        cases.push(textured_case(&format!("JPEG cut at {end}"), &header[..end], Expected::Loads));
     }
     cases
 }

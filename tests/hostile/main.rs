@@ -32,10 +32,10 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 /// So much memory the whole run may take at any time.
-const MEMORY_MIB: u64 = 200;
+const MAX_MEMORY_MIB: u64 = 200;
 
 /// A case that takes longer hangs, however busy the machine is.
-const HANG: Duration = Duration::from_secs(10);
+const TIME_LIMIT: Duration = Duration::from_secs(10);
 
 #[derive(Default)]
 struct Tally {
@@ -49,7 +49,7 @@ fn main() -> ExitCode {
     let mut arguments = std::env::args();
     if arguments.any(|argument| argument == "--write") {
         let folder = arguments.next().unwrap_or_default();
-        return match write(folder.as_ref()) {
+        return match write_files(folder.as_ref()) {
             Ok(count) => {
                 println!("{count} files");
                 ExitCode::SUCCESS
@@ -61,7 +61,7 @@ fn main() -> ExitCode {
         };
     }
     let folder = std::env::temp_dir().join(format!("alberti-hostile-{}", std::process::id()));
-    let tally = run(&folder);
+    let tally = run_groups(&folder);
     let _ = std::fs::remove_dir_all(&folder);
     match tally {
         Ok(tally) => {
@@ -79,9 +79,9 @@ fn main() -> ExitCode {
 }
 
 /// Writes the files of all cases into a folder, for the fuzzer to begin with.
-fn write(folder: &Path) -> std::io::Result<usize> {
+fn write_files(folder: &Path) -> std::io::Result<usize> {
     let mut count = 0;
-    for (group, cases) in groups() {
+    for (group, cases) in case_groups() {
         for case in cases().iter().filter(|case| case.file.len() <= 64 << 10) {
             std::fs::write(folder.join(format!("{group}-{count:05}")), &case.file)?;
             count += 1;
@@ -90,27 +90,27 @@ fn write(folder: &Path) -> std::io::Result<usize> {
     Ok(count)
 }
 
-fn run(folder: &Path) -> Result<Tally, String> {
+fn run_groups(folder: &Path) -> Result<Tally, String> {
     std::fs::create_dir_all(folder).map_err(|error| error.to_string())?;
     let filters: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
     let is_chosen =
         |name: &str| filters.is_empty() || filters.iter().any(|f| name.contains(f.as_str()));
     let mut tally = Tally::default();
-    for (group, cases) in groups() {
+    for (group, cases) in case_groups() {
         let before = tally.passed + tally.failed;
         for case in cases().iter().filter(|case| is_chosen(&case.name)) {
-            tally.note(&case.name, || case.run(folder));
-            tally.note(&format!("{}, checked", case.name), || case.check());
-            tally.note(&format!("{}, leniently", case.name), || case.load_leniently());
+            tally.record_case(&case.name, || case.check_file(folder));
+            tally.record_case(&format!("{}, checked", case.name), || case.check_bytes());
+            tally.record_case(&format!("{}, leniently", case.name), || case.load_leniently());
         }
         println!("{group}: {} cases", tally.passed + tally.failed - before);
     }
-    let uris = uris::run(&folder.join("uris"))?;
+    let uris = uris::run_uri_cases(&folder.join("uris"))?;
     println!("uris: {} cases", uris.len());
     for (name, result) in uris.into_iter().filter(|(name, _)| is_chosen(name)) {
-        tally.note(&name, || result);
+        tally.record_case(&name, || result);
     }
-    if tally.largest.0 > MEMORY_MIB {
+    if tally.largest.0 > MAX_MEMORY_MIB {
         tally.failed += 1;
         println!("FAILED memory: {} MiB since {}", tally.largest.0, tally.largest.1);
     }
@@ -119,24 +119,24 @@ fn run(folder: &Path) -> Result<Tally, String> {
 
 type Cases = fn() -> Vec<Case>;
 
-fn groups() -> [(&'static str, Cases); 10] {
+fn case_groups() -> [(&'static str, Cases); 10] {
     [
-        ("types", types::cases),
-        ("accessors", accessors::cases),
-        ("animations", animations::cases),
-        ("bytes", bytes::cases),
-        ("members", members::cases),
-        ("meshopt", meshopt::cases),
-        ("draco", draco::cases),
-        ("nodes", nodes::cases),
-        ("images", images::cases),
-        ("text", text::cases),
+        ("types", types::type_cases),
+        ("accessors", accessors::accessor_cases),
+        ("animations", animations::animation_cases),
+        ("bytes", bytes::byte_cases),
+        ("members", members::member_cases),
+        ("meshopt", meshopt::meshopt_cases),
+        ("draco", draco::draco_cases),
+        ("nodes", nodes::node_cases),
+        ("images", images::image_cases),
+        ("text", text::text_cases),
     ]
 }
 
 impl Tally {
     /// Runs a case and counts it.
-    fn note(&mut self, name: &str, case: impl FnOnce() -> Result<(), String>) {
+    fn record_case(&mut self, name: &str, case: impl FnOnce() -> Result<(), String>) {
         let start = Instant::now();
         let result =
             catch_unwind(AssertUnwindSafe(case)).unwrap_or_else(|_| Err("panic".to_owned()));
@@ -149,7 +149,7 @@ impl Tally {
             self.largest = (memory, name.to_owned());
         }
         match result {
-            Ok(()) if time < HANG => self.passed += 1,
+            Ok(()) if time < TIME_LIMIT => self.passed += 1,
             result => {
                 let problem = result.err().unwrap_or_else(|| format!("it took {time:?}"));
                 println!("FAILED {name}: {problem}");

@@ -4,20 +4,20 @@ use crate::case::{Case, Expected};
 use crate::document::Document;
 use serde_json::{Value, json};
 
-pub fn cases() -> Vec<Case> {
-    let (rich, lavish) = (Document::rich(), Document::lavish());
+pub fn member_cases() -> Vec<Case> {
+    let (rich, lavish) = (Document::with_all_members(), Document::with_extensions());
     let mut pointers = Vec::new();
-    collect(&rich.json, &mut String::new(), &mut pointers);
-    let mut cases = spoilt(&rich, &pointers);
+    collect_pointers(&rich.json, &mut String::new(), &mut pointers);
+    let mut cases = mutated_cases(&rich, &pointers);
     let mut more = Vec::new();
-    collect(&lavish.json, &mut String::new(), &mut more);
+    collect_pointers(&lavish.json, &mut String::new(), &mut more);
     more.retain(|pointer| !pointers.contains(pointer));
-    cases.extend(spoilt(&lavish, &more));
+    cases.extend(mutated_cases(&lavish, &more));
     cases
 }
 
 /// A document as it is, and with each of the members spoilt in each way.
-fn spoilt(document: &Document, pointers: &[String]) -> Vec<Case> {
+fn mutated_cases(document: &Document, pointers: &[String]) -> Vec<Case> {
     let values = [
         json!(null),
         json!(true),
@@ -36,15 +36,19 @@ fn spoilt(document: &Document, pointers: &[String]) -> Vec<Case> {
         json!({}),
         json!({"x": 0}),
     ];
-    let mut cases = vec![Case::of("everything right", document, Expected::LoadsClean)];
+    let mut cases = vec![Case::from_document("everything right", document, Expected::LoadsClean)];
     for pointer in pointers {
         for value in &values {
-            let spoilt = document.clone().with(pointer, value.clone());
-            cases.push(Case::of(format!("{pointer} is {value}"), &spoilt, Expected::Anything));
+            let spoilt = document.clone().with_value(pointer, value.clone());
+            cases.push(Case::from_document(
+                format!("{pointer} is {value}"),
+                &spoilt,
+                Expected::Anything,
+            ));
         }
-        cases.push(Case::of(
+        cases.push(Case::from_document(
             format!("no {pointer}"),
-            &document.clone().without(pointer),
+            &document.clone().without_value(pointer),
             Expected::Anything,
         ));
     }
@@ -52,7 +56,7 @@ fn spoilt(document: &Document, pointers: &[String]) -> Vec<Case> {
 }
 
 /// The JSON pointers of all values below the top.
-fn collect(value: &Value, path: &mut String, pointers: &mut Vec<String>) {
+fn collect_pointers(value: &Value, path: &mut String, pointers: &mut Vec<String>) {
     let members: Vec<(String, &Value)> = match value {
         Value::Array(items) => {
             items.iter().enumerate().map(|(at, v)| (at.to_string(), v)).collect()
@@ -65,7 +69,7 @@ fn collect(value: &Value, path: &mut String, pointers: &mut Vec<String>) {
         path.push('/');
         path.push_str(&name);
         pointers.push(path.clone());
-        collect(value, path, pointers);
+        collect_pointers(value, path, pointers);
         path.truncate(length);
     }
 }

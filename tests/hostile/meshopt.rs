@@ -5,13 +5,13 @@ use crate::document::Document;
 use serde_json::json;
 
 /// The triangle with its positions and indices compressed: every byte in full, and every index written out.
-fn packed() -> Document {
-    let mut document = Document::triangle();
+fn compressed_document() -> Document {
+    let mut document = Document::single_triangle();
     let plain = document.bytes.clone();
     document.bytes.clear();
     document.json["bufferViews"] = json!([]);
-    let positions = document.view(&attributes(&plain[..36], 12));
-    let indices = document.view(&[0xD1, 0, 4, 4, 0, 0, 0, 0]);
+    let positions = document.add_buffer_view(&attribute_stream(&plain[..36], 12));
+    let indices = document.add_buffer_view(&[0xD1, 0, 4, 4, 0, 0, 0, 0]);
     for (view, count, stride, mode) in
         [(positions, 3, 12, "ATTRIBUTES"), (indices, 3, 2, "INDICES")]
     {
@@ -24,11 +24,11 @@ fn packed() -> Document {
     let fallback =
         json!({"byteLength": 48, "extensions": {"EXT_meshopt_compression": {"fallback": true}}});
     let streams = document.json["buffers"][0].clone();
-    document.with("/buffers", json!([streams, fallback]))
+    document.with_value("/buffers", json!([streams, fallback]))
 }
 
 /// A stream of version 0 of up to 16 elements, every group with eight bits a delta.
-fn attributes(elements: &[u8], stride: usize) -> Vec<u8> {
+fn attribute_stream(elements: &[u8], stride: usize) -> Vec<u8> {
     let mut stream = vec![0xA0];
     for byte in 0..stride {
         let column = elements.iter().skip(byte).step_by(stride);
@@ -46,16 +46,17 @@ fn attributes(elements: &[u8], stride: usize) -> Vec<u8> {
     stream
 }
 
-pub fn cases() -> Vec<Case> {
-    let mut cases = vec![Case::of("meshopt: whole", &packed(), Expected::LoadsClean)];
-    cases.extend(numbers());
-    cases.extend(streams());
-    cases.extend(promises_of_much());
+pub fn meshopt_cases() -> Vec<Case> {
+    let mut cases =
+        vec![Case::from_document("meshopt: whole", &compressed_document(), Expected::LoadsClean)];
+    cases.extend(number_cases());
+    cases.extend(stream_cases());
+    cases.extend(oversized_count_cases());
     cases
 }
 
 /// Every number and word of the extension replaced by one that is wrong.
-fn numbers() -> Vec<Case> {
+fn number_cases() -> Vec<Case> {
     let wrong = [
         json!(null),
         json!("x"),
@@ -85,30 +86,42 @@ fn numbers() -> Vec<Case> {
             for wrong in &wrong {
                 let place =
                     format!("/bufferViews/{view}/extensions/EXT_meshopt_compression/{member}");
-                let document = packed().with(&place, wrong.clone());
-                cases.push(Case::of(format!("{place} is {wrong}"), &document, Expected::Anything));
+                let document = compressed_document().with_value(&place, wrong.clone());
+                cases.push(Case::from_document(
+                    format!("{place} is {wrong}"),
+                    &document,
+                    Expected::Anything,
+                ));
             }
         }
     }
     for extension in [json!(null), json!(7), json!("x"), json!([]), json!({})] {
         let place = "/bufferViews/0/extensions/EXT_meshopt_compression";
-        let document = packed().with(place, extension.clone());
-        cases.push(Case::of(format!("{place} is {extension}"), &document, Expected::Refused));
+        let document = compressed_document().with_value(place, extension.clone());
+        cases.push(Case::from_document(
+            format!("{place} is {extension}"),
+            &document,
+            Expected::Refused,
+        ));
     }
     cases
 }
 
 /// The streams cut at every byte, and with every byte changed.
-fn streams() -> Vec<Case> {
-    let whole = packed();
+fn stream_cases() -> Vec<Case> {
+    let whole = compressed_document();
     let mut cases = Vec::new();
     for view in [0, 1] {
         let length =
             &whole.json["bufferViews"][view]["extensions"]["EXT_meshopt_compression"]["byteLength"];
         let place = format!("/bufferViews/{view}/extensions/EXT_meshopt_compression/byteLength");
         for end in 0..length.as_u64().unwrap_or(0) {
-            let document = whole.clone().with(&place, json!(end));
-            cases.push(Case::of(format!("{place} is {end}"), &document, Expected::Refused));
+            let document = whole.clone().with_value(&place, json!(end));
+            cases.push(Case::from_document(
+                format!("{place} is {end}"),
+                &document,
+                Expected::Refused,
+            ));
         }
     }
     for at in 0..whole.bytes.len() {
@@ -116,31 +129,31 @@ fn streams() -> Vec<Case> {
             let mut document = whole.clone();
             document.bytes[at] ^= change;
             let name = format!("meshopt: byte {at} xor {change:#x}");
-            cases.push(Case::of(name, &document, Expected::Anything));
+            cases.push(Case::from_document(name, &document, Expected::Anything));
         }
     }
     cases
 }
 
 /// Short streams that claim to be long.
-fn promises_of_much() -> Vec<Case> {
+fn oversized_count_cases() -> Vec<Case> {
     let claim = |mode: &str, stream: &[u8], count: u64, expected: Expected| {
-        let mut document = packed();
-        let view = document.view(stream);
+        let mut document = compressed_document();
+        let view = document.add_buffer_view(stream);
         let start = document.json["bufferViews"][view]["byteOffset"].clone();
         let length = stream.len();
         let document = document
-            .with(
+            .with_value(
                 &format!("/bufferViews/{view}"),
                 json!({"buffer": 1, "byteLength": count.saturating_mul(4), "extensions": {"KHR_meshopt_compression": {
                     "buffer": 0, "byteOffset": start, "byteLength": length,
                     "count": count, "byteStride": 4, "mode": mode}}}),
             )
-            .with(
+            .with_value(
                 "/accessors/1",
                 json!({"bufferView": view, "componentType": 5125, "type": "SCALAR", "count": 3}),
             );
-        Case::of(format!("meshopt: {count} elements by {mode}"), &document, expected)
+        Case::from_document(format!("meshopt: {count} elements by {mode}"), &document, expected)
     };
     let mut cases = Vec::new();
     for mode in ["ATTRIBUTES", "TRIANGLES", "INDICES"] {

@@ -4,35 +4,43 @@ use crate::case::{Case, Expected};
 use crate::document::Document;
 use serde_json::{Value, json};
 
-fn nodes(name: &str, nodes: Value, expected: Expected) -> Case {
-    Case::of(format!("nodes: {name}"), &Document::triangle().with("/nodes", nodes), expected)
+fn node_case(name: &str, nodes: Value, expected: Expected) -> Case {
+    Case::from_document(
+        format!("nodes: {name}"),
+        &Document::single_triangle().with_value("/nodes", nodes),
+        expected,
+    )
 }
 
-fn says(text: &str) -> Expected {
+fn refusal_containing(text: &str) -> Expected {
     Expected::Says(format!("{text}; export the file again"))
 }
 
-pub fn cases() -> Vec<Case> {
-    let mut cases = references();
-    cases.extend(sizes());
-    cases.extend(transforms());
-    cases.extend(scenes());
-    cases.extend(places());
+pub fn node_cases() -> Vec<Case> {
+    let mut cases = reference_cases();
+    cases.extend(size_cases());
+    cases.extend(transform_cases());
+    cases.extend(scene_cases());
+    cases.extend(position_cases());
     cases
 }
 
 /// A mesh with many places, whose accessors are wrong, or far too long.
-fn places() -> Vec<Case> {
+fn position_cases() -> Vec<Case> {
     let case = |name: &str, attributes: Value, count: u64, expected: Expected| {
-        let mut document = Document::triangle();
-        let numbers = super::document::floats(&[1.0, 2.0, f32::NAN, 0.0, 0.0, 0.0]);
-        document.accessor(&numbers, json!({"componentType": 5126, "type": "VEC3", "count": 2}));
+        let mut document = Document::single_triangle();
+        let numbers = super::document::float_bytes(&[1.0, 2.0, f32::NAN, 0.0, 0.0, 0.0]);
+        document.add_accessor(&numbers, json!({"componentType": 5126, "type": "VEC3", "count": 2}));
         let zeros = |shape: &str| json!({"componentType": 5126, "type": shape, "count": count});
         let accessors =
             document.json["accessors"].as_array_mut().expect("the document has accessors");
         accessors.extend([zeros("VEC3"), zeros("VEC4")]);
         let node = json!([{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": attributes}}}]);
-        Case::of(format!("places: {name}"), &document.with("/nodes", node), expected)
+        Case::from_document(
+            format!("places: {name}"),
+            &document.with_value("/nodes", node),
+            expected,
+        )
     };
     let warns =
         |text: &str| Expected::Warns(format!("/nodes/0/extensions/EXT_mesh_gpu_instancing{text}"));
@@ -76,53 +84,53 @@ fn places() -> Vec<Case> {
 }
 
 /// Nodes that name what they should not.
-fn references() -> Vec<Case> {
+fn reference_cases() -> Vec<Case> {
     vec![
-        nodes(
+        node_case(
             "below itself",
             json!([{"children": [0]}]),
-            says("/nodes/0/children: node 0 is below itself"),
+            refusal_containing("/nodes/0/children: node 0 is below itself"),
         ),
-        nodes(
+        node_case(
             "a ring of three",
             json!([{"children": [1]}, {"children": [2]}, {"children": [0]}]),
-            says("/nodes/0/children: node 0 is below itself"),
+            refusal_containing("/nodes/0/children: node 0 is below itself"),
         ),
-        nodes(
+        node_case(
             "a ring beside the scene",
             json!([{}, {"children": [2]}, {"children": [1]}]),
-            says("/nodes/1/children: node 1 is below itself"),
+            refusal_containing("/nodes/1/children: node 1 is below itself"),
         ),
-        nodes(
+        node_case(
             "two parents",
             json!([{"children": [1, 2]}, {"children": [2]}, {}]),
-            says("/nodes/1/children/0: node 2 is a child of node 0 already"),
+            refusal_containing("/nodes/1/children/0: node 2 is a child of node 0 already"),
         ),
-        nodes(
+        node_case(
             "a child twice",
             json!([{"children": [1, 1]}, {}]),
-            says("/nodes/0/children/1: node 1 is a child of node 0 already"),
+            refusal_containing("/nodes/0/children/1: node 1 is a child of node 0 already"),
         ),
-        nodes(
+        node_case(
             "no such child",
             json!([{"children": [1]}]),
-            says("/nodes/0/children/0: there is no node 1: the file has only node 0"),
+            refusal_containing("/nodes/0/children/0: there is no node 1: the file has only node 0"),
         ),
-        nodes(
+        node_case(
             "no such mesh",
             json!([{"mesh": 1}]),
-            says("/nodes/0/mesh: there is no mesh 1: the file has only mesh 0"),
+            refusal_containing("/nodes/0/mesh: there is no mesh 1: the file has only mesh 0"),
         ),
-        nodes(
+        node_case(
             "no such skin",
             json!([{"mesh": 0, "skin": 0}]),
-            says("/nodes/0/skin: there is no skin 0: the file has none"),
+            refusal_containing("/nodes/0/skin: there is no skin 0: the file has none"),
         ),
     ]
 }
 
 /// Trees that are deep, wide, or seem so.
-fn sizes() -> Vec<Case> {
+fn size_cases() -> Vec<Case> {
     let chain = |length: usize| {
         let node = |at: usize| {
             if at + 1 < length { json!({"children": [at + 1]}) } else { json!({"mesh": 0}) }
@@ -134,21 +142,21 @@ fn sizes() -> Vec<Case> {
         .collect();
     let deep = "raise the limit `node_depth` (--max-node-depth) if you trust the file";
     vec![
-        nodes("2^60 paths", Value::Array(doubled), Expected::Refused),
-        nodes("1,024 deep", chain(1024), Expected::LoadsClean),
-        nodes(
+        node_case("2^60 paths", Value::Array(doubled), Expected::Refused),
+        node_case("1,024 deep", chain(1024), Expected::LoadsClean),
+        node_case(
             "1,025 deep",
             chain(1025),
             Expected::Says(format!(
                 "/nodes/1024: the node tree is 1025 levels deep, more than the limit of 1024; {deep}"
             )),
         ),
-        nodes("50,000 deep", chain(50_000), Expected::Refused),
-        nodes("50,000 wide", json!(vec![json!({"mesh": 0}); 50_000]), Expected::LoadsClean),
+        node_case("50,000 deep", chain(50_000), Expected::Refused),
+        node_case("50,000 wide", json!(vec![json!({"mesh": 0}); 50_000]), Expected::LoadsClean),
     ]
 }
 
-fn transforms() -> Vec<Case> {
+fn transform_cases() -> Vec<Case> {
     let matrix = |last: [f64; 4]| {
         let mut matrix =
             [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
@@ -160,58 +168,69 @@ fn transforms() -> Vec<Case> {
     let huge =
         json!([{"scale": [1e200, 1, 1], "children": [1]}, {"mesh": 0, "scale": [1e200, 1, 1]}]);
     vec![
-        nodes(
+        node_case(
             "a matrix that divides",
             matrix([0.0, 0.0, -1.0, 0.0]),
-            says(
+            refusal_containing(
                 "/nodes/0/matrix: the last row of the matrix is [0.0, 0.0, -1.0, 0.0] and not [0, 0, 0, 1]",
             ),
         ),
-        nodes("a matrix rounded", matrix([0.0, 1e-9, 0.0, 0.999_999_9]), Expected::LoadsClean),
-        nodes("zero matrix", json!([{"mesh": 0, "matrix": vec![0; 16]}]), Expected::Refused),
-        nodes(
+        node_case("a matrix rounded", matrix([0.0, 1e-9, 0.0, 0.999_999_9]), Expected::LoadsClean),
+        node_case("zero matrix", json!([{"mesh": 0, "matrix": vec![0; 16]}]), Expected::Refused),
+        node_case(
             "15 numbers",
             json!([{"mesh": 0, "matrix": vec![0; 15]}]),
-            says("/nodes/0/matrix: 16 numbers are due"),
+            refusal_containing("/nodes/0/matrix: 16 numbers are due"),
         ),
-        nodes(
+        node_case(
             "zero rotation",
             json!([{"mesh": 0, "rotation": [0, 0, 0, 0]}]),
-            says("/nodes/0/rotation: [0.0, 0.0, 0.0, 0.0] is not a rotation"),
+            refusal_containing("/nodes/0/rotation: [0.0, 0.0, 0.0, 0.0] is not a rotation"),
         ),
-        nodes(
+        node_case(
             "long rotation",
             json!([{"mesh": 0, "rotation": [0, 0, 5e200, 5e200]}]),
             Expected::LoadsClean,
         ),
-        nodes("zero scale", json!([{"mesh": 0, "scale": [0, 0, 0]}]), Expected::LoadsClean),
-        nodes("mirror", json!([{"mesh": 0, "scale": [-1, 1, 1]}]), Expected::LoadsClean),
-        nodes(
+        node_case("zero scale", json!([{"mesh": 0, "scale": [0, 0, 0]}]), Expected::LoadsClean),
+        node_case("mirror", json!([{"mesh": 0, "scale": [-1, 1, 1]}]), Expected::LoadsClean),
+        node_case(
             "a product beyond numbers",
             huge,
-            says("/nodes/1: the product of the transforms down to here is too large for numbers"),
+            refusal_containing(
+                "/nodes/1: the product of the transforms down to here is too large for numbers",
+            ),
         ),
-        nodes("far away", json!([{"mesh": 0, "translation": [1e300, 0, 0]}]), Expected::Anything),
+        node_case(
+            "far away",
+            json!([{"mesh": 0, "translation": [1e300, 0, 0]}]),
+            Expected::Anything,
+        ),
     ]
 }
 
-fn scenes() -> Vec<Case> {
+fn scene_cases() -> Vec<Case> {
     let scene = |name: &str, member: &str, value: Value, expected: Expected| {
-        let document = Document::triangle().with("/nodes", json!([{"children": [1]}, {"mesh": 0}]));
-        Case::of(format!("scenes: {name}"), &document.with(member, value), expected)
+        let document = Document::single_triangle()
+            .with_value("/nodes", json!([{"children": [1]}, {"mesh": 0}]));
+        Case::from_document(
+            format!("scenes: {name}"),
+            &document.with_value(member, value),
+            expected,
+        )
     };
     vec![
         scene(
             "no such scene",
             "/scene",
             json!(1),
-            says("/scene: there is no scene 1: the file has only scene 0"),
+            refusal_containing("/scene: there is no scene 1: the file has only scene 0"),
         ),
         scene(
             "no such node",
             "/scenes/0/nodes",
             json!([2]),
-            says("/scenes/0/nodes/0: there is no node 2: the file has nodes 0 to 1"),
+            refusal_containing("/scenes/0/nodes/0: there is no node 2: the file has nodes 0 to 1"),
         ),
         scene(
             "a child listed",

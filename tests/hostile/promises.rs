@@ -3,7 +3,7 @@
 use model::{Model, Primitive};
 
 /// Every sentence of the model's documentation that can be checked.
-pub fn check(model: &Model) -> Result<(), String> {
+pub fn check_model(model: &Model) -> Result<(), String> {
     for (at, mesh) in model.meshes.iter().enumerate() {
         for (part, primitive) in mesh.primitives.iter().enumerate() {
             check_primitive(model, primitive)
@@ -13,39 +13,46 @@ pub fn check(model: &Model) -> Result<(), String> {
     check_nodes(model)?;
     for material in &model.materials {
         let used = material.base_color_texture;
-        must(used.is_none_or(|used| used.texture < model.textures.len()), "a texture is lacking")?;
+        require(
+            used.is_none_or(|used| used.texture < model.textures.len()),
+            "a texture is lacking",
+        )?;
         let numbers =
             [material.metallic, material.roughness].into_iter().chain(material.base_color);
-        must(numbers.chain(material.emissive).all(f32::is_finite), "a factor is not finite")?;
-        let uv_map = used.map(|used| used.uv_map);
+        require(numbers.chain(material.emissive).all(f32::is_finite), "a factor is not finite")?;
+        let uv_map = used.map(|used| used.uv_matrix);
         let finite = |map: [[f32; 3]; 2]| map.as_flattened().iter().all(|x| x.is_finite());
-        must(uv_map.is_none_or(finite), "a texture transform is not finite")?;
+        require(uv_map.is_none_or(finite), "a texture transform is not finite")?;
     }
     for texture in &model.textures {
-        must(texture.image.is_none_or(|image| image < model.images.len()), "an image is lacking")?;
+        require(
+            texture.image.is_none_or(|image| image < model.images.len()),
+            "an image is lacking",
+        )?;
     }
     for image in model.images.iter().flatten() {
         let texels = u64::from(image.width) * u64::from(image.height);
-        must(texels > 0 && image.rgba.len() as u64 == texels, "an image is incomplete")?;
+        require(texels > 0 && image.rgba.len() as u64 == texels, "an image is incomplete")?;
     }
-    check_places(model)?;
+    check_instances(model)?;
     for animation in 0..model.animations.len().min(2) {
         let mut posed = model.clone();
         for seconds in [-1.0, 0.0, 0.7, f64::INFINITY, f64::NAN] {
-            posed.pose(animation, seconds);
-            check_places(&posed).map_err(|e| format!("animation {animation}, {seconds} s: {e}"))?;
+            posed.apply_animation(animation, seconds);
+            check_instances(&posed)
+                .map_err(|e| format!("animation {animation}, {seconds} s: {e}"))?;
         }
     }
     Ok(())
 }
 
 /// Every place of the scene, and the vertices there.
-fn check_places(model: &Model) -> Result<(), String> {
-    for instance in model.instances() {
-        must(instance.node_to_model.is_finite(), "a place is not finite")?;
+fn check_instances(model: &Model) -> Result<(), String> {
+    for instance in model.node_instances() {
+        require(instance.node_to_model.is_finite(), "a place is not finite")?;
     }
-    for instance in model.shown_meshes() {
-        must(instance.node_to_model.is_finite(), "a place of many is not finite")?;
+    for instance in model.mesh_instances() {
+        require(instance.node_to_model.is_finite(), "a place of many is not finite")?;
         let mesh = model.nodes[instance.node].mesh.map(|mesh| &model.meshes[mesh]);
         for primitive in mesh.iter().flat_map(|mesh| &mesh.primitives) {
             check_posed(model, instance, primitive)?;
@@ -54,16 +61,16 @@ fn check_places(model: &Model) -> Result<(), String> {
     Ok(())
 }
 
-fn must(truth: bool, otherwise: &str) -> Result<(), String> {
+fn require(truth: bool, otherwise: &str) -> Result<(), String> {
     if truth { Ok(()) } else { Err(otherwise.to_owned()) }
 }
 
 fn check_primitive(model: &Model, primitive: &Primitive) -> Result<(), String> {
     let vertices = primitive.positions.len();
-    let whole = primitive.indices.len().is_multiple_of(primitive.topology.corners());
-    must(whole, "an item is incomplete")?;
-    must(primitive.indices.iter().all(|&i| (i as usize) < vertices), "an index has no vertex")?;
-    must(
+    let whole = primitive.indices.len().is_multiple_of(primitive.topology.vertices_per_item());
+    require(whole, "an item is incomplete")?;
+    require(primitive.indices.iter().all(|&i| (i as usize) < vertices), "an index has no vertex")?;
+    require(
         primitive.positions.as_flattened().iter().all(|x| x.is_finite()),
         "a position is not finite",
     )?;
@@ -72,39 +79,52 @@ fn check_primitive(model: &Model, primitive: &Primitive) -> Result<(), String> {
         primitive.colors.as_ref().map(Vec::len),
         primitive.tangents.as_ref().map(Vec::len),
     ];
-    let skins = primitive.joints.iter().map(Vec::len).chain(primitive.weights.iter().map(Vec::len));
+    let skins = primitive
+        .joint_indices
+        .iter()
+        .map(Vec::len)
+        .chain(primitive.joint_weights.iter().map(Vec::len));
     let uvs = primitive.uvs.iter().map(Vec::len).chain(skins);
-    must(primitive.joints.len() == primitive.weights.len(), "joints lack weights")?;
-    let targets =
-        primitive.targets.iter().flat_map(|t| [&t.positions, &t.normals, &t.tangents]).flatten();
-    must(targets.map(Vec::len).all(|n| n == vertices), "a target has another length")?;
+    require(primitive.joint_indices.len() == primitive.joint_weights.len(), "joints lack weights")?;
+    let targets = primitive
+        .morph_targets
+        .iter()
+        .flat_map(|t| [&t.positions, &t.normals, &t.tangents])
+        .flatten();
+    require(targets.map(Vec::len).all(|n| n == vertices), "a target has another length")?;
     let looks = primitive
-        .targets
+        .morph_targets
         .iter()
         .flat_map(|t| t.colors.iter().map(Vec::len).chain(t.uvs.iter().flatten().map(Vec::len)));
-    must(looks.into_iter().all(|n| n == vertices), "a target's look has another length")?;
-    check_edges(model, primitive)?;
-    must(
+    require(looks.into_iter().all(|n| n == vertices), "a target's look has another length")?;
+    check_edge_lines(model, primitive)?;
+    require(
         lengths.into_iter().flatten().chain(uvs).all(|n| n == vertices),
         "an array has another length",
     )?;
-    must(primitive.normals.iter().flatten().all(is_unit), "a normal is not of unit length")?;
+    require(primitive.normals.iter().flatten().all(is_unit), "a normal is not of unit length")?;
     let uvs = primitive.uvs.iter().flatten().flatten();
-    must(uvs.into_iter().all(|x| x.is_finite()), "a texture coordinate is not finite")?;
+    require(uvs.into_iter().all(|x| x.is_finite()), "a texture coordinate is not finite")?;
     let colors = primitive.colors.iter().flatten().flatten();
-    must(colors.into_iter().all(|x| (0.0..=1.0).contains(x)), "a colour is not in [0, 1]")?;
-    must(primitive.material.is_none_or(|at| at < model.materials.len()), "a material is lacking")
+    require(colors.into_iter().all(|x| (0.0..=1.0).contains(x)), "a colour is not in [0, 1]")?;
+    require(primitive.material.is_none_or(|at| at < model.materials.len()), "a material is lacking")
 }
 
-fn check_edges(model: &Model, primitive: &Primitive) -> Result<(), String> {
+fn check_edge_lines(model: &Model, primitive: &Primitive) -> Result<(), String> {
     let Some(edges) = &primitive.edges else { return Ok(()) };
     let visibility = edges.visibility.as_ref().map(Vec::len);
-    must(visibility.is_none_or(|n| n == primitive.count()), "edges of a triangle are lacking")?;
-    let ends = edges.lines.iter().flat_map(|lines| lines.ends.as_flattened());
+    require(
+        visibility.is_none_or(|n| n == primitive.item_count()),
+        "edges of a triangle are lacking",
+    )?;
+    let ends = edges.lines.iter().flat_map(|lines| lines.vertex_pairs.as_flattened());
     let vertices = primitive.positions.len();
-    must(ends.into_iter().all(|&end| (end as usize) < vertices), "an edge has no vertex")?;
+    require(ends.into_iter().all(|&end| (end as usize) < vertices), "an edge has no vertex")?;
     let materials = edges.lines.iter().filter_map(|lines| lines.material).chain(edges.material);
-    must(materials.into_iter().all(|at| at < model.materials.len()), "an edge lacks its material")
+    require(
+        materials.into_iter().all(|at| at < model.materials.len()),
+        "an edge lacks its material",
+    )
 }
 
 fn is_unit(normal: &[f32; 3]) -> bool {
@@ -114,33 +134,36 @@ fn is_unit(normal: &[f32; 3]) -> bool {
 
 fn check_nodes(model: &Model) -> Result<(), String> {
     for (at, node) in model.nodes.iter().enumerate() {
-        must(node.to_parent.is_finite(), "a transform is not finite")?;
-        must(node.mesh.is_none_or(|mesh| mesh < model.meshes.len()), "a mesh is lacking")?;
-        must(node.camera.is_none_or(|camera| camera < model.cameras.len()), "a camera is lacking")?;
+        require(node.to_parent.is_finite(), "a transform is not finite")?;
+        require(node.mesh.is_none_or(|mesh| mesh < model.meshes.len()), "a mesh is lacking")?;
+        require(
+            node.camera.is_none_or(|camera| camera < model.cameras.len()),
+            "a camera is lacking",
+        )?;
         let skin =
             node.skin.map(|skin| model.skins.get(skin).is_some_and(|s| !s.joints.is_empty()));
-        must(skin != Some(false), "a skin is lacking")?;
+        require(skin != Some(false), "a skin is lacking")?;
         let child_knows =
             |&child: &usize| model.nodes.get(child).is_some_and(|c| c.parent == Some(at));
-        must(node.children.iter().all(child_knows), "a child has another parent")?;
+        require(node.children.iter().all(child_knows), "a child has another parent")?;
     }
     for skin in &model.skins {
-        must(skin.joints.len() == skin.inverse_bind.len(), "a joint has no matrix")?;
-        must(skin.joints.iter().all(|&joint| joint < model.nodes.len()), "a joint is lacking")?;
+        require(skin.joints.len() == skin.inverse_bind_matrices.len(), "a joint has no matrix")?;
+        require(skin.joints.iter().all(|&joint| joint < model.nodes.len()), "a joint is lacking")?;
     }
-    must(model.roots.iter().all(|&root| root < model.nodes.len()), "a root is lacking")
+    require(model.roots.iter().all(|&root| root < model.nodes.len()), "a root is lacking")
 }
 
 fn check_posed(
     model: &Model,
-    instance: model::Instance,
+    instance: model::MeshInstance,
     primitive: &Primitive,
 ) -> Result<(), String> {
-    let posed = model.posed(instance, primitive);
+    let posed = model.skin_primitive(instance, primitive);
     let finite = posed.positions.as_flattened().iter().all(|x| x.is_finite());
-    must(finite, "a bent position is not finite")?;
-    must(posed.positions.len() == primitive.positions.len(), "a vertex is lost in bending")?;
-    must(
+    require(finite, "a bent position is not finite")?;
+    require(posed.positions.len() == primitive.positions.len(), "a vertex is lost in bending")?;
+    require(
         posed.normals.iter().flat_map(|n| n.iter()).all(is_unit),
         "a bent normal is not of unit length",
     )

@@ -2,94 +2,120 @@
 
 use crate::case::{Case, Expected};
 use crate::document::Document;
-use crate::glb::glb;
+use crate::glb::encode_glb;
 use serde_json::{Value, json};
 
-fn text(name: &str, text: impl Into<Vec<u8>>, expected: Expected) -> Case {
+fn text_case(name: &str, text: impl Into<Vec<u8>>, expected: Expected) -> Case {
     Case::new(format!("text: {name}"), text.into(), expected)
 }
 
-fn says(text: &str) -> Expected {
+fn refusal_containing(text: &str) -> Expected {
     Expected::Says(text.to_owned())
 }
 
 /// A valid document with one more member, as text.
-fn plus(member: &str) -> String {
+fn triangle_with_member(member: &str) -> String {
     format!(r#"{{"asset": {{"version": "2.0"}}, {member}}}"#)
 }
 
-pub fn cases() -> Vec<Case> {
-    let deep = |n: usize| plus(&format!(r#""extras": {}{}"#, "[".repeat(n), "]".repeat(n)));
+pub fn text_cases() -> Vec<Case> {
+    let deep = |n: usize| {
+        triangle_with_member(&format!(r#""extras": {}{}"#, "[".repeat(n), "]".repeat(n)))
+    };
     let utf16: Vec<u8> = "\u{FEFF}{}".encode_utf16().flat_map(u16::to_le_bytes).collect();
     let mut cases = vec![
-        text("empty", "", says("the file is empty; give a .gltf or .glb file")),
-        text("blanks", " \n\t ", says("the file is empty; give a .gltf or .glb file")),
-        text(
+        text_case("empty", "", refusal_containing("the file is empty; give a .gltf or .glb file")),
+        text_case(
+            "blanks",
+            " \n\t ",
+            refusal_containing("the file is empty; give a .gltf or .glb file"),
+        ),
+        text_case(
             "not glTF",
             "solid cube",
-            says(
+            refusal_containing(
                 "this is not a glTF file: it starts neither with { nor with glTF; give a .gltf or .glb file",
             ),
         ),
-        text("UTF-16", utf16, says("the text is in UTF-16; save it in UTF-8")),
-        text(
+        text_case("UTF-16", utf16, refusal_containing("the text is in UTF-16; save it in UTF-8")),
+        text_case(
             "byte order mark",
-            format!("\u{FEFF}{}", plus(r#""nodes": []"#)),
+            format!("\u{FEFF}{}", triangle_with_member(r#""nodes": []"#)),
             Expected::LoadsClean,
         ),
-        text("not UTF-8", b"{\"asset\": {\"version\": \"2.0\xFF\"}}".to_vec(), Expected::Refused),
-        text("119 deep", deep(119), Expected::LoadsClean),
-        text("120 deep", deep(120), Expected::Refused),
-        text("100,000 deep", deep(100_000), Expected::Refused),
-        text("100,000 open", "[{".repeat(50_000), Expected::Refused),
-        text("100,000 open in an object", "{\"a\":".repeat(100_000), Expected::Refused),
-        text(
+        text_case(
+            "not UTF-8",
+            b"{\"asset\": {\"version\": \"2.0\xFF\"}}".to_vec(),
+            Expected::Refused,
+        ),
+        text_case("119 deep", deep(119), Expected::LoadsClean),
+        text_case("120 deep", deep(120), Expected::Refused),
+        text_case("100,000 deep", deep(100_000), Expected::Refused),
+        text_case("100,000 open", "[{".repeat(50_000), Expected::Refused),
+        text_case("100,000 open in an object", "{\"a\":".repeat(100_000), Expected::Refused),
+        text_case(
             "20,000,000 values",
-            plus(&format!(r#""extras": [{}0]"#, "0,".repeat(20_000_000))),
-            says(
+            triangle_with_member(&format!(r#""extras": [{}0]"#, "0,".repeat(20_000_000))),
+            refusal_containing(
                 "the JSON has 20000023 values, more than the limit of 16000000; raise the limit `json_values` (--max-json-values) if you trust the file",
             ),
         ),
-        text(
+        text_case(
             "one long string",
-            plus(&format!(r#""extras": "{}""#, "x".repeat(4_000_000))),
+            triangle_with_member(&format!(r#""extras": "{}""#, "x".repeat(4_000_000))),
             Expected::LoadsClean,
         ),
-        text(
+        text_case(
             "a string without end",
-            plus(&format!(r#""extras": "{}\"#, "x".repeat(1000))),
+            triangle_with_member(&format!(r#""extras": "{}\"#, "x".repeat(1000))),
             Expected::Refused,
         ),
-        text("NaN", plus(r#""extras": NaN"#), Expected::Refused),
-        text("1e999", plus(r#""extras": 1e999"#), Expected::Refused),
-        text(
+        text_case("NaN", triangle_with_member(r#""extras": NaN"#), Expected::Refused),
+        text_case("1e999", triangle_with_member(r#""extras": 1e999"#), Expected::Refused),
+        text_case(
             "a long number",
-            plus(&format!(r#""extras": {}"#, "9".repeat(100_000))),
+            triangle_with_member(&format!(r#""extras": {}"#, "9".repeat(100_000))),
             Expected::Refused,
         ),
-        text("a comma too many", plus(r#""nodes": [],"#), Expected::Refused),
-        text("a member twice", plus(r#""nodes": [], "nodes": [{}]"#), Expected::Anything),
-        text("more after the end", format!("{} {{}}", plus(r#""nodes": []"#)), Expected::Refused),
-        text("an array", "[]", Expected::Refused),
-        text("comments", format!("// hello\n{}", plus(r#""nodes": []"#)), Expected::Refused),
+        text_case("a comma too many", triangle_with_member(r#""nodes": [],"#), Expected::Refused),
+        text_case(
+            "a member twice",
+            triangle_with_member(r#""nodes": [], "nodes": [{}]"#),
+            Expected::Anything,
+        ),
+        text_case(
+            "more after the end",
+            format!("{} {{}}", triangle_with_member(r#""nodes": []"#)),
+            Expected::Refused,
+        ),
+        text_case("an array", "[]", Expected::Refused),
+        text_case(
+            "comments",
+            format!("// hello\n{}", triangle_with_member(r#""nodes": []"#)),
+            Expected::Refused,
+        ),
     ];
-    cases.extend(versions());
-    cases.extend(extensions());
-    cases.extend(containers());
+    cases.extend(version_cases());
+    cases.extend(extension_cases());
+    cases.extend(container_cases());
     cases
 }
 
-fn versions() -> Vec<Case> {
+fn version_cases() -> Vec<Case> {
     let version = |value: Value, expected: Expected| {
         let name = format!("version {value}");
-        Case::of(name, &Document::triangle().with("/asset", value), expected)
+        Case::from_document(
+            name,
+            &Document::single_triangle().with_value("/asset", value),
+            expected,
+        )
     };
     let unknown = |member: &str, version: &str| {
-        says(&format!(
+        refusal_containing(&format!(
             "/asset/{member}: the file is glTF {version} and only glTF 2.0 is read; convert it to glTF 2.0"
         ))
     };
-    let missing = says(
+    let missing = refusal_containing(
         "/asset/version: the version of glTF is missing; check that this is a glTF file; \
          a glTF 2.0 file says \"asset\": {\"version\": \"2.0\"}",
     );
@@ -105,13 +131,13 @@ fn versions() -> Vec<Case> {
     ]
 }
 
-fn extensions() -> Vec<Case> {
+fn extension_cases() -> Vec<Case> {
     let required = |name: &str, expected: Expected| {
-        let document = Document::triangle().with("/extensionsRequired", json!([name]));
-        Case::of(format!("requires {name}"), &document, expected)
+        let document = Document::single_triangle().with_value("/extensionsRequired", json!([name]));
+        Case::from_document(format!("requires {name}"), &document, expected)
     };
     let lacking = |name: &str, reason: &str| {
-        says(&format!(
+        refusal_containing(&format!(
             "/extensionsRequired/0: the file requires the extension {name}: {reason}; export the file without it, or load what can be loaded with --lenient"
         ))
     };
@@ -123,11 +149,11 @@ fn extensions() -> Vec<Case> {
     ]
 }
 
-fn containers() -> Vec<Case> {
-    let json = Document::triangle().json.to_string();
-    let bytes = Document::triangle().bytes;
+fn container_cases() -> Vec<Case> {
+    let json = Document::single_triangle().json.to_string();
+    let bytes = Document::single_triangle().bytes;
     let with_length = |length: u32| {
-        let mut file = glb(json.as_bytes(), &bytes);
+        let mut file = encode_glb(json.as_bytes(), &bytes);
         file[8..12].copy_from_slice(&length.to_le_bytes());
         file
     };
@@ -141,7 +167,7 @@ fn containers() -> Vec<Case> {
     }
     for at in [12, 20 + json.len().next_multiple_of(4)] {
         for length in [0, 1, 3, 5, 1000, u32::MAX - 7, u32::MAX] {
-            let mut file = glb(json.as_bytes(), &bytes);
+            let mut file = encode_glb(json.as_bytes(), &bytes);
             file[at..at + 4].copy_from_slice(&length.to_le_bytes());
             cases.push(Case::new(
                 format!("chunk at {at}, length {length}"),
@@ -150,14 +176,14 @@ fn containers() -> Vec<Case> {
             ));
         }
     }
-    let mut longer = glb(json.as_bytes(), &bytes);
+    let mut longer = encode_glb(json.as_bytes(), &bytes);
     longer.extend([0; 5]);
     let ignored =
         Expected::Warns(" there is more after the end; it is ignored (bytes: 5)".to_owned());
     cases.push(Case::new("glb with more after it", longer, ignored));
     cases.push(Case::new(
         "glb without binary chunk",
-        glb(json.as_bytes(), &[]),
+        encode_glb(json.as_bytes(), &[]),
         Expected::Anything,
     ));
     cases

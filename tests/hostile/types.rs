@@ -31,7 +31,7 @@ const USES: [Use; 7] = [
     ("_OWN", &[], &[]),
 ];
 
-pub fn cases() -> Vec<Case> {
+pub fn type_cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for (shape, width) in SHAPES {
         for (component, size) in COMPONENTS {
@@ -44,9 +44,9 @@ pub fn cases() -> Vec<Case> {
                     shapes.contains(&shape) && components.contains(&component)
                 };
                 for (attribute, shapes, components) in USES {
-                    let mut document = Document::triangle();
-                    let number = document.accessor(&bytes, accessor.clone());
-                    let document = document.with(
+                    let mut document = Document::single_triangle();
+                    let number = document.add_accessor(&bytes, accessor.clone());
+                    let document = document.with_value(
                         &format!("/meshes/0/primitives/0/attributes/{attribute}"),
                         json!(number),
                     );
@@ -56,7 +56,11 @@ pub fn cases() -> Vec<Case> {
                         ("POSITION", false) => Expected::Refused,
                         (_, false) => Expected::Warned,
                     };
-                    cases.push(Case::of(format!("{attribute}: {name}"), &document, expected));
+                    cases.push(Case::from_document(
+                        format!("{attribute}: {name}"),
+                        &document,
+                        expected,
+                    ));
                 }
                 for (user, expected) in [
                     ("/meshes/0/primitives/0/indices", readable(&["SCALAR"], &[5121, 5123, 5125])),
@@ -67,14 +71,14 @@ pub fn cases() -> Vec<Case> {
                         [5121, 5123, 5125].contains(&component),
                     ),
                 ] {
-                    let mut document = Document::rich();
-                    let number = document.accessor(&bytes, accessor.clone());
+                    let mut document = Document::with_all_members();
+                    let number = document.add_accessor(&bytes, accessor.clone());
                     let value =
                         if user.ends_with("Type") { json!(component) } else { json!(number) };
                     let expected = if expected { Expected::Loads } else { Expected::Refused };
-                    cases.push(Case::of(
+                    cases.push(Case::from_document(
                         format!("{user}: {name}"),
-                        &document.with(user, value),
+                        &document.with_value(user, value),
                         expected,
                     ));
                 }

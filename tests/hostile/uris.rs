@@ -1,6 +1,6 @@
 //! URIs that try to leave the folder, and such that only look as if they did.
 
-use crate::case::{Expected, judge, judge_loaded};
+use crate::case::{Expected, check_load_result, check_path};
 use crate::document::Document;
 use model::import::{ImportOptions, Limits, load_bytes};
 use serde_json::json;
@@ -11,25 +11,26 @@ const OUTSIDE: &str = "copy the file beside the glTF file and name it by a relat
                        --allow-outside DIR";
 
 /// A case's name, and what was wrong.
-pub type Judged = (String, Result<(), String>);
+pub type UriResult = (String, Result<(), String>);
 
 /// Runs the cases in a folder of their own; gives what became of each.
-pub fn run(folder: &Path) -> Result<Vec<Judged>, String> {
+pub fn run_uri_cases(folder: &Path) -> Result<Vec<UriResult>, String> {
     let models = folder.join("models");
-    prepare(folder, &models).map_err(|error| error.to_string())?;
+    create_files(folder, &models).map_err(|error| error.to_string())?;
     let mut results = Vec::new();
-    for (uri, expected) in table(&models) {
-        let document = Document::triangle().with("/buffers/0/uri", json!(uri));
+    for (uri, expected) in uri_table(&models) {
+        let document = Document::single_triangle().with_value("/buffers/0/uri", json!(uri));
         let file = models.join("model.gltf");
         fs::write(&file, document.json.to_string()).map_err(|error| error.to_string())?;
         let limits = Limits { file_bytes: 4096, ..Limits::default() };
         let options = ImportOptions { limits, ..ImportOptions::default() };
-        results.push((format!("uri {uri:?}"), judge(&file, &options, &expected)));
-        results.push((format!("uri {uri:?} in memory"), in_memory(&uri, &document, &expected)));
+        results.push((format!("uri {uri:?}"), check_path(&file, &options, &expected)));
+        results
+            .push((format!("uri {uri:?} in memory"), check_in_memory(&uri, &document, &expected)));
         let options = ImportOptions { root: Some(models.to_owned()), ..options };
         let loaded = load_bytes("model.gltf", document.json.to_string().as_bytes(), &options);
         let name = format!("uri {uri:?} in memory with a root");
-        results.push((name, judge_loaded(&loaded, &expected)));
+        results.push((name, check_load_result(&loaded, &expected)));
     }
     for (root, uri, expected) in [
         (folder, "../secret.bin", Expected::LoadsClean),
@@ -38,19 +39,23 @@ pub fn run(folder: &Path) -> Result<Vec<Judged>, String> {
         (&models.join("sub"), "data.bin", Expected::Refused),
         (&models.join("nowhere"), "data.bin", Expected::Refused),
     ] {
-        let document = Document::triangle().with("/buffers/0/uri", json!(uri));
+        let document = Document::single_triangle().with_value("/buffers/0/uri", json!(uri));
         let file = models.join("model.gltf");
         fs::write(&file, document.json.to_string()).map_err(|error| error.to_string())?;
         let options = ImportOptions { root: Some(root.to_owned()), ..ImportOptions::default() };
         let name = format!("root {:?}, uri {uri:?}", root.file_name().unwrap_or_default());
-        results.push((name, judge(&file, &options, &expected)));
+        results.push((name, check_path(&file, &options, &expected)));
     }
-    allowed(folder, &models, &mut results)?;
+    check_allowed_folders(folder, &models, &mut results)?;
     Ok(results)
 }
 
 /// Folders that are allowed besides the model's own, and what still is not.
-fn allowed(folder: &Path, models: &Path, results: &mut Vec<Judged>) -> Result<(), String> {
+fn check_allowed_folders(
+    folder: &Path,
+    models: &Path,
+    results: &mut Vec<UriResult>,
+) -> Result<(), String> {
     for (allowed, uri, expected) in [
         (folder.to_owned(), "../secret.bin", Expected::LoadsClean),
         (folder.to_owned(), "out.bin", Expected::LoadsClean),
@@ -66,40 +71,40 @@ fn allowed(folder: &Path, models: &Path, results: &mut Vec<Judged>) -> Result<()
         if cfg!(not(unix)) && ["out.bin", "zero.bin"].contains(&uri) {
             continue;
         }
-        let document = Document::triangle().with("/buffers/0/uri", json!(uri));
+        let document = Document::single_triangle().with_value("/buffers/0/uri", json!(uri));
         let file = models.join("model.gltf");
         fs::write(&file, document.json.to_string()).map_err(|error| error.to_string())?;
         let name = format!("{:?} allowed, uri {uri:?}", allowed.file_name().unwrap_or_default());
         let options = ImportOptions { allow_outside: vec![allowed], ..ImportOptions::default() };
-        results.push((name, judge(&file, &options, &expected)));
+        results.push((name, check_path(&file, &options, &expected)));
     }
     let secret = folder.join("secret.bin");
-    let document = Document::triangle().with("/buffers/0/uri", json!(secret));
+    let document = Document::single_triangle().with_value("/buffers/0/uri", json!(secret));
     let file = models.join("model.gltf");
     fs::write(&file, document.json.to_string()).map_err(|error| error.to_string())?;
     let allow_outside = vec![folder.to_owned()];
     let options = ImportOptions { allow_outside, ..ImportOptions::default() };
-    let judged = judge(&file, &options, &Expected::Refused);
+    let judged = check_path(&file, &options, &Expected::Refused);
     results.push(("an absolute path into an allowed folder".to_owned(), judged));
     Ok(())
 }
 
 /// A file in memory may have data URIs, and nothing else may be read.
-fn in_memory(uri: &str, document: &Document, expected: &Expected) -> Result<(), String> {
+fn check_in_memory(uri: &str, document: &Document, expected: &Expected) -> Result<(), String> {
     let text = document.json.to_string();
     let loaded = load_bytes("model.gltf", text.as_bytes(), &ImportOptions::default());
     let is_data = uri.get(..5).is_some_and(|start| start.eq_ignore_ascii_case("data:"));
     if is_data || uri.is_empty() {
-        return judge_loaded(&loaded, expected);
+        return check_load_result(&loaded, expected);
     }
     let problem = format!("the model is in memory and may not read the file {uri:?}");
-    judge_loaded(&loaded, &at(&problem, OUTSIDE))
+    check_load_result(&loaded, &fault_at(&problem, OUTSIDE))
 }
 
-fn prepare(folder: &Path, models: &Path) -> std::io::Result<()> {
+fn create_files(folder: &Path, models: &Path) -> std::io::Result<()> {
     fs::create_dir_all(models.join("sub"))?;
     fs::create_dir_all(models.join("folder.bin"))?;
-    let bytes = Document::triangle().bytes;
+    let bytes = Document::single_triangle().bytes;
     fs::write(folder.join("secret.bin"), &bytes)?;
     for name in
         ["data.bin", "a b.bin", "a+b.bin", "50%.bin", "%41.bin", "ü.bin", "sub/in.bin", "..bin"]
@@ -159,72 +164,80 @@ const FORBIDDEN: [&str; 7] = [
     "a/../../secret.bin",
 ];
 
-fn at(problem: &str, remedy: &str) -> Expected {
+fn fault_at(problem: &str, remedy: &str) -> Expected {
     Expected::Says(format!("/buffers/0/uri: {problem}; {remedy}"))
 }
 
-fn outside(uri: &str) -> Expected {
-    at(&format!("{uri:?} is outside of the model's folder"), OUTSIDE)
+fn outside_folder(uri: &str) -> Expected {
+    fault_at(&format!("{uri:?} is outside of the model's folder"), OUTSIDE)
 }
 
-fn missing(uri: &str) -> Expected {
-    at(&format!("the file {uri:?} does not exist"), "put it beside the glTF file")
+fn missing_file(uri: &str) -> Expected {
+    fault_at(&format!("the file {uri:?} does not exist"), "put it beside the glTF file")
 }
 
-fn scheme(scheme: &str, uri: &str) -> Expected {
-    at(&format!("the scheme {scheme:?} of {uri:?} is not read"), OUTSIDE)
+fn unsupported_scheme(scheme: &str, uri: &str) -> Expected {
+    fault_at(&format!("the scheme {scheme:?} of {uri:?} is not read"), OUTSIDE)
 }
 
-fn table(models: &Path) -> Vec<(String, Expected)> {
+fn uri_table(models: &Path) -> Vec<(String, Expected)> {
     let absolute = models.join("data.bin").to_string_lossy().into_owned();
     let file = format!("file://{absolute}");
-    let mut table =
-        vec![(absolute.clone(), outside(&absolute)), (file.clone(), scheme("file", &file))];
+    let mut table = vec![
+        (absolute.clone(), outside_folder(&absolute)),
+        (file.clone(), unsupported_scheme("file", &file)),
+    ];
     table.extend(ALLOWED.map(|uri| (uri.to_owned(), Expected::LoadsClean)));
-    table.extend(FORBIDDEN.map(|uri| (uri.to_owned(), outside(uri))));
-    table.extend(strange_names());
-    table.extend(data_uris());
+    table.extend(FORBIDDEN.map(|uri| (uri.to_owned(), outside_folder(uri))));
+    table.extend(strange_name_cases());
+    table.extend(data_uri_cases());
     if cfg!(unix) {
-        table.extend(links());
+        table.extend(symlink_cases());
     }
     table
 }
 
-fn strange_names() -> Vec<(String, Expected)> {
+fn strange_name_cases() -> Vec<(String, Expected)> {
     vec![
-        ("%2e%2e/secret.bin".to_owned(), outside("../secret.bin")),
-        ("%2E%2E%2Fsecret.bin".to_owned(), outside("../secret.bin")),
-        ("%2Fetc%2Fpasswd".to_owned(), outside("/etc/passwd")),
-        ("..\\secret.bin".to_owned(), outside("../secret.bin")),
-        ("data.bin%00".to_owned(), outside("data.bin\0")),
-        ("%252e%252e/secret.bin".to_owned(), missing("%252e%252e/secret.bin")),
-        ("nowhere.bin".to_owned(), missing("nowhere.bin")),
-        ("data.bin?x=1".to_owned(), missing("data.bin?x=1")),
-        ("%FF%FE.bin".to_owned(), missing("%FF%FE.bin")),
-        ("%".to_owned(), missing("%")),
-        ("%4".to_owned(), missing("%4")),
+        ("%2e%2e/secret.bin".to_owned(), outside_folder("../secret.bin")),
+        ("%2E%2E%2Fsecret.bin".to_owned(), outside_folder("../secret.bin")),
+        ("%2Fetc%2Fpasswd".to_owned(), outside_folder("/etc/passwd")),
+        ("..\\secret.bin".to_owned(), outside_folder("../secret.bin")),
+        ("data.bin%00".to_owned(), outside_folder("data.bin\0")),
+        ("%252e%252e/secret.bin".to_owned(), missing_file("%252e%252e/secret.bin")),
+        ("nowhere.bin".to_owned(), missing_file("nowhere.bin")),
+        ("data.bin?x=1".to_owned(), missing_file("data.bin?x=1")),
+        ("%FF%FE.bin".to_owned(), missing_file("%FF%FE.bin")),
+        ("%".to_owned(), missing_file("%")),
+        ("%4".to_owned(), missing_file("%4")),
         ("x".repeat(10_000), Expected::Refused),
-        (String::new(), at("the URI is empty", "export the file again")),
-        ("folder.bin".to_owned(), at("\"folder.bin\" is not a regular file", OUTSIDE)),
-        (".".to_owned(), at("\".\" is not a regular file", OUTSIDE)),
+        (String::new(), fault_at("the URI is empty", "export the file again")),
+        ("folder.bin".to_owned(), fault_at("\"folder.bin\" is not a regular file", OUTSIDE)),
+        (".".to_owned(), fault_at("\".\" is not a regular file", OUTSIDE)),
         (
             "large.bin".to_owned(),
-            at(
+            fault_at(
                 "the file has 5000 bytes, more than the limit of 4096",
                 "raise the limit `file_bytes` (--max-file-bytes) if you trust the file",
             ),
         ),
-        ("http://example.com/a.bin".to_owned(), scheme("http", "http://example.com/a.bin")),
-        ("HTTPS://example.com/a.bin".to_owned(), scheme("HTTPS", "HTTPS://example.com/a.bin")),
+        (
+            "http://example.com/a.bin".to_owned(),
+            unsupported_scheme("http", "http://example.com/a.bin"),
+        ),
+        (
+            "HTTPS://example.com/a.bin".to_owned(),
+            unsupported_scheme("HTTPS", "HTTPS://example.com/a.bin"),
+        ),
         ("C:\\x.bin".to_owned(), Expected::Refused),
     ]
 }
 
-fn data_uris() -> Vec<(String, Expected)> {
+fn data_uri_cases() -> Vec<(String, Expected)> {
     vec![
         (
             "data:".to_owned(),
-            at("the data URI has no comma before its data", "export the file again"),
+            fault_at("the data URI has no comma before its data", "export the file again"),
         ),
         ("data:;base64,".to_owned(), Expected::Refused),
         ("data:;base64,!!!!".to_owned(), Expected::Refused),
@@ -239,18 +252,18 @@ fn data_uris() -> Vec<(String, Expected)> {
 }
 
 /// Names that only some systems allow, and symbolic links.
-fn links() -> Vec<(String, Expected)> {
+fn symlink_cases() -> Vec<(String, Expected)> {
     vec![
         ("x:y.bin".to_owned(), Expected::LoadsClean),
         ("in.bin".to_owned(), Expected::LoadsClean),
         ("twice.bin".to_owned(), Expected::LoadsClean),
-        ("out.bin".to_owned(), at("\"out.bin\" leads out of the model's folder", OUTSIDE)),
+        ("out.bin".to_owned(), fault_at("\"out.bin\" leads out of the model's folder", OUTSIDE)),
         (
             "up/secret.bin".to_owned(),
-            at("\"up/secret.bin\" leads out of the model's folder", OUTSIDE),
+            fault_at("\"up/secret.bin\" leads out of the model's folder", OUTSIDE),
         ),
-        ("zero.bin".to_owned(), at("\"zero.bin\" leads out of the model's folder", OUTSIDE)),
-        ("self.bin".to_owned(), missing("self.bin")),
-        ("dangling.bin".to_owned(), missing("dangling.bin")),
+        ("zero.bin".to_owned(), fault_at("\"zero.bin\" leads out of the model's folder", OUTSIDE)),
+        ("self.bin".to_owned(), missing_file("self.bin")),
+        ("dangling.bin".to_owned(), missing_file("dangling.bin")),
     ]
 }

@@ -1,12 +1,12 @@
 //! `alberti check`, and the flags about loading: `--lenient`, `--allow-outside`, and one for each limit.
 
-use crate::bench::Bench;
-use crate::document::Document;
+use crate::gltf_builder::GltfBuilder;
+use crate::sandbox::Sandbox;
 use serde_json::{Value, json};
 
 /// A square whose bounds are wrong, with an index of a material that is not there.
-fn faulty() -> Document {
-    let mut document = Document::square();
+fn faulty_model() -> GltfBuilder {
+    let mut document = GltfBuilder::square();
     document.json["accessors"][0]["min"] = json!([-9, -1, 0]);
     document.json["accessors"][0]["max"] = json!([1, 1, 0]);
     document.json["meshes"][0]["primitives"][0]["material"] = json!(7);
@@ -16,9 +16,9 @@ fn faulty() -> Document {
 }
 
 #[test]
-fn every_problem_has_severity_code_place_and_remedy_the_worst_first() {
-    let bench = Bench::new("check");
-    faulty().write(&bench, "faulty");
+fn every_diagnostic_has_severity_code_pointer_and_help_worst_first() {
+    let bench = Sandbox::new("check");
+    faulty_model().write_file(&bench, "faulty");
     let run = bench.run(&["check", "faulty.gltf"]);
     assert_eq!((run.code, run.stderr.as_str()), (1, ""), "{}", run.stdout);
     for line in [
@@ -37,8 +37,8 @@ fn every_problem_has_severity_code_place_and_remedy_the_worst_first() {
 
 #[test]
 fn a_good_model_has_no_errors_and_exit_code_0() {
-    let bench = Bench::new("check_good");
-    bench.bring("crate.glb");
+    let bench = Sandbox::new("check_good");
+    bench.copy_model("crate.glb");
     let run = bench.run(&["check", "crate.glb"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{}", run.stdout);
     assert!(run.stdout.contains("crate.glb: no errors"), "{}", run.stdout);
@@ -51,8 +51,8 @@ fn a_good_model_has_no_errors_and_exit_code_0() {
 
 #[test]
 fn the_report_for_programs_has_a_version_and_the_same_problems() {
-    let bench = Bench::new("check_json");
-    faulty().write(&bench, "faulty");
+    let bench = Sandbox::new("check_json");
+    faulty_model().write_file(&bench, "faulty");
     let run = bench.run(&["check", "faulty.gltf", "--json"]);
     assert_eq!((run.code, run.stderr.as_str()), (1, ""));
     let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
@@ -69,7 +69,7 @@ fn the_report_for_programs_has_a_version_and_the_same_problems() {
             assert!(problem[key].is_string(), "{key} of {problem}");
         }
     }
-    bench.write("text.glb", "hello");
+    bench.write_file("text.glb", "hello");
     let run = bench.run(&["check", "text.glb", "--json"]);
     let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
     assert_eq!(report["models"][0]["problems"][0]["code"], "NOT_GLTF");
@@ -78,10 +78,10 @@ fn the_report_for_programs_has_a_version_and_the_same_problems() {
 
 #[test]
 fn all_mistakes_of_a_scene_are_pointed_at_and_its_models_are_checked() {
-    let bench = Bench::new("check_scene");
-    bench.bring("crate.glb");
-    faulty().write(&bench, "faulty");
-    bench.write(
+    let bench = Sandbox::new("check_scene");
+    bench.copy_model("crate.glb");
+    faulty_model().write_file(&bench, "faulty");
+    bench.write_file(
         "scene.ron",
         "Scene(\n  models: [(path: \"crate.glb\"), (path: \"faulty.gltf\"), (path: \"../other.glb\")],\n  \
          lights: [Sun(direction: (0, 0, 0), lux: 1)],\n  image: (samples: 3),\n)\n",
@@ -99,24 +99,24 @@ fn all_mistakes_of_a_scene_are_pointed_at_and_its_models_are_checked() {
     let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
     assert_eq!(report["scene"].as_array().map(Vec::len), Some(3), "{report}");
     assert_eq!(report["scene"][0]["line"], 2);
-    bench.write("slip.ron", "Scene(modles: [])");
+    bench.write_file("slip.ron", "Scene(modles: [])");
     let run = bench.run(&["check", "slip.ron"]);
     assert!(run.code == 1 && run.stdout.contains("did you mean `models`?"), "{}", run.stdout);
-    bench.write("good.ron", "Scene(models: [(path: \"crate.glb\")])");
+    bench.write_file("good.ron", "Scene(models: [(path: \"crate.glb\")])");
     assert_eq!(bench.run(&["check", "good.ron"]).code, 0);
 }
 
 #[test]
-fn leniently_the_rest_is_drawn_and_what_is_left_out_is_told() {
-    let bench = Bench::new("lenient");
-    let mut document = Document::square();
+fn lenient_loading_draws_the_rest_and_reports_omissions() {
+    let bench = Sandbox::new("lenient");
+    let mut document = GltfBuilder::square();
     document.json["extensionsUsed"] = json!(["ACME_gizmo"]);
     document.json["extensionsRequired"] = json!(["ACME_gizmo"]);
     let primitives = document.json["meshes"][0]["primitives"].as_array_mut().expect("an array");
     primitives.push(json!({"attributes": {"POSITION": 99}}));
     document.json["nodes"] = json!([{"mesh": 0, "children": [1, 8]}, {"mesh": 5}]);
     document.json["skins"] = json!([{"joints": "none"}]);
-    document.write(&bench, "broken");
+    document.write_file(&bench, "broken");
     let render = ["render", "broken.gltf", "-o", "out.png", "--size", "32x32", "--view", "front"];
     let run = bench.run(&render);
     assert_eq!(run.code, 1);
@@ -133,7 +133,7 @@ fn leniently_the_rest_is_drawn_and_what_is_left_out_is_told() {
         let line = format!("warning: broken: {place}");
         assert!(run.stderr.contains(&line), "{line}\n{}", run.stderr);
     }
-    let (_, _, pixels) = bench.picture("out.png");
+    let (_, _, pixels) = bench.read_picture("out.png");
     let red = pixels.iter().filter(|pixel| **pixel == [255, 0, 0, 255]).count();
     assert!(red > 32 * 32 / 2, "the square is drawn: {red} pixels");
     assert!(bench.run(&["info", "broken.gltf", "--lenient"]).stdout.contains("/nodes/1/mesh"));
@@ -143,9 +143,9 @@ fn leniently_the_rest_is_drawn_and_what_is_left_out_is_told() {
 
 #[test]
 fn every_limit_has_a_flag_and_its_message_names_it() {
-    let bench = Bench::new("limits");
-    bench.bring("teapot.glb");
-    Document::square().write(&bench, "square");
+    let bench = Sandbox::new("limits");
+    bench.copy_model("teapot.glb");
+    GltfBuilder::square().write_file(&bench, "square");
     let run = bench.run(&["info", "square.gltf", "--max-total-bytes", "100"]);
     assert!(run.code == 1 && run.stderr.contains("(--max-total-bytes)"), "{}", run.stderr);
     for (flag, value) in [
@@ -179,14 +179,14 @@ fn every_limit_has_a_flag_and_its_message_names_it() {
 
 #[test]
 fn other_folders_can_be_allowed_and_nothing_beyond_them() {
-    let bench = Bench::new("allow_outside");
+    let bench = Sandbox::new("allow_outside");
     for folder in ["models/tin", "bins", "scenes", "secret"] {
-        std::fs::create_dir_all(bench.path(folder)).expect("a folder");
+        std::fs::create_dir_all(bench.path_of(folder)).expect("a folder");
     }
-    let mut document = Document::square();
-    document.write(&bench, "bins/square");
+    let mut document = GltfBuilder::square();
+    document.write_file(&bench, "bins/square");
     document.json["buffers"][0]["uri"] = json!("../../bins/square.bin");
-    bench.write("models/tin/square.gltf", document.json.to_string());
+    bench.write_file("models/tin/square.gltf", document.json.to_string());
     let render = |input: &str, allowed: &[&str]| {
         let flags = allowed.iter().flat_map(|folder| ["--allow-outside", folder]);
         let flags: Vec<&str> = flags.collect();
@@ -198,7 +198,7 @@ fn other_folders_can_be_allowed_and_nothing_beyond_them() {
     let run = render("models/tin/square.gltf", &["bins"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
 
-    bench.write("scenes/scene.ron", "Scene(models: [(path: \"../models/tin/square.gltf\")])");
+    bench.write_file("scenes/scene.ron", "Scene(models: [(path: \"../models/tin/square.gltf\")])");
     assert_eq!(render("scenes/scene.ron", &["bins"]).code, 1);
     let run = render("scenes/scene.ron", &["models", "bins"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
@@ -211,12 +211,12 @@ fn other_folders_can_be_allowed_and_nothing_beyond_them() {
 #[cfg(unix)]
 #[test]
 fn symbolic_links_do_not_lead_a_scene_out_of_its_folder() {
-    let bench = Bench::new("scene_links");
-    bench.bring("crate.glb");
-    std::fs::create_dir(bench.path("scenes")).expect("a folder");
-    std::os::unix::fs::symlink(bench.path("crate.glb"), bench.path("scenes/link.glb"))
+    let bench = Sandbox::new("scene_links");
+    bench.copy_model("crate.glb");
+    std::fs::create_dir(bench.path_of("scenes")).expect("a folder");
+    std::os::unix::fs::symlink(bench.path_of("crate.glb"), bench.path_of("scenes/link.glb"))
         .expect("a link");
-    bench.write("scenes/scene.ron", "Scene(models: [(path: \"link.glb\")])");
+    bench.write_file("scenes/scene.ron", "Scene(models: [(path: \"link.glb\")])");
     let render = ["render", "scenes/scene.ron", "-o", "out.png", "--size", "16x16"];
     let run = bench.run(&render);
     assert!(

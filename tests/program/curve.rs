@@ -1,13 +1,13 @@
 //! `alberti curve depth` and `alberti demo tear`: curves, tables and demonstrations, held against formulas.
 
-use crate::bench::Bench;
-use crate::drawings::{read_svg, succeed};
-use crate::vectors::bounds;
+use crate::drawings::{assert_succeeds, read_drawing};
+use crate::sandbox::Sandbox;
+use crate::vector_files::layer_bounds;
 
 /// The rows of a CSV table as numbers.
-fn csv(bench: &Bench, flags: &[&str]) -> Vec<[f64; 5]> {
-    succeed(bench, &[&["curve", "depth", "-o", "out.csv"], flags].concat());
-    let text = std::fs::read_to_string(bench.path("out.csv")).expect("a table");
+fn curve_csv(bench: &Sandbox, flags: &[&str]) -> Vec<[f64; 5]> {
+    assert_succeeds(bench, &[&["curve", "depth", "-o", "out.csv"], flags].concat());
+    let text = std::fs::read_to_string(bench.path_of("out.csv")).expect("a table");
     assert!(text.starts_with("distance,depth,reversed_depth,step,reversed_step\n"));
     let row = |line: &str| {
         let numbers: Vec<f64> = line.split(',').map(|word| word.parse().expect(word)).collect();
@@ -19,10 +19,10 @@ fn csv(bench: &Bench, flags: &[&str]) -> Vec<[f64; 5]> {
 /// The lesson's table of near 2 and far 40 (C68), with the four digits that it prints where they are known by heart.
 #[test]
 fn the_lessons_table_comes_out() {
-    let bench = Bench::new("curve_lesson");
+    let bench = Sandbox::new("curve_lesson");
     let lesson = ["--near", "2", "--far", "40", "--range", "minus-one-one"];
     let at = ["--at", "2,3,4,5,6,8,10,12,14,16,18,20,25,30,35,40"];
-    let rows = csv(&bench, &[&lesson[..], &at].concat());
+    let rows = curve_csv(&bench, &[&lesson[..], &at].concat());
     assert_eq!(rows.len(), 16);
     for [distance, depth, reversed, ..] in rows {
         assert!((depth - (21.0 - 80.0 / distance) / 19.0).abs() < 1e-14, "{distance}: {depth}");
@@ -37,19 +37,19 @@ fn the_lessons_table_comes_out() {
         assert!(run.stdout.lines().any(has), "{}", run.stdout);
     }
     assert!(run.stdout.contains("2FN/(F+N) = 3.8095"), "{}", run.stdout);
-    succeed(&bench, &[&["curve", "depth", "-o", "out.md"], &lesson[..], &at].concat());
-    let markdown = std::fs::read_to_string(bench.path("out.md")).expect("a table");
+    assert_succeeds(&bench, &[&["curve", "depth", "-o", "out.md"], &lesson[..], &at].concat());
+    let markdown = std::fs::read_to_string(bench.path_of("out.md")).expect("a table");
     assert!(markdown.contains("| 3 | -0.2982 | 0.2982 |"), "{markdown}");
 }
 
 /// Fixed point: D²(F − N)/(F N) parts of the range. Floating point: the gap of the nearest f32, through the slope.
 #[test]
 fn steps_are_those_of_the_formats() {
-    let bench = Bench::new("curve_steps");
+    let bench = Sandbox::new("curve_steps");
     let planes = ["--near", "0.1", "--far", "1000", "--at", "0.15,1,10,250,950"];
     for (bits, parts) in [("16", 65_535.0), ("24", 16_777_215.0)] {
         for [distance, .., step, reversed] in
-            csv(&bench, &[&planes[..], &["--bits", bits]].concat())
+            curve_csv(&bench, &[&planes[..], &["--bits", bits]].concat())
         {
             let due = distance * distance * 999.9 / 100.0 / parts;
             assert!(
@@ -59,7 +59,7 @@ fn steps_are_those_of_the_formats() {
         }
     }
     for [distance, depth, reversed, step, step_reversed] in
-        csv(&bench, &[&planes[..], &["--bits", "32f"]].concat())
+        curve_csv(&bench, &[&planes[..], &["--bits", "32f"]].concat())
     {
         let slope = 100.0 / 999.9 / (distance * distance);
         for (depth, step) in [(depth, step), (reversed, step_reversed)] {
@@ -73,20 +73,20 @@ fn steps_are_those_of_the_formats() {
 
 #[test]
 fn the_curves_are_drawn_in_every_format() {
-    let bench = Bench::new("curve_formats");
+    let bench = Sandbox::new("curve_formats");
     for bits in ["24", "32f"] {
         let flags = ["curve", "depth", "--near", "0.1", "--far", "inf", "--bits", bits, "-o"];
         for name in ["out.svg", "out.pdf", "out.png"] {
-            succeed(&bench, &[&flags[..], &[name]].concat());
+            assert_succeeds(&bench, &[&flags[..], &[name]].concat());
         }
-        let (page, layers) = read_svg(&bench, "out.svg");
+        let (page, layers) = read_drawing(&bench, "out.svg");
         assert_eq!(page, [297.0, 210.0]);
         for id in ["depth-normal", "depth-reversed", "step-normal", "step-reversed", "table"] {
-            let [low, high] = bounds(&layers, |layer| layer == id);
+            let [low, high] = layer_bounds(&layers, |layer| layer == id);
             assert!(low[0] > 0.0 && high[0] < page[0] && high[1] < page[1], "{id}");
         }
         // Both depth curves span the whole range, and cross where half of it is spent: at twice the near distance.
-        let [low, high] = bounds(&layers, |layer| layer == "depth-axes");
+        let [low, high] = layer_bounds(&layers, |layer| layer == "depth-axes");
         let mark = layers["depth-marks"][0][0][0];
         let part = (mark - low[0]) / (high[0] - low[0]);
         assert!((part - std::f64::consts::LOG10_2 / 4.0).abs() < 0.01, "{part}");
@@ -96,29 +96,29 @@ fn the_curves_are_drawn_in_every_format() {
 /// C36: the segments that pass the eye are torn if they are divided as they are.
 #[test]
 fn the_tear_is_shown_with_and_without_clipping() {
-    let bench = Bench::new("tear");
-    succeed(&bench, &["demo", "tear"]);
-    let (_, layers) = read_svg(&bench, "tear.svg");
-    let [_, frame] = bounds(&layers, |id| id == "frames");
-    let [top, _] = bounds(&layers, |id| id == "frames");
+    let bench = Sandbox::new("tear");
+    assert_succeeds(&bench, &["demo", "tear"]);
+    let (_, layers) = read_drawing(&bench, "tear.svg");
+    let [_, frame] = layer_bounds(&layers, |id| id == "frames");
+    let [top, _] = layer_bounds(&layers, |id| id == "frames");
     let horizon = 0.5 * (top[1] + frame[1]);
-    let span = |id: &str| bounds(&layers, |layer| layer == id);
+    let span = |id: &str| layer_bounds(&layers, |layer| layer == id);
     assert!(span("clipped-crossing")[0][1] > horizon && span("clipped-ahead")[0][1] > horizon);
     assert!(!layers.contains_key("clipped-behind"));
     let torn = span("divided-crossing");
     assert!(torn[0][1] < horizon && torn[1][1] > horizon, "{torn:?}");
     assert!(span("divided-behind")[1][1] < horizon);
-    let first = std::fs::read(bench.path("tear.svg")).expect("a drawing");
-    succeed(&bench, &["demo", "tear"]);
-    assert!(first == std::fs::read(bench.path("tear.svg")).expect("a drawing"));
-    succeed(&bench, &["demo", "tear", "-o", "tear.html"]);
-    let html = std::fs::read_to_string(bench.path("tear.html")).expect("a page");
+    let first = std::fs::read(bench.path_of("tear.svg")).expect("a drawing");
+    assert_succeeds(&bench, &["demo", "tear"]);
+    assert!(first == std::fs::read(bench.path_of("tear.svg")).expect("a drawing"));
+    assert_succeeds(&bench, &["demo", "tear", "-o", "tear.html"]);
+    let html = std::fs::read_to_string(bench.path_of("tear.html")).expect("a page");
     assert!(html.contains("(1, 0, 3) has w = -3, goes to (-0.433, 0.924)"), "{html}");
 }
 
 #[test]
-fn mistakes_are_told_and_leave_no_file() {
-    let bench = Bench::new("curve_mistakes");
+fn errors_are_reported_and_leave_no_file() {
+    let bench = Sandbox::new("curve_mistakes");
     let depth = |flags: &[&str]| bench.run(&[&["curve", "depth"], flags].concat());
     for (flags, told) in [
         (&["--near", "2", "--far", "1"][..], "near"),
@@ -141,5 +141,5 @@ fn mistakes_are_told_and_leave_no_file() {
     assert_eq!(depth(&["--near", "1"]).code, 2);
     assert_eq!(bench.run(&["demo", "tear", "-o", "tear"]).code, 1);
     assert_eq!(bench.run(&["demo"]).code, 2);
-    assert_eq!(bench.files(), [""; 0]);
+    assert_eq!(bench.file_names(), [""; 0]);
 }

@@ -1,8 +1,8 @@
 //! Line drawings and sheets: measured as they are written, in SVG and in PDF.
 
-use crate::bench::Bench;
-use crate::document::Document;
-use crate::vectors::{Layers, Place, bounds, pdf, svg};
+use crate::gltf_builder::GltfBuilder;
+use crate::sandbox::Sandbox;
+use crate::vector_files::{Layers, PagePoint, layer_bounds, parse_pdf, parse_svg};
 
 /// The projections by their names, in the order of the textbooks.
 pub(crate) const PROJECTIONS: [&str; 12] = [
@@ -21,74 +21,74 @@ pub(crate) const PROJECTIONS: [&str; 12] = [
 ];
 
 /// A solid box of these sides in metres, one corner at the origin, with a groove so that front and back differ.
-pub(crate) fn write_box(bench: &Bench, name: &str, [w, h, d]: [f32; 3]) {
-    let mut document = Document::square();
+pub(crate) fn write_box(bench: &Sandbox, name: &str, [w, h, d]: [f32; 3]) {
+    let mut document = GltfBuilder::square();
     let corner = |n: usize| {
         [(n & 1, w), (n >> 1 & 1, h), (n >> 2 & 1, d)]
             .map(|(bit, side)| if bit == 1 { side } else { 0.0 })
     };
     let points: Vec<f32> = (0..8).flat_map(corner).collect();
-    let position = document.floats("VEC3", &points);
+    let position = document.add_floats("VEC3", &points);
     let indices: [u16; 36] = [
         0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5, 0, 1, 4, 1, 5, 4,
         2, 6, 3, 3, 6, 7,
     ];
     let bytes: Vec<u8> = indices.iter().flat_map(|index| index.to_le_bytes()).collect();
     let shape = serde_json::json!({"componentType": 5123, "type": "SCALAR", "count": 36});
-    let indices = document.accessor(&bytes, &shape);
+    let indices = document.add_accessor(&bytes, &shape);
     document.json["meshes"][0]["primitives"][0] = serde_json::json!({
         "attributes": {"POSITION": position}, "indices": indices, "mode": 4
     });
-    document.write(bench, name);
+    document.write_file(bench, name);
 }
 
-pub(crate) fn read_svg(bench: &Bench, name: &str) -> (Place, Layers) {
-    svg(&std::fs::read_to_string(bench.path(name)).expect("an SVG"))
+pub(crate) fn read_drawing(bench: &Sandbox, name: &str) -> (PagePoint, Layers) {
+    parse_svg(&std::fs::read_to_string(bench.path_of(name)).expect("an SVG"))
 }
 
-pub(crate) fn succeed(bench: &Bench, arguments: &[&str]) {
+pub(crate) fn assert_succeeds(bench: &Sandbox, arguments: &[&str]) {
     let run = bench.run(arguments);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{arguments:?}");
 }
 
 /// The size of what a view shows.
-fn size(layers: &Layers, view: &str) -> Place {
-    let [low, high] = bounds(layers, |id| id.starts_with(view));
+fn view_size(layers: &Layers, view: &str) -> PagePoint {
+    let [low, high] = layer_bounds(layers, |id| id.starts_with(view));
     [high[0] - low[0], high[1] - low[1]]
 }
 
 #[track_caller]
-pub(crate) fn assert_near(found: f64, due: f64) {
-    assert!((found - due).abs() < 0.0005, "{found} mm instead of {due} mm");
+pub(crate) fn assert_near(actual: f64, expected: f64) {
+    assert!((actual - expected).abs() < 0.0005, "{actual} mm instead of {expected} mm");
 }
 
 #[test]
 fn a_hundred_millimetres_measure_a_hundred_at_one_to_one() {
-    let bench = Bench::new("hundred");
+    let bench = Sandbox::new("hundred");
     write_box(&bench, "box", [0.1, 0.05, 0.03]);
     let flags = ["--scale", "1:1", "--no-dimensions", "--axonometric", "none"];
     for name in ["box.svg", "box.pdf"] {
-        succeed(&bench, &[&["sheet", "box.gltf", "-o", name][..], &flags].concat());
+        assert_succeeds(&bench, &[&["sheet", "box.gltf", "-o", name][..], &flags].concat());
     }
-    let (page, layers) = read_svg(&bench, "box.svg");
+    let (page, layers) = read_drawing(&bench, "box.svg");
     assert_eq!(page, [420.0, 297.0]);
     for (view, width, height) in
         [("front-", 100.0, 50.0), ("top-", 100.0, 30.0), ("left-", 30.0, 50.0)]
     {
-        let [w, h] = size(&layers, view);
+        let [w, h] = view_size(&layers, view);
         assert_near(w, width);
         assert_near(h, height);
     }
     // The same lines at the same places in the PDF, to the digits its matrix has.
-    let pages = pdf(&std::fs::read(bench.path("box.pdf")).expect("a PDF"));
+    let pages = parse_pdf(&std::fs::read(bench.path_of("box.pdf")).expect("a PDF"));
     let [(page, lines)] = &pages[..] else { panic!("one page") };
     assert_near(page[0], 420.0);
     assert_near(page[1], 297.0);
     let all: Vec<_> = layers.values().flatten().collect();
     assert_eq!(lines.len(), all.len());
-    let side = |lines: &mut dyn Iterator<Item = &Vec<Place>>, wanted: f64| {
-        let level = |pair: &[Place]| (pair[0][1] - pair[1][1]).abs() < 1e-3;
-        let length = |pair: &[Place]| (pair[0][0] - pair[1][0]).abs();
+    let side = |lines: &mut dyn Iterator<Item = &Vec<PagePoint>>, wanted: f64| {
+        let level = |pair: &[PagePoint]| (pair[0][1] - pair[1][1]).abs() < 1e-3;
+        let length = |pair: &[PagePoint]| (pair[0][0] - pair[1][0]).abs();
         let sides = lines.flat_map(|line| line.windows(2));
         sides.filter(|pair| level(pair) && (length(pair) - wanted).abs() < 0.0005).count()
     };
@@ -99,7 +99,7 @@ fn a_hundred_millimetres_measure_a_hundred_at_one_to_one() {
 
 #[test]
 fn a_scale_makes_things_smaller_and_units_larger() {
-    let bench = Bench::new("scales");
+    let bench = Sandbox::new("scales");
     write_box(&bench, "box", [1.0, 0.5, 0.25]);
     for (flags, width) in [
         (["--scale", "1:10", "--unit", "m"], 100.0),
@@ -108,21 +108,21 @@ fn a_scale_makes_things_smaller_and_units_larger() {
         (["--scale", "1:3", "--unit", "ft"], 101.6),
         (["--scale", "1:1", "--unit", "cm"], 10.0),
     ] {
-        succeed(&bench, &[&["sheet", "box.gltf", "-o", "out.svg"][..], &flags].concat());
-        assert_near(size(&read_svg(&bench, "out.svg").1, "front-")[0], width);
+        assert_succeeds(&bench, &[&["sheet", "box.gltf", "-o", "out.svg"][..], &flags].concat());
+        assert_near(view_size(&read_drawing(&bench, "out.svg").1, "front-")[0], width);
     }
 }
 
 #[test]
 fn views_are_aligned_and_stand_where_the_angle_says() {
-    let bench = Bench::new("aligned");
-    bench.bring("house.glb");
+    let bench = Sandbox::new("aligned");
+    bench.copy_model("house.glb");
     for (angle, side, top_is_below) in [("first", "left-", true), ("third", "right-", false)] {
         for paper in ["a0", "a1", "a2", "a3", "a4", "a5", "letter", "tabloid"] {
             let flags = ["-o", "out.svg", "--angle", angle, "--paper", paper];
-            succeed(&bench, &[&["sheet", "house.glb"][..], &flags].concat());
-            let (page, layers) = read_svg(&bench, "out.svg");
-            let of = |view: &str| bounds(&layers, |id| id.starts_with(view));
+            assert_succeeds(&bench, &[&["sheet", "house.glb"][..], &flags].concat());
+            let (page, layers) = read_drawing(&bench, "out.svg");
+            let of = |view: &str| layer_bounds(&layers, |id| id.starts_with(view));
             let (front, top, side) = (of("front-"), of("top-"), of(side));
             for end in 0..2 {
                 assert_near(front[end][0], top[end][0]);
@@ -132,9 +132,9 @@ fn views_are_aligned_and_stand_where_the_angle_says() {
             assert!(side[0][0] > front[1][0], "{angle} {paper}");
             // Depth is as wide from the side as it is high from above.
             assert_near(side[1][0] - side[0][0], top[1][1] - top[0][1]);
-            let all = bounds(&layers, |_| true);
+            let all = layer_bounds(&layers, |_| true);
             assert!(all[0].iter().all(|c| *c > 0.0) && all[1][0] < page[0] && all[1][1] < page[1]);
-            let block = bounds(&layers, |id| id == "title-block");
+            let block = layer_bounds(&layers, |id| id == "title-block");
             for view in
                 ["front-", "top-", "left-", "right-", "isometric-", "scale-bar", "dimensions"]
             {
@@ -148,13 +148,13 @@ fn views_are_aligned_and_stand_where_the_angle_says() {
 
 #[test]
 fn dimensions_give_the_true_size() {
-    let bench = Bench::new("dimensions");
+    let bench = Sandbox::new("dimensions");
     write_box(&bench, "box", [0.1, 0.05, 0.03]);
-    succeed(&bench, &["sheet", "box.gltf", "-o", "with.svg", "--scale", "1:1"]);
-    let (_, layers) = read_svg(&bench, "with.svg");
-    let front = bounds(&layers, |id| id.starts_with("front-"));
+    assert_succeeds(&bench, &["sheet", "box.gltf", "-o", "with.svg", "--scale", "1:1"]);
+    let (_, layers) = read_drawing(&bench, "with.svg");
+    let front = layer_bounds(&layers, |id| id.starts_with("front-"));
     let lines = &layers["dimensions"];
-    let level = |line: &&Vec<Place>| line.len() == 2 && line[0][1] == line[1][1];
+    let level = |line: &&Vec<PagePoint>| line.len() == 2 && line[0][1] == line[1][1];
     // The line of the width is as long as the front, and above it.
     let widths = lines.iter().filter(level).filter(|line| {
         (line[0][0] - front[0][0]).abs() < 5e-4 && (line[1][0] - front[1][0]).abs() < 5e-4
@@ -162,23 +162,23 @@ fn dimensions_give_the_true_size() {
     assert!(
         widths.clone().count() == 1 && widths.clone().all(|line| line[0][1] < front[0][1] - 5.0)
     );
-    succeed(
+    assert_succeeds(
         &bench,
         &["sheet", "box.gltf", "-o", "without.svg", "--scale", "1:1", "--no-dimensions"],
     );
-    assert!(!read_svg(&bench, "without.svg").1.contains_key("dimensions"));
+    assert!(!read_drawing(&bench, "without.svg").1.contains_key("dimensions"));
 }
 
 #[test]
 fn threads_and_repetition_change_no_byte_of_a_drawing() {
-    let bench = Bench::new("same_drawing");
-    bench.bring("teapot.glb");
+    let bench = Sandbox::new("same_drawing");
+    bench.copy_model("teapot.glb");
     for (command, name) in
         [("render", "out.svg"), ("render", "out.pdf"), ("sheet", "out.pdf"), ("sheet", "out.svg")]
     {
         let bytes = |threads: &str| {
-            succeed(&bench, &[command, "teapot.glb", "-o", name, "--threads", threads]);
-            std::fs::read(bench.path(name)).expect("a drawing")
+            assert_succeeds(&bench, &[command, "teapot.glb", "-o", name, "--threads", threads]);
+            std::fs::read(bench.path_of(name)).expect("a drawing")
         };
         let first = bytes("1");
         assert!(
@@ -190,13 +190,13 @@ fn threads_and_repetition_change_no_byte_of_a_drawing() {
 
 #[test]
 fn every_style_has_its_lines_in_every_projection() {
-    let bench = Bench::new("styles");
-    bench.bring("house.glb");
+    let bench = Sandbox::new("styles");
+    bench.copy_model("house.glb");
     let count = |style: &str, projection: &str| {
         let flags = ["-o", "out.svg", "--style", style, "--projection", projection];
-        succeed(&bench, &[&["render", "house.glb"][..], &flags].concat());
-        let (page, layers) = read_svg(&bench, "out.svg");
-        let [low, high] = bounds(&layers, |_| true);
+        assert_succeeds(&bench, &[&["render", "house.glb"][..], &flags].concat());
+        let (page, layers) = read_drawing(&bench, "out.svg");
+        let [low, high] = layer_bounds(&layers, |_| true);
         assert!(
             low.iter().all(|c| *c > 0.0) && high[0] < page[0] && high[1] < page[1],
             "{flags:?}"
@@ -221,8 +221,8 @@ fn every_style_has_its_lines_in_every_projection() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_told_and_leaves_no_file() {
-    let bench = Bench::new("no_drawing");
+fn drawing_errors_are_reported_and_leave_no_file() {
+    let bench = Sandbox::new("no_drawing");
     write_box(&bench, "box", [1.0, 1.0, 1.0]);
     let failing = [
         (&["render", "box.gltf", "-o", "out.dxf"][..], "does not end in .png, .svg or .pdf"),
@@ -238,7 +238,7 @@ fn what_cannot_be_drawn_is_told_and_leaves_no_file() {
         assert_eq!(run.code, 2, "{scale}: {}", run.stderr);
     }
     let scene = |name: &str, more: &str| {
-        bench.write(name, format!("Scene(models: [(path: \"box.gltf\")],\n{more})"));
+        bench.write_file(name, format!("Scene(models: [(path: \"box.gltf\")],\n{more})"));
         bench.run(&["check", name])
     };
     for (more, message) in [
@@ -256,37 +256,40 @@ fn what_cannot_be_drawn_is_told_and_leaves_no_file() {
         let run = scene("wrong.ron", more);
         assert!(run.code == 1 && run.stdout.contains(message), "{more}: {}", run.stdout);
     }
-    assert_eq!(bench.files(), ["box.bin", "box.gltf", "wrong.ron"]);
+    assert_eq!(bench.file_names(), ["box.bin", "box.gltf", "wrong.ron"]);
 }
 
 #[test]
 fn a_sheet_is_described_by_the_scene_and_flags_go_before_it() {
-    let bench = Bench::new("described");
+    let bench = Sandbox::new("described");
     write_box(&bench, "box", [0.1, 0.05, 0.03]);
-    bench.write(
+    bench.write_file(
         "scene.ron",
         "Scene(models: [(path: \"box.gltf\")], sheet: (paper: A4, orientation: Landscape, angle: Third,
          scale: (1, 2), title: \"A <box> & more\", author: \"Zoë\"))",
     );
-    succeed(&bench, &["sheet", "scene.ron", "-o", "out.svg"]);
-    let (page, layers) = read_svg(&bench, "out.svg");
+    assert_succeeds(&bench, &["sheet", "scene.ron", "-o", "out.svg"]);
+    let (page, layers) = read_drawing(&bench, "out.svg");
     assert_eq!(page, [297.0, 210.0]);
-    assert_near(size(&layers, "front-")[0], 50.0);
+    assert_near(view_size(&layers, "front-")[0], 50.0);
     assert!(layers.keys().any(|id| id.starts_with("right-")));
-    let text = std::fs::read_to_string(bench.path("out.svg")).expect("an SVG");
+    let text = std::fs::read_to_string(bench.path_of("out.svg")).expect("an SVG");
     assert!(text.contains("<title>A &lt;box&gt; &amp; more</title>"));
-    succeed(&bench, &["sheet", "scene.ron", "-o", "out.svg", "--paper", "a3", "--scale", "1:1"]);
-    let (page, layers) = read_svg(&bench, "out.svg");
+    assert_succeeds(
+        &bench,
+        &["sheet", "scene.ron", "-o", "out.svg", "--paper", "a3", "--scale", "1:1"],
+    );
+    let (page, layers) = read_drawing(&bench, "out.svg");
     assert_eq!(page, [420.0, 297.0]);
-    assert_near(size(&layers, "front-")[0], 100.0);
+    assert_near(view_size(&layers, "front-")[0], 100.0);
     // Without a name the sheet goes into a PDF beside.
-    succeed(&bench, &["sheet", "scene.ron"]);
-    assert_eq!(bench.files(), ["box.bin", "box.gltf", "out.svg", "scene.pdf", "scene.ron"]);
+    assert_succeeds(&bench, &["sheet", "scene.ron"]);
+    assert_eq!(bench.file_names(), ["box.bin", "box.gltf", "out.svg", "scene.pdf", "scene.ron"]);
 }
 
 #[test]
 fn drawings_are_verified() {
-    let bench = Bench::new("verified");
+    let bench = Sandbox::new("verified");
     write_box(&bench, "box", [0.1, 0.05, 0.03]);
     let run = bench.run(&["render", "box.gltf", "-o", "box.svg", "--verify"]);
     assert_eq!(run.code, 0, "{}", run.stderr);

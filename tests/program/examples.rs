@@ -1,11 +1,11 @@
 //! The examples of the library, built and run.
 
-use crate::bench::Bench;
+use crate::sandbox::Sandbox;
 use std::path::PathBuf;
 use std::process::Command;
 
 /// Runs an example of the crate `pipeline` in the folder of a test, and gives what it prints.
-fn run(bench: &Bench, name: &str, arguments: &[&str]) -> String {
+fn run_example(bench: &Sandbox, name: &str, arguments: &[&str]) -> String {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.args(["build", "--quiet", "--package", "pipeline", "--example", name]);
     let test = std::env::current_exe().expect("this test");
@@ -14,11 +14,11 @@ fn run(bench: &Bench, name: &str, arguments: &[&str]) -> String {
     if folder.ends_with("release") {
         cargo.arg("--release");
     }
-    let built = cargo.current_dir(alberti_tests::root()).status().expect("cargo starts");
+    let built = cargo.current_dir(alberti_tests::project_root()).status().expect("cargo starts");
     assert!(built.success(), "{name} does not build");
     let program: PathBuf =
         folder.join("examples").join(format!("{name}{}", std::env::consts::EXE_SUFFIX));
-    let output = Command::new(program).args(arguments).current_dir(bench.path("")).output();
+    let output = Command::new(program).args(arguments).current_dir(bench.path_of("")).output();
     let output = output.expect("the example starts");
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(output.status.success(), "{name}: {told}");
@@ -27,36 +27,36 @@ fn run(bench: &Bench, name: &str, arguments: &[&str]) -> String {
 
 #[test]
 fn the_examples_do_what_the_program_does() {
-    let bench = Bench::new("examples");
-    bench.bring("crate.glb");
+    let bench = Sandbox::new("examples");
+    bench.copy_model("crate.glb");
     let program = |flags: &[&str]| {
         let told = bench.run(&[&["render", "crate.glb"], flags].concat());
         assert_eq!((told.code, told.stderr.as_str()), (0, ""), "{flags:?}");
     };
-    let told = run(&bench, "thumbnail", &["crate.glb", "thumb.png"]);
+    let told = run_example(&bench, "thumbnail", &["crate.glb", "thumb.png"]);
     program(&["--size", "256x256", "-o", "program.png"]);
     assert!(
         told.starts_with("65536 pixels")
-            && bench.picture("thumb.png") == bench.picture("program.png")
+            && bench.read_picture("thumb.png") == bench.read_picture("program.png")
     );
-    run(&bench, "isometric", &["crate.glb", "drawing.svg"]);
+    run_example(&bench, "isometric", &["crate.glb", "drawing.svg"]);
     program(&["--projection", "isometric", "--style", "dashed", "-o", "program.svg"]);
-    let read = |name: &str| std::fs::read_to_string(bench.path(name)).expect(name);
+    let read = |name: &str| std::fs::read_to_string(bench.path_of(name)).expect(name);
     assert_eq!(read("drawing.svg"), read("program.svg"));
-    let told = run(&bench, "explain", &["crate.glb", "480", "360"]);
+    let told = run_example(&bench, "explain", &["crate.glb", "480", "360"]);
     let by_program = bench.run(&["explain", "crate.glb", "--pixel", "480,360"]).stdout;
     assert!(told.starts_with(by_program.trim_end()), "{told}");
-    run(&bench, "depth_map", &["crate.glb", "own.npy"]);
+    run_example(&bench, "depth_map", &["crate.glb", "own.npy"]);
     program(&["--passes", "depth", "--passes-as", "npy", "-o", "passed.png"]);
-    let bytes = |name: &str| std::fs::read(bench.path(name)).expect(name);
+    let bytes = |name: &str| std::fs::read(bench.path_of(name)).expect(name);
     assert_eq!(bytes("own.npy"), bytes("passed.depth.npy"));
-    std::fs::create_dir(bench.path("frames")).expect("a folder");
-    run(&bench, "turntable", &["crate.glb", "frames"]);
+    std::fs::create_dir(bench.path_of("frames")).expect("a folder");
+    run_example(&bench, "turntable", &["crate.glb", "frames"]);
     let animate = ["animate", "crate.glb", "--turntable", "--frames", "12", "--size", "320x240"];
     assert_eq!(bench.run(&[&animate[..], &["-o", "{frame:02}.png"]].concat()).code, 0);
     for frame in 0..12 {
         let [one, other] =
-            ["frames/", ""].map(|folder| bench.picture(&format!("{folder}{frame:02}.png")));
+            ["frames/", ""].map(|folder| bench.read_picture(&format!("{folder}{frame:02}.png")));
         assert!(one == other, "frame {frame}");
     }
 }

@@ -1,37 +1,37 @@
 //! `alberti explain`.
 
-use crate::bench::Bench;
-use crate::document::Document;
+use crate::gltf_builder::GltfBuilder;
+use crate::sandbox::Sandbox;
 use serde_json::{Value, json};
 
 /// A red square in front of a camera that looks along −z from (0, 0, 5).
 const SCENE: &str = "Scene(models: [(path: \"model.gltf\")], camera: (view: LookAt(eye: (0, 0, 5), target: (0, 0, 0)), \
     projection: Perspective(fov_y_degrees: 90, near: 1, far: 9)), image: (size: (200, 100)))";
 
-fn bench(name: &str, change: impl FnOnce(&mut Document)) -> Bench {
-    let bench = Bench::new(name);
-    let mut document = Document::square();
+fn sandbox_with_scene(name: &str, change: impl FnOnce(&mut GltfBuilder)) -> Sandbox {
+    let bench = Sandbox::new(name);
+    let mut document = GltfBuilder::square();
     change(&mut document);
-    document.write(&bench, "model");
-    bench.write("scene.ron", SCENE);
+    document.write_file(&bench, "model");
+    bench.write_file("scene.ron", SCENE);
     bench
 }
 
-fn told(bench: &Bench, arguments: &[&str]) -> Value {
+fn explanation_json(bench: &Sandbox, arguments: &[&str]) -> Value {
     let run = bench.run(&[&["explain", "scene.ron", "--json"], arguments].concat());
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{arguments:?}");
     serde_json::from_str(&run.stdout).expect("JSON")
 }
 
 /// The value of an item, in whichever step it is.
-fn item(told: &Value, id: &str) -> Value {
-    let steps = told["steps"].as_array().expect("steps").iter();
+fn find_item(explanation: &Value, id: &str) -> Value {
+    let steps = explanation["steps"].as_array().expect("steps").iter();
     let mut items = steps.flat_map(|step| step["items"].as_array().expect("items"));
-    items.find(|item| item["id"] == id).unwrap_or_else(|| panic!("no {id} in {told:#}"))["value"]
+    items.find(|item| item["id"] == id).unwrap_or_else(|| panic!("no {id} in {explanation:#}"))["value"]
         .clone()
 }
 
-fn near(ours: &Value, theirs: &[f64]) {
+fn assert_near(ours: &Value, theirs: &[f64]) {
     let ours: Vec<f64> =
         ours.as_array().expect("numbers").iter().filter_map(Value::as_f64).collect();
     let close =
@@ -41,47 +41,47 @@ fn near(ours: &Value, theirs: &[f64]) {
 
 #[test]
 fn a_point_is_followed_to_its_pixel() {
-    let bench = bench("explain_point", |_| {});
+    let bench = sandbox_with_scene("explain_point", |_| {});
     // Half-way up from the centre at distance 5, where the picture is 10 high: 25 of 100 rows.
-    let found = told(&bench, &["--point", "0,2.5,0"]);
+    let found = explanation_json(&bench, &["--point", "0,2.5,0"]);
     assert_eq!(found["schema"], json!({"name": "alberti-explain", "version": 1}));
-    near(&item(&found, "view"), &[0.0, 2.5, -5.0]);
-    near(&item(&found, "ndc"), &[0.0, 0.5, -0.8]);
-    near(&item(&found, "screen"), &[100.0, 25.0, 0.1]);
-    let lowest = told(&bench, &["--point", "0,-2.5,0", "--conventions", "chapter"]);
-    near(&item(&lowest, "screen"), &[99.5, 24.5, -0.8]);
-    let gl = told(&bench, &["--point", "0,2.5,0", "--conventions", "opengl"]);
-    near(&item(&gl, "screen"), &[100.0, 75.0, 0.9]);
-    let d3d = told(&bench, &["--point", "0,2.5,0", "--conventions", "direct3d"]);
-    near(&item(&d3d, "view"), &[0.0, 2.5, 5.0]);
-    near(&item(&d3d, "screen"), &[100.0, 25.0, 0.9]);
-    let vulkan = told(&bench, &["--point", "0,2.5,0", "--conventions", "vulkan"]);
-    near(&item(&vulkan, "ndc"), &[0.0, -0.5, 0.9]);
-    near(&item(&vulkan, "screen"), &[100.0, 25.0, 0.9]);
+    assert_near(&find_item(&found, "view"), &[0.0, 2.5, -5.0]);
+    assert_near(&find_item(&found, "ndc"), &[0.0, 0.5, -0.8]);
+    assert_near(&find_item(&found, "screen"), &[100.0, 25.0, 0.1]);
+    let lowest = explanation_json(&bench, &["--point", "0,-2.5,0", "--conventions", "chapter"]);
+    assert_near(&find_item(&lowest, "screen"), &[99.5, 24.5, -0.8]);
+    let gl = explanation_json(&bench, &["--point", "0,2.5,0", "--conventions", "opengl"]);
+    assert_near(&find_item(&gl, "screen"), &[100.0, 75.0, 0.9]);
+    let d3d = explanation_json(&bench, &["--point", "0,2.5,0", "--conventions", "direct3d"]);
+    assert_near(&find_item(&d3d, "view"), &[0.0, 2.5, 5.0]);
+    assert_near(&find_item(&d3d, "screen"), &[100.0, 25.0, 0.9]);
+    let vulkan = explanation_json(&bench, &["--point", "0,2.5,0", "--conventions", "vulkan"]);
+    assert_near(&find_item(&vulkan, "ndc"), &[0.0, -0.5, 0.9]);
+    assert_near(&find_item(&vulkan, "screen"), &[100.0, 25.0, 0.9]);
 }
 
 #[test]
 fn a_segment_behind_the_eye_is_cut_by_the_near_plane() {
-    let bench = bench("explain_segment", |_| {});
-    let found = told(&bench, &["--segment", "0,0,0,0,0,10"]);
-    near(&item(&found, "t"), &[0.0, 0.4]);
-    assert_eq!(item(&found, "leaves"), "the near plane");
-    let beside = told(&bench, &["--segment", "50,0,0,60,0,0"]);
+    let bench = sandbox_with_scene("explain_segment", |_| {});
+    let found = explanation_json(&bench, &["--segment", "0,0,0,0,0,10"]);
+    assert_near(&find_item(&found, "t"), &[0.0, 0.4]);
+    assert_eq!(find_item(&found, "leaves"), "the near plane");
+    let beside = explanation_json(&bench, &["--segment", "50,0,0,60,0,0"]);
     assert_eq!(beside["verdict"], "None of it is in the picture: it is outside of right.");
 }
 
 #[test]
 fn vertices_and_triangles_come_from_the_mesh() {
-    let bench = bench("explain_mesh", |document| {
+    let bench = sandbox_with_scene("explain_mesh", |document| {
         document.json["nodes"][0]["translation"] = json!([1, 0, 0]);
         document.json["nodes"][0]["name"] = json!("sign");
     });
-    let corner = told(&bench, &["--node", "sign", "--vertex", "2"]);
-    near(&item(&corner, "mesh"), &[1.0, 1.0, 0.0]);
-    near(&item(&corner, "world"), &[2.0, 1.0, 0.0]);
-    let half = told(&bench, &["--node", "0", "--triangle", "1"]);
+    let corner = explanation_json(&bench, &["--node", "sign", "--vertex", "2"]);
+    assert_near(&find_item(&corner, "mesh"), &[1.0, 1.0, 0.0]);
+    assert_near(&find_item(&corner, "world"), &[2.0, 1.0, 0.0]);
+    let half = explanation_json(&bench, &["--node", "0", "--triangle", "1"]);
     // Half of a square of 2 × 2 where ten units are a hundred pixels.
-    assert!((item(&half, "area").as_f64().expect("an area").abs() - 200.0).abs() < 1e-9);
+    assert!((find_item(&half, "area").as_f64().expect("an area").abs() - 200.0).abs() < 1e-9);
     let run = bench.run(&["explain", "scene.ron", "--node", "sing", "--vertex", "2"]);
     assert_eq!(run.code, 1);
     assert!(
@@ -95,9 +95,9 @@ fn vertices_and_triangles_come_from_the_mesh() {
 
 #[test]
 fn why_a_node_is_not_seen() {
-    let verdict = |name: &str, change: &dyn Fn(&mut Document)| {
-        let bench = bench(name, change);
-        told(&bench, &["--node", "0"])["verdict"].as_str().expect("words").to_owned()
+    let verdict = |name: &str, change: &dyn Fn(&mut GltfBuilder)| {
+        let bench = sandbox_with_scene(name, change);
+        explanation_json(&bench, &["--node", "0"])["verdict"].as_str().expect("words").to_owned()
     };
     let seen = verdict("explain_seen", &|_| {});
     assert!(seen.starts_with("2 of 2 (100 %)"), "{seen}");
@@ -114,15 +114,15 @@ fn why_a_node_is_not_seen() {
     });
     assert!(mirrored.starts_with("2 of 2"), "{mirrored}");
     let other = verdict("explain_other", &|document| {
-        document.push("/nodes", json!({"name": "empty"}));
+        document.push_item("/nodes", json!({"name": "empty"}));
         document.json["scenes"][0]["nodes"] = json!([1]);
     });
     assert_eq!(other, "It is not below a root of the scene that is shown.");
 }
 
 #[test]
-fn without_a_subject_the_maps_are_told() {
-    let bench = bench("explain_chain", |_| {});
+fn without_a_subject_the_transforms_are_explained() {
+    let bench = sandbox_with_scene("explain_chain", |_| {});
     let run = bench.run(&["explain", "scene.ron"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     for word in ["CA-1, CA-2", "VV-2", "M_vp", "perspective: left -2, right 2"] {
@@ -132,19 +132,19 @@ fn without_a_subject_the_maps_are_told() {
 
 #[test]
 fn a_pixel_is_traced_to_its_triangle() {
-    let bench = bench("explain_pixel", |_| {});
+    let bench = sandbox_with_scene("explain_pixel", |_| {});
     // The square is 20 × 20 pixels around the centre; its lower right half is its first triangle.
-    let found = told(&bench, &["--pixel", "104,52", "--samples", "1"]);
-    assert_eq!(item(&found, "hex"), "#ff0000, alpha 255");
-    near(&item(&found, "srgb"), &[255.0, 0.0, 0.0, 255.0]);
+    let found = explanation_json(&bench, &["--pixel", "104,52", "--samples", "1"]);
+    assert_eq!(find_item(&found, "hex"), "#ff0000, alpha 255");
+    assert_near(&find_item(&found, "srgb"), &[255.0, 0.0, 0.0, 255.0]);
     let title = found["steps"][0]["title"].as_str().expect("words");
     assert!(title.contains("triangle 0 of primitive 0 at node 0"), "{title}");
-    let world = item(&found, "world");
+    let world = find_item(&found, "world");
     let place: Vec<f64> =
         world.as_array().expect("a place").iter().filter_map(Value::as_f64).collect();
     let expected = [0.45, -0.25, 0.0];
     assert!(place.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-4), "{place:?}");
-    let empty = told(&bench, &["--pixel", "0,0"]);
+    let empty = explanation_json(&bench, &["--pixel", "0,0"]);
     assert!(empty["verdict"].as_str().expect("words").contains("nothing is in it"));
     let run = bench.run(&["explain", "scene.ron", "--pixel", "200,0"]);
     assert_eq!(run.code, 1);
@@ -153,7 +153,7 @@ fn a_pixel_is_traced_to_its_triangle() {
 
 #[test]
 fn a_page_has_the_same_numbers_as_the_text_and_asks_for_nothing_else() {
-    let bench = bench("explain_page", |_| {});
+    let bench = sandbox_with_scene("explain_page", |_| {});
     let run = bench.run(&[
         "explain",
         "scene.ron",
@@ -164,7 +164,7 @@ fn a_page_has_the_same_numbers_as_the_text_and_asks_for_nothing_else() {
         "page.html",
     ]);
     assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (0, "", ""));
-    let page = std::fs::read_to_string(bench.path("page.html")).expect("a page");
+    let page = std::fs::read_to_string(bench.path_of("page.html")).expect("a page");
     assert!(page.starts_with("<!doctype html>") && page.ends_with("</html>\n"));
     // Two views of the view volume, two of the canonical volume, and the picture.
     assert_eq!(page.matches("<figure>").count(), 5);
@@ -181,7 +181,7 @@ fn a_page_has_the_same_numbers_as_the_text_and_asks_for_nothing_else() {
 
 #[test]
 fn a_page_marks_the_pixel_also_where_rows_run_up() {
-    let bench = bench("explain_page_rows", |_| {});
+    let bench = sandbox_with_scene("explain_page_rows", |_| {});
     for conventions in ["alberti", "chapter", "opengl", "vulkan", "direct3d", "webgpu"] {
         let run = bench.run(&[
             "explain",

@@ -1,13 +1,13 @@
 //! `alberti info`.
 
-use crate::bench::Bench;
-use crate::document::Document;
+use crate::gltf_builder::GltfBuilder;
+use crate::sandbox::Sandbox;
 use serde_json::{Value, json};
 
 #[test]
 fn a_model_is_described_line_by_line() {
-    let bench = Bench::new("info");
-    bench.bring("crate.glb");
+    let bench = Sandbox::new("info");
+    bench.copy_model("crate.glb");
     let run = bench.run(&["info", "crate.glb"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     for subject in ["meshes", "shown", "bounds", "materials", "cameras", "extensions", "animations"]
@@ -19,8 +19,8 @@ fn a_model_is_described_line_by_line() {
 
 #[test]
 fn a_file_that_is_no_model_is_refused() {
-    let bench = Bench::new("info_refused");
-    bench.write("text.glb", "hello");
+    let bench = Sandbox::new("info_refused");
+    bench.write_file("text.glb", "hello");
     for flags in [&[][..], &["--json"]] {
         let run = bench.run(&[&["info", "text.glb"], flags].concat());
         assert_eq!((run.code, run.stdout.as_str()), (1, ""));
@@ -29,25 +29,25 @@ fn a_file_that_is_no_model_is_refused() {
 }
 
 /// What `info --json` says of a document.
-fn info(bench: &Bench, document: &mut Document) -> Value {
-    document.write(bench, "model");
+fn info_json(bench: &Sandbox, document: &mut GltfBuilder) -> Value {
+    document.write_file(bench, "model");
     let run = bench.run(&["info", "--json", "model.gltf"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     serde_json::from_str(&run.stdout).expect("JSON")
 }
 
 #[test]
-fn json_tells_counts_and_places() {
-    let bench = Bench::new("info_json");
-    let mut document = Document::square();
+fn json_lists_counts_and_instances() {
+    let bench = Sandbox::new("info_json");
+    let mut document = GltfBuilder::square();
     document.json["nodes"][0]["scale"] = json!([-2, 1, 1]);
     document.json["nodes"][0]["children"] = json!([1]);
-    document.push("/nodes", json!({"mesh": 0, "name": "child", "translation": [0, 3, 0]}));
+    document.push_item("/nodes", json!({"mesh": 0, "name": "child", "translation": [0, 3, 0]}));
     let line = json!({"attributes": {"POSITION": 0}, "mode": 2});
-    document.push("/meshes/0/primitives", line);
+    document.push_item("/meshes/0/primitives", line);
     document.json["extensionsUsed"] =
         json!(["KHR_materials_unlit", "ACME_gizmo", "KHR_materials_dispersion"]);
-    let info = info(&bench, &mut document);
+    let info = info_json(&bench, &mut document);
     assert_eq!(info["schema"], json!({"name": "alberti-info", "version": 1}));
     let bounds = json!({"min": [-2.0, -1.0, 0.0], "max": [2.0, 4.0, 0.0]});
     assert_eq!(info["shown"]["bounds"], bounds);
@@ -67,12 +67,12 @@ fn json_tells_counts_and_places() {
 }
 
 #[test]
-fn glass_is_said_to_be_thin_and_tinted() {
-    let bench = Bench::new("info_glass");
-    let mut document = Document::square();
+fn glass_is_described_as_thin_and_tinted() {
+    let bench = Sandbox::new("info_glass");
+    let mut document = GltfBuilder::square();
     let extensions = ["KHR_materials_transmission", "KHR_materials_volume"];
     document.json["extensionsUsed"] = json!(extensions);
-    let info = info(&bench, &mut document);
+    let info = info_json(&bench, &mut document);
     for (at, name) in extensions.iter().enumerate() {
         let told = &info["extensions"][at];
         assert_eq!((&told["name"], &told["status"]), (&json!(name), &json!("drawn in part")));
@@ -84,7 +84,7 @@ fn glass_is_said_to_be_thin_and_tinted() {
 }
 
 /// A material with all that a material can have, some of it out of bounds.
-fn lavish() -> Value {
+fn material_with_all_extensions() -> Value {
     let transform = json!({"KHR_texture_transform": {"offset": [0.5, 0], "texCoord": 1}});
     let texture = |index: usize| json!({"index": index, "texCoord": 0});
     json!({
@@ -108,13 +108,13 @@ fn lavish() -> Value {
 }
 
 #[test]
-fn json_tells_what_materials_have() {
-    let bench = Bench::new("info_materials");
-    let mut document = Document::square();
-    document.json["materials"][0] = lavish();
+fn json_lists_material_extensions() {
+    let bench = Sandbox::new("info_materials");
+    let mut document = GltfBuilder::square();
+    document.json["materials"][0] = material_with_all_extensions();
     document.json["textures"] = json!([{"source": 0}, {}]);
     document.json["images"] = json!([{"uri": "missing.png", "name": "look"}]);
-    let info = info(&bench, &mut document);
+    let info = info_json(&bench, &mut document);
     let material = &info["materials"][0];
     assert_eq!((&material["metallic"], &material["roughness"]), (&json!(0.25), &json!(1.0)));
     assert_eq!(material["emissive"], json!([2.0, 0.0, 4.0]));
@@ -157,23 +157,23 @@ fn json_tells_what_materials_have() {
 }
 
 #[test]
-fn json_tells_edges_that_the_file_wants_to_be_seen() {
-    let bench = Bench::new("info_edges");
-    let mut document = Document::square();
+fn json_lists_visible_edges_of_the_file() {
+    let bench = Sandbox::new("info_edges");
+    let mut document = GltfBuilder::square();
     // The example of the extension's text: values 2, 0, 1 and 0, 2, 0 for the two triangles.
-    let bits =
-        document.accessor(&[18, 2], &json!({"componentType": 5121, "type": "SCALAR", "count": 2}));
-    let strings = document.accessor(
+    let bits = document
+        .add_accessor(&[18, 2], &json!({"componentType": 5121, "type": "SCALAR", "count": 2}));
+    let strings = document.add_accessor(
         &[0, 1, 2, 255, 3, 0],
         &json!({"componentType": 5121, "type": "SCALAR", "count": 6}),
     );
     let outline = document
-        .accessor(&[0, 1, 2, 9], &json!({"componentType": 5121, "type": "SCALAR", "count": 4}));
+        .add_accessor(&[0, 1, 2, 9], &json!({"componentType": 5121, "type": "SCALAR", "count": 4}));
     document.json["meshes"][0]["primitives"][0]["extensions"] = json!({
         "EXT_mesh_primitive_edge_visibility": {"visibility": bits, "lineStrings": [{"indices": strings}]},
         "CESIUM_primitive_outline": {"indices": outline},
     });
-    let info = info(&bench, &mut document);
+    let info = info_json(&bench, &mut document);
     let edges = &info["meshes"][0]["primitives"][0]["edges"];
     // Lines 0-1, 1-2, 3-0 of the strings and 0-1 of the outline; there is no vertex 9.
     assert_eq!(*edges, json!({"hard": 2, "silhouette": 1, "lines": 4, "material": null}));

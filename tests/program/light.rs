@@ -1,31 +1,31 @@
 //! Light by flags: surroundings, exposure, tone curves, shadows and the ground.
 
-use crate::bench::Bench;
+use crate::sandbox::Sandbox;
 
 type Pixels = Vec<[u8; 4]>;
 
 /// A bench with a model, and pictures of it by flags.
-fn bench(name: &str, model: &str) -> Bench {
-    let bench = Bench::new(name);
-    bench.bring(model);
+fn sandbox_with_model(name: &str, model: &str) -> Sandbox {
+    let bench = Sandbox::new(name);
+    bench.copy_model(model);
     bench
 }
 
-fn picture(bench: &Bench, input: &str, flags: &[&str]) -> Pixels {
+fn render_pixels(bench: &Sandbox, input: &str, flags: &[&str]) -> Pixels {
     let usual = ["render", input, "-o", "out.png", "--size", "80x60"];
     let run = bench.run(&[&usual[..], flags].concat());
     assert_eq!(run.code, 0, "{flags:?}: {}", run.stderr);
-    bench.picture("out.png").2
+    bench.read_picture("out.png").2
 }
 
 /// The sum of all codes of red, green and blue where something is.
-fn brightness(pixels: &Pixels) -> u64 {
+fn total_brightness(pixels: &Pixels) -> u64 {
     let seen = pixels.iter().filter(|pixel| pixel[3] == 255);
     seen.flat_map(|pixel| &pixel[..3]).map(|&code| u64::from(code)).sum()
 }
 
 /// A `.hdr` file of one colour.
-fn hdr(rgbe: [u8; 4]) -> Vec<u8> {
+fn hdr_file(rgbe: [u8; 4]) -> Vec<u8> {
     let mut bytes = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n".to_vec();
     bytes.extend(rgbe.repeat(8));
     bytes
@@ -33,28 +33,28 @@ fn hdr(rgbe: [u8; 4]) -> Vec<u8> {
 
 #[test]
 fn a_bare_model_stands_in_the_studio() {
-    let bench = bench("studio", "finishes.glb");
-    let bare = picture(&bench, "finishes.glb", &[]);
-    assert_eq!(picture(&bench, "finishes.glb", &["--environment", "studio"]), bare);
-    let none = picture(&bench, "finishes.glb", &["--environment", "none"]);
-    let sky = picture(&bench, "finishes.glb", &["--environment", "sky"]);
+    let bench = sandbox_with_model("studio", "finishes.glb");
+    let bare = render_pixels(&bench, "finishes.glb", &[]);
+    assert_eq!(render_pixels(&bench, "finishes.glb", &["--environment", "studio"]), bare);
+    let none = render_pixels(&bench, "finishes.glb", &["--environment", "none"]);
+    let sky = render_pixels(&bench, "finishes.glb", &["--environment", "sky"]);
     assert!(none != bare && sky != bare && sky != none);
     // Metals have something to mirror.
-    assert!(brightness(&bare) > brightness(&none));
+    assert!(total_brightness(&bare) > total_brightness(&none));
     // A scene file says itself what is around.
-    bench.write("scene.ron", "Scene(models: [(path: \"finishes.glb\")])");
-    assert_eq!(picture(&bench, "scene.ron", &[]), none);
+    bench.write_file("scene.ron", "Scene(models: [(path: \"finishes.glb\")])");
+    assert_eq!(render_pixels(&bench, "scene.ron", &[]), none);
 }
 
 #[test]
-fn surroundings_come_from_a_file_that_is_named() {
-    let bench = bench("hdr", "finishes.glb");
-    bench.write("scene.ron", "Scene(models: [(path: \"finishes.glb\")])");
-    let outside = Bench::new("hdr_outside");
-    outside.write("red.hdr", hdr([128, 0, 0, 129]));
-    let path = outside.path("red.hdr").display().to_string();
+fn the_environment_comes_from_the_named_file() {
+    let bench = sandbox_with_model("hdr", "finishes.glb");
+    bench.write_file("scene.ron", "Scene(models: [(path: \"finishes.glb\")])");
+    let outside = Sandbox::new("hdr_outside");
+    outside.write_file("red.hdr", hdr_file([128, 0, 0, 129]));
+    let path = outside.path_of("red.hdr").display().to_string();
     for input in ["finishes.glb", "scene.ron"] {
-        let pixels = picture(&bench, input, &["--environment", &path]);
+        let pixels = render_pixels(&bench, input, &["--environment", &path]);
         let red = pixels.iter().filter(|pixel| pixel[3] == 255);
         assert!(red.clone().count() > 100 && red.clone().all(|pixel| pixel[1] < 40), "{input}");
         assert!(red.clone().any(|pixel| pixel[0] > 200), "{input}");
@@ -69,15 +69,15 @@ fn surroundings_come_from_a_file_that_is_named() {
 
 #[test]
 fn exposure_and_tone_change_brightness() {
-    let bench = bench("exposure", "teapot.glb");
-    let usual = picture(&bench, "teapot.glb", &[]);
-    assert_eq!(picture(&bench, "teapot.glb", &["--exposure", "0", "--tone", "none"]), usual);
-    let darker = picture(&bench, "teapot.glb", &["--exposure", "-1.5"]);
-    let brighter = picture(&bench, "teapot.glb", &["--exposure", "1"]);
-    assert!(brightness(&darker) < brightness(&usual));
-    assert!(brightness(&brighter) > brightness(&usual));
+    let bench = sandbox_with_model("exposure", "teapot.glb");
+    let usual = render_pixels(&bench, "teapot.glb", &[]);
+    assert_eq!(render_pixels(&bench, "teapot.glb", &["--exposure", "0", "--tone", "none"]), usual);
+    let darker = render_pixels(&bench, "teapot.glb", &["--exposure", "-1.5"]);
+    let brighter = render_pixels(&bench, "teapot.glb", &["--exposure", "1"]);
+    assert!(total_brightness(&darker) < total_brightness(&usual));
+    assert!(total_brightness(&brighter) > total_brightness(&usual));
     let curves = ["neutral", "aces", "agx"];
-    let curves = curves.map(|curve| picture(&bench, "teapot.glb", &["--tone", curve]));
+    let curves = curves.map(|curve| render_pixels(&bench, "teapot.glb", &["--tone", curve]));
     assert!(curves.iter().all(|curve| *curve != usual) && curves[0] != curves[1]);
     for wrong in [["--exposure", "bright"], ["--exposure", "nan"], ["--tone", "filmic"]] {
         let run = bench.run(&[&["render", "teapot.glb"][..], &wrong].concat());
@@ -87,30 +87,32 @@ fn exposure_and_tone_change_brightness() {
 
 #[test]
 fn shadows_and_the_ground_are_switched_by_flags() {
-    let bench = bench("shadows", "teapot.glb");
+    let bench = sandbox_with_model("shadows", "teapot.glb");
     let below = |pixels: &Pixels| pixels.iter().filter(|p| p[3] > 0 && p[..3] == [0; 3]).count();
-    let plain = picture(&bench, "teapot.glb", &[]);
+    let plain = render_pixels(&bench, "teapot.glb", &[]);
     assert_eq!(below(&plain), 0);
-    let ground = picture(&bench, "teapot.glb", &["--ground", "shadow"]);
+    let ground = render_pixels(&bench, "teapot.glb", &["--ground", "shadow"]);
     assert!(below(&ground) > 15);
-    bench.write(
+    bench.write_file(
         "scene.ron",
         "Scene(models: [(path: \"teapot.glb\")], ground: Shadow(),
         lights: [Sun(direction: (1, -1, 0), lux: 3, shadows: On()), Ambient(lux: 1)])",
     );
-    let own = picture(&bench, "scene.ron", &[]);
-    assert_eq!(picture(&bench, "scene.ron", &["--shadows", "on"]), own);
+    let own = render_pixels(&bench, "scene.ron", &[]);
+    assert_eq!(render_pixels(&bench, "scene.ron", &["--shadows", "on"]), own);
     assert!(below(&own) > 100);
-    assert_eq!(below(&picture(&bench, "scene.ron", &["--shadows", "off"])), 0);
-    let without = picture(&bench, "scene.ron", &["--ground", "none"]);
+    assert_eq!(below(&render_pixels(&bench, "scene.ron", &["--shadows", "off"])), 0);
+    let without = render_pixels(&bench, "scene.ron", &["--ground", "none"]);
     assert_eq!(below(&without), 0);
-    assert!(picture(&bench, "scene.ron", &["--ground", "none", "--shadows", "off"]) != without);
-    assert!(picture(&bench, "teapot.glb", &["--ambient-occlusion"]) != plain);
+    assert!(
+        render_pixels(&bench, "scene.ron", &["--ground", "none", "--shadows", "off"]) != without
+    );
+    assert!(render_pixels(&bench, "teapot.glb", &["--ambient-occlusion"]) != plain);
 }
 
 #[test]
 fn settings_of_shadows_out_of_range_are_pointed_at() {
-    let bench = bench("shadow_settings", "crate.glb");
+    let bench = sandbox_with_model("shadow_settings", "crate.glb");
     for (field, place, message) in [
         ("shadows: On(size: 10)", "2:19", "a shadow map cannot have 10 texels on a side"),
         ("shadows: On(softness_degrees: 40)", "2:31", "an angle from 0 to 30 degrees"),
@@ -123,7 +125,7 @@ fn settings_of_shadows_out_of_range_are_pointed_at() {
         ("image: (anisotropy: 9)", "2:21", "textures cannot be read at 9 places"),
         ("ground: Shadow(height: inf)", "2:24", "a finite number"),
     ] {
-        bench.write("scene.ron", format!("Scene(models: [(path: \"crate.glb\")],\n{field})"));
+        bench.write_file("scene.ron", format!("Scene(models: [(path: \"crate.glb\")],\n{field})"));
         let run = bench.run(&["render", "scene.ron"]);
         assert_eq!(run.code, 1, "{field}");
         let place = format!("scene.ron:{place}");

@@ -2,35 +2,35 @@
 
 #![allow(clippy::panic, reason = "what is missing in an answer fails the test")]
 
-mod animate;
-mod animation;
+mod asset_models;
 mod batch;
-mod bench;
 mod check;
-mod compare;
+mod compare_projections;
 mod curve;
-mod document;
 mod drawings;
 mod examples;
 mod explain;
+mod external_viewers;
 mod files;
+mod gltf_builder;
 mod info;
-mod leaks;
+mod insets;
 mod light;
+mod light_leaks;
 mod manual;
 mod matrix;
 mod messages;
 mod mistakes;
 mod outputs;
 mod overlays;
-mod parts;
 mod pictures;
-mod real;
+mod poses;
 mod reference;
+mod regions;
+mod sandbox;
 mod scene;
 mod sections;
+mod sequences;
 mod sweep;
 mod variants;
-mod vectors;
-mod viewers;
-mod views;
+mod vector_files;

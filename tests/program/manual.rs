@@ -1,10 +1,10 @@
 //! `alberti completions`, `alberti man`, and colours of messages.
 
-use crate::bench::Bench;
+use crate::sandbox::Sandbox;
 
 #[test]
 fn shells_learn_the_commands_and_flags() {
-    let bench = Bench::new("completions");
+    let bench = Sandbox::new("completions");
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         let run = bench.run(&["completions", shell]);
         assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{shell}");
@@ -18,13 +18,13 @@ fn shells_learn_the_commands_and_flags() {
 
 #[test]
 fn every_command_has_a_manual_page() {
-    let bench = Bench::new("man");
+    let bench = Sandbox::new("man");
     let run = bench.run(&["man"]);
     assert!(run.code == 0 && run.stdout.contains(".TH alberti 1"), "{}", run.stdout);
     let render = bench.run(&["man", "render"]).stdout;
     assert!(render.contains("alberti\\-render") && render.contains("\\-\\-size"), "{render}");
     assert_eq!(bench.run(&["man", "--out", "pages"]).code, 0);
-    let page = |name: &str| std::fs::read_to_string(bench.path("pages").join(name));
+    let page = |name: &str| std::fs::read_to_string(bench.path_of("pages").join(name));
     for command in ["sheet", "info", "check", "animate", "batch", "explain", "matrix", "scene-init"]
     {
         assert!(
@@ -39,8 +39,8 @@ fn every_command_has_a_manual_page() {
 
 #[test]
 fn colours_come_when_they_are_wanted() {
-    let bench = Bench::new("colours");
-    bench.write("scene.ron", "Scene(modles: [])");
+    let bench = Sandbox::new("colours");
+    bench.write_file("scene.ron", "Scene(modles: [])");
     let told = |flags: &[&str]| bench.run(&[&["render", "scene.ron"], flags].concat()).stderr;
     let plain = told(&[]);
     assert!(plain.starts_with("error: unexpected field") && !plain.contains('\x1b'), "{plain}");

@@ -1,6 +1,6 @@
 //! `alberti matrix`.
 
-use crate::bench::Bench;
+use crate::sandbox::Sandbox;
 use serde_json::{Value, json};
 
 /// Ortho(−1, 3, −2, 1, 2, 6), as the slides print it: the depth offset has the wrong sign.
@@ -10,7 +10,7 @@ const FRUSTUM: &str = "[[1,0,.5,0],[0,4/3,-1/3,0],[0,0,-2,-6],[0,0,-1,0]]";
 
 #[test]
 fn a_frustum_is_read_back_and_a_misprint_is_found() {
-    let bench = Bench::new("matrix");
+    let bench = Sandbox::new("matrix");
     let run = bench.run(&["matrix", FRUSTUM]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     let read = "OpenGL (near −1, far +1)";
@@ -26,7 +26,7 @@ fn a_frustum_is_read_back_and_a_misprint_is_found() {
 
 #[test]
 fn json_names_steps_and_items() {
-    let bench = Bench::new("matrix_json");
+    let bench = Sandbox::new("matrix_json");
     let columns = "1 0 0 0  0 1 0 0  0 0 1 0  5 6 7 1";
     let run = bench.run(&["matrix", "--json", "--columns", columns]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
@@ -45,7 +45,7 @@ fn json_names_steps_and_items() {
 
 #[test]
 fn what_is_no_matrix_is_refused_with_the_reason() {
-    let bench = Bench::new("matrix_refused");
+    let bench = Sandbox::new("matrix_refused");
     for (numbers, reason) in [
         ("1 2 3", "a matrix has 16 numbers, and here are 3"),
         ("one", "`one` is not a number"),

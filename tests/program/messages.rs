@@ -1,10 +1,10 @@
 //! Messages: usage, mistakes in scenes, and exit codes.
 
-use crate::bench::Bench;
+use crate::sandbox::Sandbox;
 
 #[test]
 fn help_and_version_are_worth_reading() {
-    let bench = Bench::new("help");
+    let bench = Sandbox::new("help");
     let help = bench.run(&["--help"]);
     assert_eq!(help.code, 0);
     for word in ["render", "info", "check", "Examples:", "Exit codes:"] {
@@ -21,7 +21,7 @@ fn help_and_version_are_worth_reading() {
 
 #[test]
 fn wrong_usage_ends_with_code_2() {
-    let bench = Bench::new("usage");
+    let bench = Sandbox::new("usage");
     let wrong: [&[&str]; 8] = [
         &[],
         &["rendr"],
@@ -41,9 +41,9 @@ fn wrong_usage_ends_with_code_2() {
 
 #[test]
 fn a_mistake_in_a_scene_is_shown_where_it_is() {
-    let bench = Bench::new("pointed");
-    bench.bring("crate.glb");
-    bench.write(
+    let bench = Sandbox::new("pointed");
+    bench.copy_model("crate.glb");
+    bench.write_file(
         "scene.ron",
         "Scene(\n    models: [(path: \"crate.glb\")],\n    camera: (view: LookAt(eye: (4, 3, 5), traget: (0, 0, 0))),\n)\n",
     );
@@ -63,8 +63,8 @@ error: unexpected field `traget` in `LookAt`
 
 #[test]
 fn what_makes_no_sense_is_pointed_at_as_well() {
-    let bench = Bench::new("senseless");
-    bench.bring("crate.glb");
+    let bench = Sandbox::new("senseless");
+    bench.copy_model("crate.glb");
     let scene = |rest: &str| format!("Scene(\n  models: [(path: \"crate.glb\")],\n  {rest}\n)");
     for (rest, place, words) in [
         (
@@ -82,7 +82,7 @@ fn what_makes_no_sense_is_pointed_at_as_well() {
         ("image: (size: (2000000, 10))", "3:17", "1048576"),
         ("image: (background: Color(\"mauve\"))", "3:23", "#rrggbb"),
     ] {
-        bench.write("scene.ron", scene(rest));
+        bench.write_file("scene.ron", scene(rest));
         let run = bench.run(&["render", "scene.ron"]);
         assert_eq!(run.code, 1, "{rest}");
         let pointed = run.stderr.contains(&format!("--> scene.ron:{place}\n"));
@@ -94,7 +94,7 @@ fn what_makes_no_sense_is_pointed_at_as_well() {
         ("../crate.glb", "leads out of the scene's folder"),
         ("scene.ron", "scene.ron"),
     ] {
-        bench.write("scene.ron", format!("Scene(models: [\n  (path: \"{model}\"),\n])"));
+        bench.write_file("scene.ron", format!("Scene(models: [\n  (path: \"{model}\"),\n])"));
         let run = bench.run(&["render", "scene.ron"]);
         assert_eq!(run.code, 1, "{model}");
         let pointed = run.stderr.contains("--> scene.ron:2:10\n");
@@ -104,8 +104,8 @@ fn what_makes_no_sense_is_pointed_at_as_well() {
 
 #[test]
 fn a_camera_that_is_not_there_is_answered_with_those_that_are() {
-    let bench = Bench::new("cameras");
-    bench.bring("room.glb");
+    let bench = Sandbox::new("cameras");
+    bench.copy_model("room.glb");
     let run = bench.run(&["render", "room.glb", "--camera", "nobody", "--size", "16x16"]);
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("nobody") && run.stderr.contains("possible"), "{}", run.stderr);

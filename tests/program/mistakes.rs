@@ -13,7 +13,7 @@
 //! `BLESS=1 cargo test -p alberti-tests --test program mistakes` writes what is told now into the files. Read it, each
 //! message, before it is committed.
 
-use crate::bench::Bench;
+use crate::sandbox::Sandbox;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -25,14 +25,14 @@ struct Case {
     title: String,
     files: Vec<(String, String)>,
     call: String,
-    told: String,
+    message: String,
 }
 
-fn cases(text: &str) -> Vec<Case> {
-    text.split("=== ").skip(1).map(case).collect()
+fn parse_cases(text: &str) -> Vec<Case> {
+    text.split("=== ").skip(1).map(parse_case).collect()
 }
 
-fn case(text: &str) -> Case {
+fn parse_case(text: &str) -> Case {
     let (title, rest) = text.split_once('\n').expect("a title");
     let (files, answer) = rest.split_once("$ alberti ").expect("a call");
     let (call, told) = answer.split_once('\n').unwrap_or((answer, ""));
@@ -44,37 +44,37 @@ fn case(text: &str) -> Case {
         title: title.to_owned(),
         files: files.split("--- ").skip(1).map(file).collect(),
         call: call.to_owned(),
-        told: told.to_owned(),
+        message: told.to_owned(),
     }
 }
 
 impl Case {
     /// What the program tells now.
-    fn run(&self, bench: &Bench) -> String {
+    fn run_case(&self, bench: &Sandbox) -> String {
         for (name, content) in &self.files {
-            let folder = bench.path(name).parent().map(PathBuf::from).expect("a folder");
+            let folder = bench.path_of(name).parent().map(PathBuf::from).expect("a folder");
             std::fs::create_dir_all(folder).expect("a folder");
-            bench.write(name, content);
+            bench.write_file(name, content);
         }
-        let words = words(&self.call);
+        let words = split_call(&self.call);
         let run = bench.run(&words.iter().map(String::as_str).collect::<Vec<_>>());
         assert_ne!(run.code, 0, "{}: no mistake", self.title);
-        let told = if run.stderr.is_empty() { run.stdout } else { run.stderr };
-        format!("{}\n[{}]\n\n", told.trim_end(), run.code)
+        let message = if run.stderr.is_empty() { run.stdout } else { run.stderr };
+        format!("{}\n[{}]\n\n", message.trim_end(), run.code)
     }
 
-    fn text(&self, told: &str) -> String {
+    fn to_text(&self, message: &str) -> String {
         let mut text = format!("=== {}\n", self.title);
         for (name, content) in &self.files {
             let _ = write!(text, "--- {name}\n{content}");
         }
-        let _ = write!(text, "$ alberti {}\n{told}", self.call);
+        let _ = write!(text, "$ alberti {}\n{message}", self.call);
         text
     }
 }
 
 /// The words of a call; those between quotation marks may have blanks, or be empty.
-fn words(call: &str) -> Vec<String> {
+fn split_call(call: &str) -> Vec<String> {
     let quoted = call.split('\'').enumerate();
     let parts = quoted.flat_map(|(number, part)| match number % 2 {
         0 => part.split_whitespace().map(str::to_owned).collect(),
@@ -83,18 +83,23 @@ fn words(call: &str) -> Vec<String> {
     parts.collect()
 }
 
-fn table(name: &str) {
-    let path = alberti_tests::root().join("tests/program/mistakes").join(format!("{name}.txt"));
+fn check_table(name: &str) {
+    let path =
+        alberti_tests::project_root().join("tests/program/mistakes").join(format!("{name}.txt"));
     let text = std::fs::read_to_string(&path).expect("the cases");
     let bless = std::env::var_os("BLESS").is_some() && std::env::var_os("CI").is_none();
     let (mut blessed, mut faults) = (String::new(), String::new());
-    for (number, case) in cases(&text).iter().enumerate() {
-        let bench = Bench::new(&format!("mistake_{name}_{number}"));
-        MODELS.iter().for_each(|model| bench.bring(model));
-        let told = case.run(&bench);
-        blessed.push_str(&case.text(&told));
-        if told.trim_end() != case.told.trim_end() {
-            let _ = writeln!(faults, "=== {}\nexpected:\n{}\ntold:\n{told}", case.title, case.told);
+    for (number, case) in parse_cases(&text).iter().enumerate() {
+        let bench = Sandbox::new(&format!("mistake_{name}_{number}"));
+        MODELS.iter().for_each(|model| bench.copy_model(model));
+        let message = case.run_case(&bench);
+        blessed.push_str(&case.to_text(&message));
+        if message.trim_end() != case.message.trim_end() {
+            let _ = writeln!(
+                faults,
+                "=== {}\nexpected:\n{}\ntold:\n{message}",
+                case.title, case.message
+            );
         }
     }
     if bless {
@@ -105,41 +110,41 @@ fn table(name: &str) {
 
 #[test]
 fn grammar() {
-    table("grammar");
+    check_table("grammar");
 }
 
 #[test]
 fn numbers() {
-    table("numbers");
+    check_table("numbers");
 }
 
 #[test]
 fn meaning() {
-    table("meaning");
+    check_table("meaning");
 }
 
 #[test]
 fn flags() {
-    table("flags");
+    check_table("flags");
 }
 
 #[test]
 fn files() {
-    table("files");
+    check_table("files");
 }
 
 #[test]
 fn views() {
-    table("views");
+    check_table("views");
 }
 
 #[test]
 fn there_are_enough_of_them() {
-    let folder = alberti_tests::root().join("tests/program/mistakes");
+    let folder = alberti_tests::project_root().join("tests/program/mistakes");
     let entries = std::fs::read_dir(folder).expect("the cases");
     let text = |entry: std::io::Result<std::fs::DirEntry>| {
         std::fs::read_to_string(entry.expect("an entry").path()).expect("cases")
     };
-    let count: usize = entries.map(|entry| cases(&text(entry)).len()).sum();
+    let count: usize = entries.map(|entry| parse_cases(&text(entry)).len()).sum();
     assert!(count >= 60, "{count} cases");
 }

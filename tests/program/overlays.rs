@@ -1,12 +1,12 @@
 //! Overlays and classical projections: vanishing points, the horizon and the axes are where the formulas have them.
 
-use crate::bench::Bench;
-use crate::vectors::{Layers, Place, bounds_of, svg};
+use crate::sandbox::Sandbox;
+use crate::vector_files::{Layers, PagePoint, parse_svg, point_bounds};
 
 /// The layers of a drawing of the house, and half the width and height of its page.
-fn draw(bench: &Bench, camera: &str, overlays: &str) -> (Place, Layers) {
-    bench.bring("house.glb");
-    bench.write(
+fn draw_overlays(bench: &Sandbox, camera: &str, overlays: &str) -> (PagePoint, Layers) {
+    bench.copy_model("house.glb");
+    bench.write_file(
         "scene.ron",
         format!(
             "Scene(models: [(path: \"house.glb\")], style: Lines(), camera: ({camera}),
@@ -15,39 +15,39 @@ fn draw(bench: &Bench, camera: &str, overlays: &str) -> (Place, Layers) {
     );
     let run = bench.run(&["render", "scene.ron", "-o", "out.svg"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{camera}");
-    let text = std::fs::read_to_string(bench.path("out.svg")).expect("an SVG");
-    let (page, layers) = svg(&text);
+    let text = std::fs::read_to_string(bench.path_of("out.svg")).expect("an SVG");
+    let (page, layers) = parse_svg(&text);
     ([page[0] / 2.0, page[1] / 2.0], layers)
 }
 
 /// The layers whose names end so.
-fn named<'a>(layers: &'a Layers, end: &str) -> Vec<&'a Vec<Place>> {
+fn layers_ending_in<'a>(layers: &'a Layers, end: &str) -> Vec<&'a Vec<PagePoint>> {
     let chosen = layers.iter().filter(|(id, _)| id.starts_with("overlay-") && id.ends_with(end));
     chosen.flat_map(|(_, lines)| lines).collect()
 }
 
 /// A place of the page in half heights of the picture from its middle, y up.
-fn in_half_heights(place: Place, half: Place) -> Place {
-    [(place[0] - half[0]) / half[1], (half[1] - place[1]) / half[1]]
+fn to_half_heights(point: PagePoint, half: PagePoint) -> PagePoint {
+    [(point[0] - half[0]) / half[1], (half[1] - point[1]) / half[1]]
 }
 
 #[track_caller]
-fn assert_near(found: Place, due: Place) {
-    let near = found.iter().zip(due).all(|(a, b)| (a - b).abs() < 2e-4);
-    assert!(near, "{found:?} instead of {due:?}");
+fn assert_near(actual: PagePoint, expected: PagePoint) {
+    let near = actual.iter().zip(expected).all(|(a, b)| (a - b).abs() < 2e-4);
+    assert!(near, "{actual:?} instead of {expected:?}");
 }
 
 /// The middle of the ring around a vanishing point.
-fn ring(layers: &Layers, axis: &str, half: Place) -> Option<Place> {
-    let lines = named(layers, &format!("-vanishing-{axis}"));
-    let [low, high] = bounds_of(lines.first()?.iter());
+fn ring_center(layers: &Layers, axis: &str, half: PagePoint) -> Option<PagePoint> {
+    let lines = layers_ending_in(layers, &format!("-vanishing-{axis}"));
+    let [low, high] = point_bounds(lines.first()?.iter());
     let middle = [(low[0] + high[0]) / 2.0, (low[1] + high[1]) / 2.0];
-    Some(in_half_heights(middle, half))
+    Some(to_half_heights(middle, half))
 }
 
 #[test]
 fn c82_axes_vanish_where_the_construction_wants_them() {
-    let bench = Bench::new("vanishing");
+    let bench = Sandbox::new("vanishing");
     let cases = [
         ("OnePoint(at: (0.35, 0.45), distance: 3)", [None, None, Some([0.35, 0.45])]),
         (
@@ -61,15 +61,15 @@ fn c82_axes_vanish_where_the_construction_wants_them() {
     ];
     for (projection, due) in cases {
         let camera = format!("projection: {projection}");
-        let (half, layers) = draw(&bench, &camera, "VanishingPoints, Horizon");
+        let (half, layers) = draw_overlays(&bench, &camera, "VanishingPoints, Horizon");
         for (axis, due) in ["x", "y", "z"].into_iter().zip(due) {
-            let found = ring(&layers, axis, half);
+            let found = ring_center(&layers, axis, half);
             assert_eq!(found.is_some(), due.is_some(), "{axis} of {projection}");
             found.into_iter().zip(due).for_each(|(found, due)| assert_near(found, due));
         }
         // Horizontal directions vanish on one line, whatever the eye.
-        let horizon = named(&layers, "-horizon");
-        let ends = [horizon[0][0], horizon[0][1]].map(|end| in_half_heights(end, half));
+        let horizon = layers_ending_in(&layers, "-horizon");
+        let ends = [horizon[0][0], horizon[0][1]].map(|end| to_half_heights(end, half));
         for [x, y] in [due[0], due[2]].into_iter().flatten() {
             let slope = (ends[1][1] - ends[0][1]) / (ends[1][0] - ends[0][0]);
             assert_near([x, ends[0][1] + slope * (x - ends[0][0])], [x, y]);
@@ -79,14 +79,14 @@ fn c82_axes_vanish_where_the_construction_wants_them() {
 
 #[test]
 fn c80_lines_of_the_models_run_to_the_vanishing_points() {
-    let bench = Bench::new("run_to");
+    let bench = Sandbox::new("run_to");
     let camera = "projection: TwoPoint(x: (-1.2, 0.5), z: (1.1, 0.5), fraction: 0.5)";
-    let (half, layers) = draw(&bench, camera, "VanishingPoints");
+    let (half, layers) = draw_overlays(&bench, camera, "VanishingPoints");
     for (axis, at) in [("x", [-1.2, 0.5]), ("z", [1.1, 0.5])] {
-        let lines = named(&layers, &format!("-to-{axis}"));
+        let lines = layers_ending_in(&layers, &format!("-to-{axis}"));
         assert_eq!(lines.len(), 8, "one from each corner of the box");
         for line in lines {
-            let ends = [line[0], line[1]].map(|end| in_half_heights(end, half));
+            let ends = [line[0], line[1]].map(|end| to_half_heights(end, half));
             assert!(
                 ends.iter().any(|end| (0..2).all(|k| (end[k] - at[k]).abs() < 2e-4)),
                 "{ends:?}"
@@ -97,7 +97,7 @@ fn c80_lines_of_the_models_run_to_the_vanishing_points() {
 
 #[test]
 fn c76_c77_axes_are_drawn_as_long_and_at_the_angles_of_the_textbooks() {
-    let bench = Bench::new("axes");
+    let bench = Sandbox::new("axes");
     let isometric = libm::sqrt(2.0 / 3.0);
     let half_angle = std::f64::consts::FRAC_1_SQRT_2;
     // The images of the units along x, y and z, up to a common factor; z towards the viewer.
@@ -118,35 +118,40 @@ fn c76_c77_axes_are_drawn_as_long_and_at_the_angles_of_the_textbooks() {
     ];
     for (projection, due) in cases {
         let camera = format!("projection: {projection}, view: Frame(padding_percent: 30)");
-        let found = axes(&draw(&bench, &camera, "Axes(length: 3)").1);
-        let up = length(due[1]) / length(found[1]);
+        let found = axis_vectors(&draw_overlays(&bench, &camera, "Axes(length: 3)").1);
+        let up = vector_length(due[1]) / vector_length(found[1]);
         for (found, due) in found.into_iter().zip(due) {
             assert!((found[0] * up - due[0]).abs() < 1e-3, "{projection}: {found:?} {due:?}");
             assert!((found[1] * up - due[1]).abs() < 1e-3, "{projection}: {found:?} {due:?}");
         }
     }
-    let dimetric_axes = axes(&draw(&bench, "projection: Dimetric", "Axes(length: 3)").1);
-    let lengths = dimetric_axes.map(length);
+    let dimetric_axes =
+        axis_vectors(&draw_overlays(&bench, "projection: Dimetric", "Axes(length: 3)").1);
+    let lengths = dimetric_axes.map(vector_length);
     assert!((lengths[0] / lengths[1] - 1.0).abs() < 1e-3, "{lengths:?}");
     assert!((lengths[2] / lengths[1] - 0.5).abs() < 1e-3, "{lengths:?}");
 }
 
-fn length([x, y]: Place) -> f64 {
+fn vector_length([x, y]: PagePoint) -> f64 {
     libm::sqrt(x * x + y * y)
 }
 
 /// The images of the three axes, from the origin to the tip, y up.
-fn axes(layers: &Layers) -> [Place; 3] {
+fn axis_vectors(layers: &Layers) -> [PagePoint; 3] {
     let places = ["x", "y", "z"].map(|axis| {
-        let parts = ["", "-hidden"].map(|part| named(layers, &format!("-axis-{axis}{part}")));
-        parts.into_iter().flatten().flatten().copied().collect::<Vec<Place>>()
+        let parts =
+            ["", "-hidden"].map(|part| layers_ending_in(layers, &format!("-axis-{axis}{part}")));
+        parts.into_iter().flatten().flatten().copied().collect::<Vec<PagePoint>>()
     });
     // The origin is the place that two axes share; the tip is what is farthest from it.
-    let near = |a: Place, b: Place| length([a[0] - b[0], a[1] - b[1]]) < 2e-3;
-    let shared = |place: &&Place| places[1].iter().any(|other| near(**place, *other));
+    let near = |a: PagePoint, b: PagePoint| vector_length([a[0] - b[0], a[1] - b[1]]) < 2e-3;
+    let shared = |place: &&PagePoint| places[1].iter().any(|other| near(**place, *other));
     let origin = *places[0].iter().find(shared).expect("x and y begin at the origin");
     places.map(|places| {
         let images = places.iter().map(|place| [place[0] - origin[0], origin[1] - place[1]]);
-        images.fold([0.0, 0.0], |tip, image| if length(image) > length(tip) { image } else { tip })
+        images.fold(
+            [0.0, 0.0],
+            |tip, image| if vector_length(image) > vector_length(tip) { image } else { tip },
+        )
     })
 }

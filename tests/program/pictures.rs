@@ -1,49 +1,49 @@
 //! Pictures: sizes, backgrounds, and the same bytes again.
 
-use crate::bench::Bench;
+use crate::sandbox::Sandbox;
 
 #[test]
 fn flags_go_before_what_the_scene_says() {
-    let bench = Bench::new("flags");
-    bench.bring("crate.glb");
-    bench.write(
+    let bench = Sandbox::new("flags");
+    bench.copy_model("crate.glb");
+    bench.write_file(
         "scene.ron",
         "Scene(models: [(path: \"crate.glb\")], image: (size: (30, 20), background: Color(\"#f00\")))",
     );
     assert_eq!(bench.run(&["render", "scene.ron"]).code, 0);
-    let (width, height, pixels) = bench.picture("scene.png");
+    let (width, height, pixels) = bench.read_picture("scene.png");
     assert_eq!((width, height, pixels[0]), (30, 20, [255, 0, 0, 255]));
     let flags = ["--size", "50x40", "--background", "#00f", "--view", "top", "--samples", "1"];
     let run = bench.run(&[&["render", "scene.ron", "-o", "other.png"][..], &flags].concat());
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
-    let (width, height, pixels) = bench.picture("other.png");
+    let (width, height, pixels) = bench.read_picture("other.png");
     assert_eq!((width, height, pixels[0]), (50, 40, [0, 0, 255, 255]));
 }
 
 #[test]
 fn timings_name_the_stages_and_change_nothing() {
-    let bench = Bench::new("timings");
-    bench.bring("crate.glb");
+    let bench = Sandbox::new("timings");
+    bench.copy_model("crate.glb");
     let flags = ["--size", "40x30", "--timings"];
     let run = bench.run(&[&["render", "crate.glb"][..], &flags].concat());
     assert_eq!(run.code, 0, "{}", run.stderr);
     let stages: Vec<_> = run.stderr.lines().filter_map(|line| line.split("  ").next()).collect();
     let expected = ["read", "parse", "geometry", "images", "frame", "mip chains", "vertices"];
     assert_eq!(stages, [&expected[..], &["pixels", "encode", "write", "all"]].concat());
-    let timed = bench.picture("crate.png");
+    let timed = bench.read_picture("crate.png");
     assert_eq!(bench.run(&["render", "crate.glb", "--size", "40x30"]).stderr, "");
-    assert_eq!(bench.picture("crate.png"), timed);
+    assert_eq!(bench.read_picture("crate.png"), timed);
 }
 
 #[test]
 fn a_transparent_background_has_no_halo() {
-    let bench = Bench::new("transparent");
-    bench.bring("spheres.glb");
+    let bench = Sandbox::new("transparent");
+    bench.copy_model("spheres.glb");
     let render = |name: &str, background: &str| {
         let flags = ["--size", "64x32", "--view", "front", "--background", background];
         let run = bench.run(&[&["render", "spheres.glb", "-o", name][..], &flags].concat());
         assert_eq!(run.code, 0, "{}", run.stderr);
-        bench.picture(name).2
+        bench.read_picture(name).2
     };
     let clear = render("clear.png", "transparent");
     let white = render("white.png", "#fff");
@@ -57,8 +57,8 @@ fn a_transparent_background_has_no_halo() {
                 // Over white, in linear light, the soft pixel must give the opaque picture's colour.
                 let share = f64::from(alpha) / 255.0;
                 for k in 0..3 {
-                    let over = linear(clear[k]) * share + 1.0 - share;
-                    let difference = (over - linear(white[k])).abs();
+                    let over = srgb_to_linear(clear[k]) * share + 1.0 - share;
+                    let difference = (over - srgb_to_linear(white[k])).abs();
                     assert!(difference < 0.02, "pixel {at}, channel {k}: {difference}");
                 }
             }
@@ -66,20 +66,20 @@ fn a_transparent_background_has_no_halo() {
     }
 }
 
-fn linear(code: u8) -> f64 {
+fn srgb_to_linear(code: u8) -> f64 {
     let srgb = f64::from(code) / 255.0;
     if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
 }
 
 #[test]
 fn threads_and_repetition_change_no_byte() {
-    let bench = Bench::new("same_bytes");
-    bench.bring("teapot.glb");
+    let bench = Sandbox::new("same_bytes");
+    bench.copy_model("teapot.glb");
     let bytes = |name: &str, threads: &str| {
         let flags = ["-o", name, "--size", "333x222", "--threads", threads];
         let run = bench.run(&[&["render", "teapot.glb"][..], &flags].concat());
         assert_eq!(run.code, 0, "{}", run.stderr);
-        std::fs::read(bench.path(name)).expect("a picture")
+        std::fs::read(bench.path_of(name)).expect("a picture")
     };
     let first = bytes("a.png", "1");
     assert!(
@@ -91,8 +91,8 @@ fn threads_and_repetition_change_no_byte() {
 
 #[test]
 fn every_view_style_and_projection_shows_something() {
-    let bench = Bench::new("views");
-    bench.bring("house.glb");
+    let bench = Sandbox::new("views");
+    bench.copy_model("house.glb");
     let views = [
         "front",
         "back",
@@ -112,7 +112,7 @@ fn every_view_style_and_projection_shows_something() {
                 let size = ["--size", "48x32", "-o", "out.png"];
                 let run = bench.run(&[&["render", "house.glb"][..], &flags, &size].concat());
                 assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{flags:?}");
-                let (_, _, pixels) = bench.picture("out.png");
+                let (_, _, pixels) = bench.read_picture("out.png");
                 let inked = pixels.iter().filter(|pixel| pixel[3] > 0).count();
                 assert!(inked > 48 * 32 / 16, "{flags:?}: {inked} pixels");
                 // Framing leaves the margin of 5 per cent free: nothing touches the border.
@@ -127,10 +127,10 @@ fn every_view_style_and_projection_shows_something() {
 
 #[test]
 fn c36_the_floor_is_whole_from_the_horizon_down_with_the_eye_just_above_it() {
-    let bench = Bench::new("floor");
-    bench.bring("floor.glb");
+    let bench = Sandbox::new("floor");
+    bench.copy_model("floor.glb");
     for height in [0.1, 0.01, 0.001] {
-        bench.write(
+        bench.write_file(
             "scene.ron",
             format!(
                 "Scene(models: [(path: \"floor.glb\")], camera: (
@@ -141,7 +141,7 @@ fn c36_the_floor_is_whole_from_the_horizon_down_with_the_eye_just_above_it() {
         );
         let run = bench.run(&["render", "scene.ron"]);
         assert_eq!((run.code, run.stderr.as_str()), (0, ""));
-        let (width, _, pixels) = bench.picture("scene.png");
+        let (width, _, pixels) = bench.read_picture("scene.png");
         let rows: Vec<usize> = pixels
             .chunks(width as usize)
             .map(|row| row.iter().filter(|pixel| **pixel == [255, 0, 255, 255]).count())

@@ -1,16 +1,16 @@
 //! `alberti reference` and `alberti scene doc`: every flag and every field.
 
-use crate::bench::Bench;
+use crate::sandbox::Sandbox;
 
 /// The long flags in a help text.
-fn flags(help: &str) -> Vec<&str> {
+fn flags_in_help(help: &str) -> Vec<&str> {
     let words = help.split(|c: char| c.is_whitespace() || c == ',' || c == '[' || c == '=');
     words.filter(|word| word.starts_with("--") && word.len() > 2).collect()
 }
 
 #[test]
 fn every_flag_of_every_command_is_in_the_reference() {
-    let bench = Bench::new("reference_flags");
+    let bench = Sandbox::new("reference_flags");
     let reference = bench.run(&["reference"]);
     assert_eq!((reference.code, reference.stderr.as_str()), (0, ""));
     let commands = [
@@ -42,7 +42,7 @@ fn every_flag_of_every_command_is_in_the_reference() {
         let options: Vec<&str> =
             help.lines().filter(|line| line.trim_start().starts_with('-')).collect();
         let options = options.join("\n");
-        let wanted = flags(&options).into_iter().filter(|flag| *flag != "--");
+        let wanted = flags_in_help(&options).into_iter().filter(|flag| *flag != "--");
         for flag in wanted.map(|flag| flag.trim_end_matches(':')) {
             assert!(section.contains(flag), "{command} {flag}\n{section}");
         }
@@ -51,7 +51,7 @@ fn every_flag_of_every_command_is_in_the_reference() {
 
 #[test]
 fn fields_are_found_by_name_by_type_and_by_path() {
-    let bench = Bench::new("reference_fields");
+    let bench = Sandbox::new("reference_fields");
     let doc = |word: &str| {
         let run = bench.run(&["scene", "doc", word]);
         assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{word}");
@@ -74,7 +74,7 @@ fn fields_are_found_by_name_by_type_and_by_path() {
 
 #[test]
 fn the_reference_can_be_read_elsewhere() {
-    let bench = Bench::new("reference_formats");
+    let bench = Sandbox::new("reference_formats");
     let markdown = bench.run(&["reference", "--format", "markdown"]).stdout;
     assert!(markdown.starts_with("# Reference of Alberti\n\n## alberti\n"), "{markdown}");
     assert!(markdown.contains("\n## Camera\n") && markdown.contains("\n- `view`: View — "));

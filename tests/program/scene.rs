@@ -1,13 +1,13 @@
 //! `alberti scene`: files to begin with, checks, layout.
 
-use crate::bench::Bench;
+use crate::sandbox::Sandbox;
 use serde_json::{Value, json};
 
 #[test]
 fn a_starter_is_drawn_checked_and_laid_out_and_each_of_its_comments_is_a_choice() {
-    let bench = Bench::new("scene_init");
+    let bench = Sandbox::new("scene_init");
     for model in ["room.glb", "crate.glb", "lamp.glb"] {
-        bench.bring(model);
+        bench.copy_model(model);
         let scene = model.replace(".glb", ".ron");
         let run = bench.run(&["scene", "init", model]);
         assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{model}");
@@ -17,7 +17,7 @@ fn a_starter_is_drawn_checked_and_laid_out_and_each_of_its_comments_is_a_choice(
         let clean = run.stdout.contains(&format!("{scene}: no mistakes\n"));
         assert!(run.code == 0 && clean, "{}", run.stdout);
         assert_eq!(bench.run(&["scene", "fmt", "--check", &scene]).code, 0, "{scene}");
-        let text = std::fs::read_to_string(bench.path(&scene)).expect("the scene");
+        let text = std::fs::read_to_string(bench.path_of(&scene)).expect("the scene");
         let choices = text.lines().filter(|line| {
             let comment = line.trim_start().strip_prefix("// ");
             comment.is_some_and(|comment| comment.contains(": ") && comment.ends_with(','))
@@ -29,7 +29,7 @@ fn a_starter_is_drawn_checked_and_laid_out_and_each_of_its_comments_is_a_choice(
             let name = field.split(':').next().expect("a name");
             let there = |line: &&str| !line.trim_start().starts_with(&format!("{name}: "));
             let lines: Vec<&str> = text.lines().filter(there).collect();
-            bench.write("chosen.ron", lines.join("\n").replace(choice, field));
+            bench.write_file("chosen.ron", lines.join("\n").replace(choice, field));
             let run = bench.run(&["scene", "check", "chosen.ron"]);
             assert!(run.stdout.contains("chosen.ron: no mistakes"), "{field}\n{}", run.stdout);
             seen += 1;
@@ -40,14 +40,14 @@ fn a_starter_is_drawn_checked_and_laid_out_and_each_of_its_comments_is_a_choice(
 
 #[test]
 fn a_starter_replaces_nothing_unless_it_must_and_finds_its_model_from_elsewhere() {
-    let bench = Bench::new("scene_init_places");
-    bench.bring("crate.glb");
-    bench.write("crate.ron", "mine");
+    let bench = Sandbox::new("scene_init_places");
+    bench.copy_model("crate.glb");
+    bench.write_file("crate.ron", "mine");
     let run = bench.run(&["scene", "init", "crate.glb"]);
     assert!(run.code == 1 && run.stderr.contains("crate.ron is there already"), "{}", run.stderr);
-    assert_eq!(std::fs::read_to_string(bench.path("crate.ron")).expect("mine"), "mine");
+    assert_eq!(std::fs::read_to_string(bench.path_of("crate.ron")).expect("mine"), "mine");
     assert_eq!(bench.run(&["scene", "init", "crate.glb", "--force"]).code, 0);
-    std::fs::create_dir(bench.path("scenes")).expect("a folder");
+    std::fs::create_dir(bench.path_of("scenes")).expect("a folder");
     let run = bench.run(&["scene", "init", "crate.glb", "-o", "scenes/crate.ron"]);
     assert!(run.code == 0 && run.stderr.contains("--allow-outside"), "{}", run.stderr);
     let draw = ["render", "scenes/crate.ron", "--size", "16x16", "-o", "out.png"];
@@ -60,26 +60,26 @@ fn a_starter_replaces_nothing_unless_it_must_and_finds_its_model_from_elsewhere(
 
 #[test]
 fn layout_is_written_or_only_checked() {
-    let bench = Bench::new("scene_fmt");
+    let bench = Sandbox::new("scene_fmt");
     let wild = "Scene( models:[ (path:\"a.glb\") ],// the crate\nstyle:Flat)";
     let tidy = "Scene(\n    models: [(path: \"a.glb\")], // the crate\n    style: Flat,\n)\n";
-    bench.write("wild.ron", wild);
-    bench.write("tidy.ron", tidy);
+    bench.write_file("wild.ron", wild);
+    bench.write_file("tidy.ron", tidy);
     let run = bench.run(&["scene", "fmt", "--check", "wild.ron", "tidy.ron"]);
     assert_eq!((run.code, run.stdout.as_str()), (1, "wild.ron\n"));
-    assert_eq!(std::fs::read_to_string(bench.path("wild.ron")).expect("the file"), wild);
+    assert_eq!(std::fs::read_to_string(bench.path_of("wild.ron")).expect("the file"), wild);
     let run = bench.run(&["scene", "fmt", "wild.ron", "tidy.ron"]);
     assert_eq!((run.code, run.stdout.as_str()), (0, ""));
-    assert_eq!(std::fs::read_to_string(bench.path("wild.ron")).expect("the file"), tidy);
-    bench.write("slip.ron", "Scene(modles: [])");
+    assert_eq!(std::fs::read_to_string(bench.path_of("wild.ron")).expect("the file"), tidy);
+    bench.write_file("slip.ron", "Scene(modles: [])");
     let run = bench.run(&["scene", "fmt", "slip.ron"]);
     assert!(run.code == 1 && run.stderr.contains("did you mean `models`?"), "{}", run.stderr);
 }
 
 #[test]
 fn the_committed_scenes_are_laid_out_and_nothing_in_them_is_unmeant() {
-    let bench = Bench::new("scene_committed");
-    let folder = alberti_tests::root().join("scenes");
+    let bench = Sandbox::new("scene_committed");
+    let folder = alberti_tests::project_root().join("scenes");
     let entries = std::fs::read_dir(&folder).expect("the scenes");
     let paths = entries.map(|entry| entry.expect("an entry").path().display().to_string());
     let mut scenes: Vec<String> = paths.filter(|path| path.ends_with(".ron")).collect();
@@ -94,16 +94,19 @@ fn the_committed_scenes_are_laid_out_and_nothing_in_them_is_unmeant() {
 }
 
 /// A scene of a crate, one unit wide about the origin, and what is said of it.
-fn advised(bench: &Bench, rest: &str) -> (i32, String) {
-    bench.write("scene.ron", format!("Scene(\n  models: [(path: \"crate.glb\")],\n  {rest}\n)"));
+fn check_with_fields(bench: &Sandbox, rest: &str) -> (i32, String) {
+    bench.write_file(
+        "scene.ron",
+        format!("Scene(\n  models: [(path: \"crate.glb\")],\n  {rest}\n)"),
+    );
     let run = bench.run(&["scene", "check", "scene.ron"]);
     (run.code, run.stdout)
 }
 
 #[test]
-fn what_is_probably_not_meant_is_a_warning_with_its_place() {
-    let bench = Bench::new("scene_advice");
-    bench.bring("crate.glb");
+fn suspicious_values_are_warnings_with_their_location() {
+    let bench = Sandbox::new("scene_advice");
+    bench.copy_model("crate.glb");
     let away = "camera: (view: LookTo(eye: (0, 0.5, 6), gaze: (0, 0, 1)), projection: Perspective(near: 0.1, far: 100))";
     let cases = [
         (away, "nothing-visible", "3:11", "all of it is behind the eye"),
@@ -140,7 +143,7 @@ fn what_is_probably_not_meant_is_a_warning_with_its_place() {
         ("lights: []", "no-light", "3:11", "black"),
     ];
     for (rest, code, place, words) in cases {
-        let (exit, told) = advised(&bench, rest);
+        let (exit, told) = check_with_fields(&bench, rest);
         let head = format!("warning[{code}]: ");
         let pointed = place.is_empty() || told.contains(&format!("scene.ron:{place}\n"));
         assert!(exit == 0 && told.contains(&head), "{code}:\n{told}");
@@ -149,15 +152,15 @@ fn what_is_probably_not_meant_is_a_warning_with_its_place() {
     }
     for good in ["", "camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0)))", "style: Lines()"]
     {
-        assert!(!advised(&bench, good).1.contains("warning["), "{good}");
+        assert!(!check_with_fields(&bench, good).1.contains("warning["), "{good}");
     }
 }
 
 #[test]
 fn a_model_beside_the_picture_is_named() {
-    let bench = Bench::new("scene_advice_model");
-    bench.bring("crate.glb");
-    bench.write(
+    let bench = Sandbox::new("scene_advice_model");
+    bench.copy_model("crate.glb");
+    bench.write_file(
         "scene.ron",
         "Scene(\n  models: [(path: \"crate.glb\"), (path: \"crate.glb\", translate: (30, 0, -16))],\n  \
          camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0))),\n)",
@@ -177,31 +180,31 @@ fn a_model_beside_the_picture_is_named() {
 
 #[test]
 fn included_files_are_joined_and_mistakes_point_into_the_right_one() {
-    let bench = Bench::new("scene_include");
-    bench.bring("crate.glb");
-    std::fs::create_dir(bench.path("lib")).expect("a folder");
-    std::fs::copy(bench.path("crate.glb"), bench.path("lib/other.glb")).expect("a copy");
+    let bench = Sandbox::new("scene_include");
+    bench.copy_model("crate.glb");
+    std::fs::create_dir(bench.path_of("lib")).expect("a folder");
+    std::fs::copy(bench.path_of("crate.glb"), bench.path_of("lib/other.glb")).expect("a copy");
     let view = "camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0)))";
     let image = "image: (size: (24, 16), background: Color(\"#fff\"))";
-    bench.write(
+    bench.write_file(
         "lib/studio.ron",
         format!(
             "Scene(\n  include: \"paper.ron\",\n  models: [(path: \"other.glb\")],\n  {view},\n)"
         ),
     );
-    bench.write("lib/paper.ron", format!("Scene({image}, style: Flat)"));
+    bench.write_file("lib/paper.ron", format!("Scene({image}, style: Flat)"));
     let main = |rest: &str| {
         format!(
             "Scene(\n  include: [\"lib/studio.ron\"],\n  models: [(path: \"crate.glb\", translate: (1, 0, 0))],\n  {rest}\n)"
         )
     };
-    bench.write("scene.ron", main("style: Shaded"));
+    bench.write_file("scene.ron", main("style: Shaded"));
     let run = bench.run(&["render", "scene.ron", "-o", "out.png"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     let one = "models: [(path: \"lib/other.glb\"), (path: \"crate.glb\", translate: (1, 0, 0))]";
-    bench.write("one.ron", format!("Scene({one}, {view}, {image}, style: Shaded)"));
+    bench.write_file("one.ron", format!("Scene({one}, {view}, {image}, style: Shaded)"));
     assert_eq!(bench.run(&["render", "one.ron", "-o", "one.png"]).code, 0);
-    assert!(bench.picture("out.png") == bench.picture("one.png"));
+    assert!(bench.read_picture("out.png") == bench.read_picture("one.png"));
     // A mistake in each of the three.
     let cases = [
         (
@@ -214,10 +217,10 @@ fn included_files_are_joined_and_mistakes_point_into_the_right_one() {
         ("lib/paper.ron", "Scene(imag: ())".to_owned(), "lib/paper.ron:1:7"),
     ];
     for (name, text, place) in cases {
-        bench.write("lib/studio.ron", format!("Scene(include: \"paper.ron\", {view})"));
-        bench.write("lib/paper.ron", format!("Scene({image})"));
-        bench.write("scene.ron", main(""));
-        bench.write(name, text);
+        bench.write_file("lib/studio.ron", format!("Scene(include: \"paper.ron\", {view})"));
+        bench.write_file("lib/paper.ron", format!("Scene({image})"));
+        bench.write_file("scene.ron", main(""));
+        bench.write_file(name, text);
         for command in [&["render", "scene.ron"][..], &["scene", "check", "scene.ron"]] {
             let run = bench.run(command);
             let told = run.stdout + &run.stderr;
@@ -228,12 +231,12 @@ fn included_files_are_joined_and_mistakes_point_into_the_right_one() {
 
 #[test]
 fn includes_go_neither_in_circles_nor_astray() {
-    let bench = Bench::new("scene_include_refused");
-    bench.bring("crate.glb");
-    std::fs::create_dir(bench.path("in")).expect("a folder");
-    bench.write("outside.ron", "Scene(style: Flat)");
-    bench.write("in/a.ron", "Scene(\n  include: \"b.ron\",\n)");
-    bench.write("in/b.ron", "Scene(include: [\n  \"./a.ron\",\n])");
+    let bench = Sandbox::new("scene_include_refused");
+    bench.copy_model("crate.glb");
+    std::fs::create_dir(bench.path_of("in")).expect("a folder");
+    bench.write_file("outside.ron", "Scene(style: Flat)");
+    bench.write_file("in/a.ron", "Scene(\n  include: \"b.ron\",\n)");
+    bench.write_file("in/b.ron", "Scene(include: [\n  \"./a.ron\",\n])");
     let run = bench.run(&["scene", "check", "in/a.ron"]);
     assert_eq!(run.code, 1);
     for words in ["in/b.ron:2:3", "the file includes itself: in/a.ron → in/b.ron → in/./a.ron"]
@@ -245,12 +248,12 @@ fn includes_go_neither_in_circles_nor_astray() {
         ("no.ron", "cannot read"),
         ("/etc/hostname", "leads out of the scene's folder"),
     ] {
-        bench.write("in/c.ron", format!("Scene(\n  include: \"{path}\",\n)"));
+        bench.write_file("in/c.ron", format!("Scene(\n  include: \"{path}\",\n)"));
         let run = bench.run(&["render", "in/c.ron"]);
         let pointed = run.stderr.contains("in/c.ron:2:12") && run.stderr.contains(words);
         assert!(run.code == 1 && pointed, "{path}\n{}", run.stderr);
     }
-    bench.write(
+    bench.write_file(
         "in/d.ron",
         "Scene(include: \"../outside.ron\", models: [(path: \"../crate.glb\")])",
     );
@@ -261,9 +264,9 @@ fn includes_go_neither_in_circles_nor_astray() {
 
 #[test]
 fn a_misspelt_model_is_answered_with_the_one_beside_it() {
-    let bench = Bench::new("scene_namesake");
-    bench.bring("crate.glb");
-    bench.write("scene.ron", "Scene(models: [(path: \"crato.glb\")])");
+    let bench = Sandbox::new("scene_namesake");
+    bench.copy_model("crate.glb");
+    bench.write_file("scene.ron", "Scene(models: [(path: \"crato.glb\")])");
     let run = bench.run(&["render", "scene.ron"]);
     assert!(run.code == 1 && run.stderr.contains("did you mean `crate.glb`?"), "{}", run.stderr);
 }

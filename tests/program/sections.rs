@@ -1,20 +1,20 @@
 //! Cuts through models and tones under lines, as the program writes them.
 
-use crate::bench::Bench;
-use crate::drawings::{assert_near, read_svg, succeed, write_box};
-use crate::vectors::{Layers, Place, bounds, svg};
+use crate::drawings::{assert_near, assert_succeeds, read_drawing, write_box};
+use crate::sandbox::Sandbox;
+use crate::vector_files::{Layers, PagePoint, layer_bounds, parse_svg};
 
 /// The layers of a cut box of 100 × 50 × 30 mm.
 #[test]
 fn sections_cut_drawings_open() {
-    let bench = Bench::new("sections");
+    let bench = Sandbox::new("sections");
     write_box(&bench, "box", [0.1, 0.05, 0.03]);
     let layers = |flags: &[&str]| {
-        succeed(
+        assert_succeeds(
             &bench,
             &[&["render", "box.gltf", "-o", "out.svg", "--style", "lines"], flags].concat(),
         );
-        read_svg(&bench, "out.svg").1
+        read_drawing(&bench, "out.svg").1
     };
     assert!(layers(&[]).keys().all(|id| !id.contains("section") && !id.contains("hatching")));
     for flags in [
@@ -24,8 +24,8 @@ fn sections_cut_drawings_open() {
         &["--section=x=0.05", "--section=z=0.01", "--projection", "isometric"],
     ] {
         let layers = layers(flags);
-        let [low, high] = bounds(&layers, |id| id == "visible-section");
-        let [inner_low, inner_high] = bounds(&layers, |id| id == "visible-hatching");
+        let [low, high] = layer_bounds(&layers, |id| id == "visible-section");
+        let [inner_low, inner_high] = layer_bounds(&layers, |id| id == "visible-hatching");
         for axis in 0..2 {
             assert!(low[axis] - 0.001 <= inner_low[axis], "{flags:?}");
             assert!(inner_high[axis] <= high[axis] + 0.001, "{flags:?}");
@@ -38,8 +38,8 @@ fn sections_cut_drawings_open() {
 }
 
 #[test]
-fn sections_that_make_no_sense_are_told() {
-    let bench = Bench::new("bad_sections");
+fn invalid_sections_are_reported() {
+    let bench = Sandbox::new("bad_sections");
     write_box(&bench, "box", [0.1, 0.05, 0.03]);
     for wrong in ["x", "w=0", "x=nan", "1,2,3", "0,0,0,0,0,0"] {
         let run = bench.run(&["render", "box.gltf", "-o", "out.svg", "--section", wrong]);
@@ -57,7 +57,7 @@ fn sections_that_make_no_sense_are_told() {
         ("style: Lines(hatch_mm: 0.01)", "a distance from 0.1 to 1000 millimetres"),
         ("style: Lines(tone: Grey)", "Grey"),
     ] {
-        bench.write("wrong.ron", format!("Scene(models: [(path: \"box.gltf\")],\n{more})"));
+        bench.write_file("wrong.ron", format!("Scene(models: [(path: \"box.gltf\")],\n{more})"));
         let run = bench.run(&["render", "wrong.ron", "-o", "out.svg"]);
         assert!(run.code == 1 && run.stderr.contains(message), "{more}: {}", run.stderr);
     }
@@ -65,8 +65,8 @@ fn sections_that_make_no_sense_are_told() {
 
 #[test]
 fn open_surfaces_are_cut_without_a_cap_and_named() {
-    let bench = Bench::new("open_section");
-    bench.bring("teapot.glb");
+    let bench = Sandbox::new("open_section");
+    bench.copy_model("teapot.glb");
     let run = bench.run(&["render", "teapot.glb", "-o", "out.svg", "--section", "z=0"]);
     assert_eq!(run.code, 0);
     assert!(
@@ -74,22 +74,22 @@ fn open_surfaces_are_cut_without_a_cap_and_named() {
         "{}",
         run.stderr
     );
-    assert!(read_svg(&bench, "out.svg").1.contains_key("visible-section"));
+    assert!(read_drawing(&bench, "out.svg").1.contains_key("visible-section"));
 }
 
 /// The front view of a sheet is cut and named, the others show the whole thing and where the cut is.
 #[test]
 fn sheets_show_cuts_in_the_view_that_looks_onto_them() {
-    let bench = Bench::new("cut_sheet");
+    let bench = Sandbox::new("cut_sheet");
     write_box(&bench, "box", [0.1, 0.05, 0.03]);
     let flags = ["--section", "z=0.01", "--scale", "1:1"];
-    succeed(&bench, &[&["sheet", "box.gltf", "-o", "out.svg"][..], &flags].concat());
-    let (_, layers) = read_svg(&bench, "out.svg");
+    assert_succeeds(&bench, &[&["sheet", "box.gltf", "-o", "out.svg"][..], &flags].concat());
+    let (_, layers) = read_drawing(&bench, "out.svg");
     assert!(layers.contains_key("front-visible-hatching"));
     assert!(layers.contains_key("isometric-visible-hatching"));
     assert!(!layers.contains_key("top-visible-hatching"));
     // Whole from above: 30 mm deep; the cut 10 mm before the rear edge, from beyond one side to beyond the other.
-    let [low, high] = bounds(&layers, |id| id.starts_with("top-"));
+    let [low, high] = layer_bounds(&layers, |id| id.starts_with("top-"));
     assert_near(high[1] - low[1], 30.0);
     let along = layers["cut-lines"].iter().find(|line| line[0][1] == line[1][1]).expect("a line");
     assert_near(along[0][1] - low[1], 10.0);
@@ -104,17 +104,17 @@ fn sheets_show_cuts_in_the_view_that_looks_onto_them() {
 
 #[test]
 fn tones_lie_under_the_lines_in_all_formats() {
-    let bench = Bench::new("tones");
-    bench.bring("house.glb");
+    let bench = Sandbox::new("tones");
+    bench.copy_model("house.glb");
     let scene = |tone: &str| {
         let style = format!("style: Lines(tone: {tone}), image: (size: (320, 240))");
-        bench.write("scene.ron", format!("Scene(models: [(path: \"house.glb\")], {style})"));
+        bench.write_file("scene.ron", format!("Scene(models: [(path: \"house.glb\")], {style})"));
     };
     let drawn = |name: &str| {
-        succeed(&bench, &["render", "scene.ron", "-o", name, "--threads", "1"]);
-        let first = std::fs::read(bench.path(name)).expect("a drawing");
-        succeed(&bench, &["render", "scene.ron", "-o", name, "--threads", "3"]);
-        assert!(first == std::fs::read(bench.path(name)).expect("a drawing"), "{name}");
+        assert_succeeds(&bench, &["render", "scene.ron", "-o", name, "--threads", "1"]);
+        let first = std::fs::read(bench.path_of(name)).expect("a drawing");
+        assert_succeeds(&bench, &["render", "scene.ron", "-o", name, "--threads", "3"]);
+        assert!(first == std::fs::read(bench.path_of(name)).expect("a drawing"), "{name}");
         first
     };
     scene("Flat");
@@ -125,11 +125,11 @@ fn tones_lie_under_the_lines_in_all_formats() {
     assert!(pdf.contains("/XObject") && pdf.contains("/SMask"));
     let flat = drawn("out.png");
     scene("Hatching");
-    let (_, layers) = svg_of(&drawn("out.svg"));
+    let (_, layers) = read_svg_bytes(&drawn("out.svg"));
     assert!(layers["visible-hatching"].len() > 20);
     assert!(drawn("out.png") != flat);
 }
 
-fn svg_of(bytes: &[u8]) -> (Place, Layers) {
-    svg(std::str::from_utf8(bytes).expect("text"))
+fn read_svg_bytes(bytes: &[u8]) -> (PagePoint, Layers) {
+    parse_svg(std::str::from_utf8(bytes).expect("text"))
 }

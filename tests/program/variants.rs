@@ -1,57 +1,63 @@
 //! Variants and scenes: what a file offers, and what is asked of it.
 
-use crate::bench::Bench;
-use crate::document::Document;
+use crate::gltf_builder::GltfBuilder;
+use crate::sandbox::Sandbox;
 use serde_json::json;
 
 /// A file with a red square on the left; in the variant `blue` it is blue. Its second scene shows the square on the
 /// right too.
-fn offer(bench: &Bench) {
-    let mut document = Document::square();
-    let blue = document.unlit([0.0, 0.0, 1.0]);
+fn write_variants_model(bench: &Sandbox) {
+    let mut document = GltfBuilder::square();
+    let blue = document.add_unlit_material([0.0, 0.0, 1.0]);
     document.json["extensionsUsed"] = json!(["KHR_materials_unlit", "KHR_materials_variants"]);
     document.json["extensions"] =
         json!({"KHR_materials_variants": {"variants": [{"name": "red"}, {"name": "blue"}]}});
     let mappings = json!([{"material": 0, "variants": [0]}, {"material": blue, "variants": [1]}]);
     document.json["meshes"][0]["primitives"][0]["extensions"] =
         json!({"KHR_materials_variants": {"mappings": mappings}});
-    let right = document.push("/nodes", json!({"mesh": 0, "translation": [4, 0, 0]}));
-    document.push("/scenes", json!({"nodes": [0, right], "name": "both"}));
-    document.write(bench, "offer");
+    let right = document.push_item("/nodes", json!({"mesh": 0, "translation": [4, 0, 0]}));
+    document.push_item("/scenes", json!({"nodes": [0, right], "name": "both"}));
+    document.write_file(bench, "offer");
 }
 
 /// The colours that a picture shows, without the soft ones at edges.
-fn colors(bench: &Bench, arguments: &[&str]) -> Vec<[u8; 4]> {
+fn rendered_colors(bench: &Sandbox, arguments: &[&str]) -> Vec<[u8; 4]> {
     let usual = ["-o", "out.png", "--size", "40x20", "--view", "front", "--samples", "1"];
     let run = bench.run(&[arguments, &usual].concat());
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{arguments:?}");
-    let mut colors = bench.picture("out.png").2;
+    let mut colors = bench.read_picture("out.png").2;
     colors.sort_unstable();
     colors.dedup();
     colors
 }
 
-const NOTHING: [u8; 4] = [0; 4];
+const TRANSPARENT: [u8; 4] = [0; 4];
 const RED: [u8; 4] = [255, 0, 0, 255];
 const BLUE: [u8; 4] = [0, 0, 255, 255];
 
 #[test]
 fn a_variant_is_chosen_by_name_or_number() {
-    let bench = Bench::new("variants");
-    offer(&bench);
-    assert_eq!(colors(&bench, &["render", "offer.gltf"]), [NOTHING, RED]);
-    assert_eq!(colors(&bench, &["render", "offer.gltf", "--variant", "blue"]), [NOTHING, BLUE]);
-    assert_eq!(colors(&bench, &["render", "offer.gltf", "--variant", "0"]), [NOTHING, RED]);
+    let bench = Sandbox::new("variants");
+    write_variants_model(&bench);
+    assert_eq!(rendered_colors(&bench, &["render", "offer.gltf"]), [TRANSPARENT, RED]);
+    assert_eq!(
+        rendered_colors(&bench, &["render", "offer.gltf", "--variant", "blue"]),
+        [TRANSPARENT, BLUE]
+    );
+    assert_eq!(
+        rendered_colors(&bench, &["render", "offer.gltf", "--variant", "0"]),
+        [TRANSPARENT, RED]
+    );
     let models = "(path: \"offer.gltf\", variant: Name(\"blue\")), \
                   (path: \"offer.gltf\", translate: (0, 4, 0))";
-    bench.write("two.ron", format!("Scene(models: [{models}])"));
-    assert_eq!(colors(&bench, &["render", "two.ron"]), [NOTHING, BLUE, RED]);
+    bench.write_file("two.ron", format!("Scene(models: [{models}])"));
+    assert_eq!(rendered_colors(&bench, &["render", "two.ron"]), [TRANSPARENT, BLUE, RED]);
 }
 
 #[test]
 fn a_scene_is_chosen_by_name_or_number() {
-    let bench = Bench::new("scenes");
-    offer(&bench);
+    let bench = Sandbox::new("scenes");
+    write_variants_model(&bench);
     let width = |scene: &str| {
         let run = bench.run(&["info", "offer.gltf", "--json", "--scene", scene]);
         assert_eq!(run.code, 0, "{}", run.stderr);
@@ -60,18 +66,19 @@ fn a_scene_is_chosen_by_name_or_number() {
     };
     assert_eq!([width("0"), width("first")], [Some(1.0); 2]);
     assert_eq!([width("1"), width("both")], [Some(5.0); 2]);
-    bench.write("scene.ron", "Scene(models: [(path: \"offer.gltf\", scene: Index(1))])");
-    assert_eq!(colors(&bench, &["render", "scene.ron"]), [NOTHING, RED]);
-    let inked = |bench: &Bench| bench.picture("out.png").2.iter().filter(|p| p[3] > 0).count();
+    bench.write_file("scene.ron", "Scene(models: [(path: \"offer.gltf\", scene: Index(1))])");
+    assert_eq!(rendered_colors(&bench, &["render", "scene.ron"]), [TRANSPARENT, RED]);
+    let inked =
+        |bench: &Sandbox| bench.read_picture("out.png").2.iter().filter(|p| p[3] > 0).count();
     let both = inked(&bench);
-    colors(&bench, &["render", "scene.ron", "--scene", "0"]);
+    rendered_colors(&bench, &["render", "scene.ron", "--scene", "0"]);
     assert!(inked(&bench) > both, "the flag goes before the scene file: one square fills more");
 }
 
 #[test]
 fn what_the_file_does_not_offer_is_answered_with_what_it_does() {
-    let bench = Bench::new("no_such_variant");
-    offer(&bench);
+    let bench = Sandbox::new("no_such_variant");
+    write_variants_model(&bench);
     for (flag, wanted, offered) in [
         ("--variant", "green", "choose one of 0 `red`, 1 `blue`"),
         ("--variant", "2", "choose one of 0 `red`, 1 `blue`"),
@@ -84,7 +91,7 @@ fn what_the_file_does_not_offer_is_answered_with_what_it_does() {
             assert!(run.stderr.contains(&format!("`{wanted}`")), "{}", run.stderr);
         }
     }
-    bench.write(
+    bench.write_file(
         "scene.ron",
         "Scene(models: [\n  (path: \"offer.gltf\", variant: Name(\"green\")),\n])",
     );
@@ -92,7 +99,7 @@ fn what_the_file_does_not_offer_is_answered_with_what_it_does() {
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("scene.ron:2:33"), "{}", run.stderr);
     assert!(run.stderr.contains("choose one of 0 `red`, 1 `blue`"), "{}", run.stderr);
-    bench.bring("crate.glb");
+    bench.copy_model("crate.glb");
     let run = bench.run(&["render", "crate.glb", "--variant", "blue"]);
     assert!(run.stderr.contains("the file has no variants"), "{}", run.stderr);
 }

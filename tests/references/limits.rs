@@ -6,38 +6,38 @@ use std::path::Path;
 /// The largest `share` and `silhouette`.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Limits {
-    pub share: f64,
+    pub fraction_above: f64,
     pub silhouette: f64,
 }
 
 /// Models of core metallic-roughness, and unlit ones.
-const CORE: Limits = Limits { share: 0.010, silhouette: 0.002 };
+const CORE: Limits = Limits { fraction_above: 0.010, silhouette: 0.002 };
 /// Models with layers over the core, which renderers put together in their own ways.
-const LAYERED: Limits = Limits { share: 0.03, silhouette: 0.002 };
+const LAYERED_MATERIALS: Limits = Limits { fraction_above: 0.03, silhouette: 0.002 };
 /// The extensions that add such layers.
-const LAYERS: [&[u8]; 3] =
+const LAYER_EXTENSIONS: [&[u8]; 3] =
     [b"KHR_materials_clearcoat", b"KHR_materials_transmission", b"KHR_materials_sheen"];
 
 /// Where a reference is not what the specification says, and how far that leads; names are those of the references.
-const EXPLAINED: [(&str, Limits, &str); 1] = [(
+const EXCEPTIONS: [(&str, Limits, &str); 1] = [(
     "alpha-blend-mode-test",
-    Limits { share: 0.014, silhouette: 0.0022 },
+    Limits { fraction_above: 0.014, silhouette: 0.0022 },
     "(alpha counts in linear light, §3.9.4, and the reference blends sRGB codes: the pane of BLEND; its upper edge is 0.0075 \
      pixels above the centres of a row, and the reference rasterises in sixteenths of a pixel)",
 )];
 
 /// The limits of a reference, and why they are not the usual ones.
-pub fn limits(name: &str, model: &Path) -> (Limits, &'static str) {
-    if let Some((_, limits, why)) = EXPLAINED.iter().find(|(known, ..)| *known == name) {
+pub fn limits_for(name: &str, model: &Path) -> (Limits, &'static str) {
+    if let Some((_, limits, why)) = EXCEPTIONS.iter().find(|(known, ..)| *known == name) {
         return (*limits, why);
     }
     let bytes = std::fs::read(model).unwrap_or_default();
     let has = |name: &&[u8]| bytes.windows(name.len()).any(|window| window == *name);
-    (if LAYERS.iter().any(has) { LAYERED } else { CORE }, "")
+    (if LAYER_EXTENSIONS.iter().any(has) { LAYERED_MATERIALS } else { CORE }, "")
 }
 
 impl Limits {
-    pub fn hold(&self, score: &Score) -> bool {
-        score.share <= self.share && score.silhouette <= self.silhouette
+    pub fn allow(&self, score: &Score) -> bool {
+        score.fraction_above <= self.fraction_above && score.silhouette <= self.silhouette
     }
 }

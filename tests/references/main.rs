@@ -14,7 +14,7 @@ mod score;
 mod setup;
 
 use picture::Picture;
-use score::{Score, score};
+use score::{Score, score_picture};
 use setup::Setup;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -35,7 +35,7 @@ fn main() -> ExitCode {
             return ExitCode::SUCCESS;
         }
     }
-    match run(&references, &assets) {
+    match compare_references(&references, &assets) {
         Ok(0) => ExitCode::SUCCESS,
         Ok(_) => ExitCode::FAILURE,
         Err(error) => {
@@ -46,16 +46,16 @@ fn main() -> ExitCode {
 }
 
 /// Draws all pictures of a folder and prints their scores; returns how many are beyond their limits.
-fn run(references: &Path, assets: &Path) -> Result<usize, String> {
-    let program = alberti_tests::program()?;
+fn compare_references(references: &Path, assets: &Path) -> Result<usize, String> {
+    let program = alberti_tests::program_path()?;
     let output = program.with_file_name("references");
     std::fs::create_dir_all(&output).map_err(|error| error.to_string())?;
     let (mut passed, mut failed) = (0, 0);
-    for name in names(references)? {
+    for name in reference_names(references)? {
         let job = Job { program: &program, references, assets, output: &output, name: &name };
         match job.run() {
             Ok((score, limits, why)) => {
-                let holds = limits.hold(&score);
+                let holds = limits.allow(&score);
                 let verdict = if holds { "passed" } else { "FAILED" };
                 println!("{verdict} {name:28} {score} {why}");
                 if holds { passed += 1 } else { failed += 1 }
@@ -72,7 +72,7 @@ fn run(references: &Path, assets: &Path) -> Result<usize, String> {
 }
 
 /// The names of the references that are chosen.
-fn names(references: &Path) -> Result<Vec<String>, String> {
+fn reference_names(references: &Path) -> Result<Vec<String>, String> {
     let filters: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
     let chosen =
         |name: &str| filters.is_empty() || filters.iter().any(|f| name.contains(f.as_str()));
@@ -98,19 +98,19 @@ struct Job<'a> {
 impl Job<'_> {
     fn run(&self) -> Result<(Score, limits::Limits, &'static str), String> {
         let file = |ending: &str| self.references.join(format!("{}.{ending}", self.name));
-        let setup = Setup::read(&file("json"))?;
-        let reference = Picture::read(&file("png"))?;
+        let setup = Setup::read_json(&file("json"))?;
+        let reference = Picture::read_png(&file("png"))?;
         let full =
             |path: &Path| path.canonicalize().map_err(|e| format!("{}: {e}", path.display()));
         let model = full(&self.assets.join(&setup.model))?;
-        let ours = self.draw(&setup.scene(&model)?, &full(self.assets)?)?;
-        let score = score(&ours, &reference).ok_or("the sizes differ")?;
-        ours.beside(&reference).write(&self.output.join(format!("{}.png", self.name)))?;
-        let (limits, why) = limits::limits(self.name, &model);
+        let ours = self.render_scene(&setup.scene_source(&model)?, &full(self.assets)?)?;
+        let score = score_picture(&ours, &reference).ok_or("the sizes differ")?;
+        ours.side_by_side(&reference).write_png(&self.output.join(format!("{}.png", self.name)))?;
+        let (limits, why) = limits::limits_for(self.name, &model);
         Ok((score, limits, why))
     }
 
-    fn draw(&self, scene: &str, assets: &Path) -> Result<Picture, String> {
+    fn render_scene(&self, scene: &str, assets: &Path) -> Result<Picture, String> {
         let path = self.output.join(format!("{}.ron", self.name));
         let picture = self.output.join(format!("{}.ours.png", self.name));
         std::fs::write(&path, scene).map_err(|error| error.to_string())?;
@@ -120,6 +120,6 @@ impl Job<'_> {
         if !run.status.success() {
             return Err(String::from_utf8_lossy(&run.stderr).trim().to_owned());
         }
-        Picture::read(&picture)
+        Picture::read_png(&picture)
     }
 }

@@ -15,7 +15,7 @@ pub struct Picture {
 
 impl Picture {
     /// Reads a PNG; alpha is left out.
-    pub fn read(path: &Path) -> Result<Self, String> {
+    pub fn read_png(path: &Path) -> Result<Self, String> {
         let (width, height, pixels) = alberti_tests::read_png(path)?;
         Ok(Self {
             width,
@@ -25,7 +25,7 @@ impl Picture {
     }
 
     /// Writes a PNG.
-    pub fn write(&self, path: &Path) -> Result<(), String> {
+    pub fn write_png(&self, path: &Path) -> Result<(), String> {
         let with_path = |error: String| format!("{}: {error}", path.display());
         let file = File::create(path).map_err(|error| with_path(error.to_string()))?;
         let mut encoder = png::Encoder::new(BufWriter::new(file), self.width, self.height);
@@ -37,7 +37,7 @@ impl Picture {
     }
 
     /// Ours, theirs and what differs, side by side. Differences are grey, eight times as bright as they are.
-    pub fn beside(&self, theirs: &Self) -> Self {
+    pub fn side_by_side(&self, theirs: &Self) -> Self {
         let width = self.width as usize;
         let mut pixels = Vec::with_capacity(3 * self.pixels.len());
         for (ours, theirs) in self.pixels.chunks(width).zip(theirs.pixels.chunks(width)) {

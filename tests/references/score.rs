@@ -13,20 +13,20 @@ pub struct Score {
     /// The 95th percentile of the pixels' differences, each with its nearest neighbour.
     pub p95: f64,
     /// The share of pixels whose difference is above 8.
-    pub share: f64,
+    pub fraction_above: f64,
     /// The share of pixels that only one of the pictures covers. The colour of the background is that of the reference's
     /// upper left corner.
     pub silhouette: f64,
 }
 
 /// The score of a picture against its reference; `None` if their sizes differ.
-pub fn score(ours: &Picture, reference: &Picture) -> Option<Score> {
+pub fn score_picture(ours: &Picture, reference: &Picture) -> Option<Score> {
     if (ours.width, ours.height) != (reference.width, reference.height) {
         return None;
     }
     let count = ours.pixels.len();
-    let there = nearest(ours, reference);
-    let back = nearest(reference, ours);
+    let there = nearest_neighbor_steps(ours, reference);
+    let back = nearest_neighbor_steps(reference, ours);
     let mut differences: Vec<u8> = there.into_iter().zip(back).map(|(a, b)| a.max(b)).collect();
     let above = differences.iter().filter(|&&d| d > 8).count();
     differences.sort_unstable();
@@ -39,7 +39,7 @@ pub fn score(ours: &Picture, reference: &Picture) -> Option<Score> {
     Some(Score {
         mean: sum as f64 / (3 * count) as f64,
         p95: percentile(&differences, 0.95),
-        share: above as f64 / count as f64,
+        fraction_above: above as f64 / count as f64,
         silhouette: one_sided as f64 / count as f64,
     })
 }
@@ -51,7 +51,7 @@ pub fn largest_step(a: [u8; 3], b: [u8; 3]) -> u8 {
 
 /// For each pixel of `a` the least difference to one of the neighbours of its place in `b`. Beyond the border the border's
 /// pixels are repeated.
-fn nearest(a: &Picture, b: &Picture) -> Vec<u8> {
+fn nearest_neighbor_steps(a: &Picture, b: &Picture) -> Vec<u8> {
     let (width, height) = (a.width as usize, a.height as usize);
     let mut least = vec![255; width * height];
     for (at, least) in least.iter_mut().enumerate() {
@@ -74,7 +74,7 @@ fn percentile(sorted: &[u8], share: f64) -> f64 {
 }
 
 /// What `score.py` prints for the pairs below.
-const PRINTED: [&str; 3] = [
+const EXPECTED_SCORES: [&str; 3] = [
     "mean 0.0000 p95 0.0000 share 0.0000 silhouette 0.0000",
     "mean 31.5927 p95 0.0000 share 0.0104 silhouette 0.1250",
     "mean 25.0403 p95 52.0000 share 0.2397 silhouette 0.0000",
@@ -95,14 +95,15 @@ pub fn is_that_of_the_script() -> Result<(), String> {
         Picture { width, height, pixels: (0..width * height).map(pixel).collect() }
     };
     for (number, (ours, reference, printed)) in [
-        (made(64, 48, 0, 0), made(64, 48, 0, 0), PRINTED[0]),
-        (made(64, 48, 0, 0), made(64, 48, 0, 1), PRINTED[1]),
-        (made(37, 23, 2, 0), made(37, 23, 5, 0), PRINTED[2]),
+        (made(64, 48, 0, 0), made(64, 48, 0, 0), EXPECTED_SCORES[0]),
+        (made(64, 48, 0, 0), made(64, 48, 0, 1), EXPECTED_SCORES[1]),
+        (made(37, 23, 2, 0), made(37, 23, 5, 0), EXPECTED_SCORES[2]),
     ]
     .into_iter()
     .enumerate()
     {
-        let found = score(&ours, &reference).map_or_else(String::new, |score| score.to_string());
+        let found =
+            score_picture(&ours, &reference).map_or_else(String::new, |score| score.to_string());
         if found != printed {
             return Err(format!("pair {number}: score.py prints {printed}, we have {found}"));
         }
@@ -112,7 +113,7 @@ pub fn is_that_of_the_script() -> Result<(), String> {
 
 impl std::fmt::Display for Score {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { mean, p95, share, silhouette } = self;
+        let Self { mean, p95, fraction_above: share, silhouette } = self;
         write!(f, "mean {mean:.4} p95 {p95:.4} share {share:.4} silhouette {silhouette:.4}")
     }
 }

@@ -11,7 +11,7 @@ pub struct Setup {
 }
 
 impl Setup {
-    pub fn read(path: &Path) -> Result<Self, String> {
+    pub fn read_json(path: &Path) -> Result<Self, String> {
         let with_path = |error: String| format!("{}: {error}", path.display());
         let text = std::fs::read_to_string(path).map_err(|error| with_path(error.to_string()))?;
         let json: Value = serde_json::from_str(&text).map_err(|e| with_path(e.to_string()))?;
@@ -20,7 +20,7 @@ impl Setup {
     }
 
     /// The scene: one sample a pixel, the sun and the ambient light of the reference, and no other.
-    pub fn scene(&self, model: &Path) -> Result<String, String> {
+    pub fn scene_source(&self, model: &Path) -> Result<String, String> {
         let json = &self.json;
         let (camera, lights) = (&json["camera"], &json["lights"]);
         let number = |value: &Value| value.as_f64().ok_or(format!("{value} is no number"));

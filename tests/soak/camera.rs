@@ -4,8 +4,8 @@ use crate::finite::Finite;
 use crate::random::Random;
 use crate::subject::Subject;
 use camera::{
-    Attitude, Basis, Camera, CameraView, NamedView, Orbit, ParallelFraming, PixelGrid, Ray, Rays,
-    ScreenCorners, Slopes, StereoPair, StereoRig, Window, apex_moved, frame_oblique,
+    Basis, Camera, CameraView, NamedView, Orbit, Orientation, ParallelFraming, PixelGrid, Ray,
+    Rays, ScreenCorners, Slopes, StereoPair, StereoRig, Window, apex_moved_view, frame_oblique,
     frame_parallel, frame_perspective,
 };
 use homog::{Point, World};
@@ -35,15 +35,16 @@ pub const SUBJECTS: &[Subject] = &[
     ("camera::Camera::moved", |r| Some(look_to(r)?.moved(r.vector()).ok()?.finite())),
     ("camera::Attitude::basis", |r| {
         let [yaw, pitch, roll] = r.numbers();
-        let basis = Attitude { yaw, pitch, roll }.basis().ok()?;
-        let Attitude { yaw, pitch, roll } = Attitude::of(basis);
+        let basis = Orientation { yaw, pitch, roll }.basis().ok()?;
+        let Orientation { yaw, pitch, roll } = Orientation::from_basis(basis);
         Some(basis.finite() && [yaw, pitch, roll].finite())
     }),
     ("camera::Orbit::camera", |r| Some(orbit(r).camera().ok()?.finite())),
     ("camera::Orbit::of", |r| {
         let there = orbit(r);
         let camera = if r.coin() { there.camera().ok()? } else { look_to(r)? };
-        let Orbit { target, azimuth, elevation, distance } = Orbit::of(camera, there.target)?;
+        let Orbit { target, azimuth, elevation, distance } =
+            Orbit::from_camera(camera, there.target)?;
         Some((target, [azimuth, elevation, distance]).finite())
     }),
     ("camera::Orbit::turntable", |r| {
@@ -70,14 +71,14 @@ pub const SUBJECTS: &[Subject] = &[
         let projectors = r.vector();
         parallel(frame_oblique(points, basis(r)?, projectors, r.size(), padding(r)).ok()?)
     }),
-    ("camera::Window::at", |r| Some(window(r).at(r.size()).ok()?.finite())),
+    ("camera::Window::at", |r| Some(window(r).at_distance(r.size()).ok()?.finite())),
     ("camera::Window::slopes", |r| Some(numbers(window(r).slopes().ok()?).finite())),
-    ("camera::StereoRig::pair", |r| pair(rig(r).pair(look_to(r)?, window(r)).ok()?)),
+    ("camera::StereoRig::pair", |r| pair(rig(r).off_axis_pair(look_to(r)?, window(r)).ok()?)),
     ("camera::StereoRig::pair_apex_moved", |r| {
         pair(rig(r).pair_apex_moved(look_to(r)?, window(r)).ok()?)
     }),
     ("camera::StereoRig::parallax", |r| Some(rig(r).parallax(r.size()).ok()?.finite())),
-    ("camera::apex_moved", |r| Some(apex_moved(look_to(r)?, window(r)).ok()?.finite())),
+    ("camera::apex_moved", |r| Some(apex_moved_view(look_to(r)?, window(r)).ok()?.finite())),
     ("camera::ScreenCorners::view_from", |r| Some(screen(r).view_from(r.point()).ok()?.finite())),
     ("camera::Rays::perspective", |r| {
         let rays = Rays::perspective(look_to(r)?, window(r), grid(r)).ok()?;

@@ -5,7 +5,7 @@ use crate::random::Random;
 use crate::subject::Subject;
 use clip::{
     ClipVertex, Outcode, Outline, PlaneIndex, Volume, clip_convex, clip_point, clip_polyline,
-    clip_segment, clip_triangle, cut_triangle, segment_fates,
+    clip_segment, clip_triangle, cut_triangle, segment_outcomes,
 };
 use homog::{Clip, HPoint, Point, World};
 
@@ -20,38 +20,45 @@ pub const SUBJECTS: &[Subject] = &[
             let certain = distance.is_finite() && i <= PlaneIndex::FAR;
             !certain || code.contains(i) == (distance < 0.0)
         };
-        let right =
-            if finite { volume.present().planes().all(agrees) } else { code == volume.present() };
-        Some(right && volume.present().bits() | code.bits() == volume.present().bits())
+        let right = if finite {
+            volume.active_planes().planes().all(agrees)
+        } else {
+            code == volume.active_planes()
+        };
+        Some(right && volume.active_planes().bits() | code.bits() == volume.active_planes().bits())
     }),
     ("clip::Volume::contains", |r| volume(r).contains(r.hpoint()).then_some(true)),
     ("clip::Volume::with_plane", |r| {
         let volume = volume(r).with_plane(r.plane()).ok()?;
-        let planes: Vec<_> = volume.present().planes().map(|i| volume.plane(i)).collect();
+        let planes: Vec<_> = volume.active_planes().planes().map(|i| volume.plane(i)).collect();
         Some(planes.finite())
     }),
     ("clip::Volume::with_guard_band", |r| {
         let volume = Volume::CHAPTER.with_guard_band(r.size(), r.size()).ok()?;
-        let planes: Vec<_> = volume.present().planes().map(|i| volume.plane(i)).collect();
+        let planes: Vec<_> = volume.active_planes().planes().map(|i| volume.plane(i)).collect();
         Some(planes.finite())
     }),
     ("clip::Volume::outcodes", |r| {
         let points: [HPoint<Clip>; 4] = std::array::from_fn(|_| r.hpoint());
         let mut codes = [Outcode::INSIDE; 4];
-        let extent = volume(r).outcodes(&points, &mut codes);
-        Some(extent.count == 4 && extent.some.bits() & extent.all.bits() == extent.all.bits())
+        let extent = volume(r).compute_outcodes(&points, &mut codes);
+        Some(
+            extent.count == 4
+                && extent.any_outside.bits() & extent.all_outside.bits()
+                    == extent.all_outside.bits(),
+        )
     }),
     ("clip::Volume::project", |r| {
         let positions: [[f32; 3]; 2] = std::array::from_fn(|_| r.numbers().map(|x: f64| x as f32));
         let (mut points, mut codes) = ([HPoint::new(0.0, 0.0, 0.0, 0.0); 2], [Outcode::INSIDE; 2]);
         let map = r.projective::<World, Clip>();
-        Some(volume(r).project(map, &positions, &mut points, &mut codes).count == 2)
+        Some(volume(r).project_positions(map, &positions, &mut points, &mut codes).count == 2)
     }),
     ("clip::Volume::project_f32", |r| {
         let positions: [[f32; 3]; 2] = std::array::from_fn(|_| r.numbers().map(|x: f64| x as f32));
         let (mut points, mut codes) = ([[0.0; 4]; 2], [Outcode::INSIDE; 2]);
         let map = r.projective::<World, Clip>();
-        Some(volume(r).project_f32(map, &positions, &mut points, &mut codes).count == 2)
+        Some(volume(r).project_positions_f32(map, &positions, &mut points, &mut codes).count == 2)
     }),
     ("clip::clip_point", |r| Some(clip_point(r.hpoint(), &volume(r))?.finite())),
     ("clip::clip_segment", |r| {
@@ -59,7 +66,7 @@ pub const SUBJECTS: &[Subject] = &[
         Some((cut.start, cut.end, cut.t0, cut.t1).finite())
     }),
     ("clip::segment_fates", |r| {
-        let fates = segment_fates(r.hpoint(), r.hpoint(), &volume(r));
+        let fates = segment_outcomes(r.hpoint(), r.hpoint(), &volume(r));
         fates.rejected.is_inside().then_some(true)
     }),
     ("clip::clip_triangle", |r| {
@@ -87,7 +94,7 @@ pub const SUBJECTS: &[Subject] = &[
         (!left.vertices().is_empty()).then_some(finite && left.edge().finite())
     }),
     ("clip::Outline::of_edges", |r| {
-        let outline = Outline::of_edges(&edges(r));
+        let outline = Outline::from_edges(&edges(r));
         Some((outline.loops, outline.open).finite())
     }),
     ("clip::Outline::cap", |r| {
@@ -96,11 +103,11 @@ pub const SUBJECTS: &[Subject] = &[
         let sides = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
         let cuts = sides.map(|side| cut_triangle(side.map(|i: usize| corners[i]), plane).edge());
         let edges: Vec<_> = cuts.into_iter().flatten().collect();
-        let cap = Outline::of_edges(&edges).cap(plane);
+        let cap = Outline::from_edges(&edges).triangulate_cap(plane);
         (!cap.is_empty()).then(|| cap.finite())
     }),
     ("clip::Outline::cap of any edges", |r| {
-        let cap = Outline::of_edges(&edges(r)).cap(r.plane());
+        let cap = Outline::from_edges(&edges(r)).triangulate_cap(r.plane());
         (!cap.is_empty()).then(|| cap.finite())
     }),
 ];

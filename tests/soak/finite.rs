@@ -2,7 +2,7 @@
 
 use glam::DMat4;
 use homog::{
-    Affine, Bounds, HPoint, Hom1, Hom2, Homography, Line2, Meaning, Normal, Plane, Point,
+    Affine, Bounds, HLine2, HPoint, HPoint1, HPoint2, HPointKind, Homography, Normal, Plane, Point,
     Projective, Space, Vector,
 };
 
@@ -95,12 +95,12 @@ impl<S: Space> Finite for Bounds<S> {
     }
 }
 
-impl<S: Space> Finite for Meaning<S> {
+impl<S: Space> Finite for HPointKind<S> {
     fn finite(&self) -> bool {
         match self {
-            Self::Place(place) => place.is_finite(),
-            Self::Direction(direction) => direction.is_finite(),
-            Self::Nothing => true,
+            Self::Finite(place) => place.is_finite(),
+            Self::AtInfinity(direction) => direction.is_finite(),
+            Self::Invalid => true,
         }
     }
 }
@@ -129,19 +129,19 @@ impl Finite for Homography {
     }
 }
 
-impl Finite for Hom1 {
+impl Finite for HPoint1 {
     fn finite(&self) -> bool {
         (self.x, self.h).finite()
     }
 }
 
-impl Finite for Hom2 {
+impl Finite for HPoint2 {
     fn finite(&self) -> bool {
         self.raw().is_finite()
     }
 }
 
-impl Finite for Line2 {
+impl Finite for HLine2 {
     fn finite(&self) -> bool {
         self.raw().is_finite()
     }

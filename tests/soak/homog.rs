@@ -5,20 +5,20 @@ use crate::random::Random;
 use crate::subject::Subject;
 use glam::DVec3;
 use homog::{
-    Affine, Bounds, Clip, Foreshortening, Frame, Hom1, Hom2, Homography, Line2, Model, Projective,
-    Screen, View, World, perspective_weights, remap,
+    Affine, Bounds, Clip, CoordinateFrame, Foreshortening, HLine2, HPoint1, HPoint2, Homography,
+    Model, Projective, Screen, View, World, perspective_weights, remap_interval,
 };
 use std::fmt::Write;
 
 pub const SUBJECTS: &[Subject] = &[
     ("homog::HPoint::divide", |r| Some(r.hpoint::<Clip>().divide()?.finite())),
     ("homog::HPoint::meaning_within", |r| {
-        Some(r.hpoint::<Clip>().meaning_within(r.fraction()).finite())
+        Some(r.hpoint::<Clip>().kind_within(r.fraction()).finite())
     }),
     ("homog::HPoint::equivalent", |r| {
         r.hpoint::<Clip>().equivalent(r.hpoint(), r.fraction()).map(|_| true)
     }),
-    ("homog::Hom1::divide", |r| Some(Hom1::new(r.number(), r.number()).divide()?.finite())),
+    ("homog::Hom1::divide", |r| Some(HPoint1::new(r.number(), r.number()).divide()?.finite())),
     ("homog::Hom2::divide", |r| Some(hom2(r).divide()?.finite())),
     ("homog::Hom2::join", |r| Some(hom2(r).join(hom2(r))?.finite())),
     ("homog::Line2::meet", |r| Some(line(r).meet(line(r))?.finite())),
@@ -31,7 +31,9 @@ pub const SUBJECTS: &[Subject] = &[
     ("homog::Affine::from_quaternion", |r| {
         Some(Affine::<Model, World>::from_quaternion(r.numbers())?.finite())
     }),
-    ("homog::Affine::plane", |r| Some(r.affine::<Model, World>().plane(r.plane())?.finite())),
+    ("homog::Affine::plane", |r| {
+        Some(r.affine::<Model, World>().transform_plane(r.plane())?.finite())
+    }),
     ("homog::Affine::windowing", |r| {
         Some(Affine::<View, Clip>::windowing(r.points(), r.points()).ok()?.finite())
     }),
@@ -40,7 +42,9 @@ pub const SUBJECTS: &[Subject] = &[
         let report = r.projective::<View, Clip>().inverse_with_report().ok()?;
         Some((report.map, report.condition, report.residual).finite())
     }),
-    ("homog::Projective::plane", |r| Some(r.projective::<View, Clip>().plane(r.plane())?.finite())),
+    ("homog::Projective::plane", |r| {
+        Some(r.projective::<View, Clip>().transform_plane(r.plane())?.finite())
+    }),
     ("homog::Projective::to_affine", |r| {
         let matrix = r.affine::<View, Screen>().raw() * r.number();
         for entry in matrix.to_cols_array() {
@@ -62,7 +66,7 @@ pub const SUBJECTS: &[Subject] = &[
     }),
     ("homog::Projective::display", display),
     ("homog::Homography::inverse", |r| Some(homography(r).inverse()?.finite())),
-    ("homog::Homography::line", |r| Some(homography(r).line(line(r))?.finite())),
+    ("homog::Homography::line", |r| Some(homography(r).transform_line(line(r))?.finite())),
     ("homog::Homography::from_unit_square", |r| {
         let corners = std::array::from_fn(|_| r.numbers());
         Some(Homography::from_unit_square(corners)?.finite())
@@ -72,20 +76,24 @@ pub const SUBJECTS: &[Subject] = &[
             (std::array::from_fn(|_| r.numbers()), std::array::from_fn(|_| r.numbers()));
         Some(Homography::windowing(from, to).ok()?.finite())
     }),
-    ("homog::remap", |r| Some(remap(r.number(), r.numbers(), r.numbers()).ok()?.finite())),
+    ("homog::remap", |r| Some(remap_interval(r.number(), r.numbers(), r.numbers()).ok()?.finite())),
     ("homog::Frame::new", |r| {
         let axes = [r.vector(), r.vector(), r.vector()];
-        let frame = Frame::<World>::new(r.point(), axes).ok()?;
-        Some((frame.place::<Model>(), frame.coordinates::<Model>()).finite())
+        let frame = CoordinateFrame::<World>::new(r.point(), axes).ok()?;
+        Some((frame.local_to_parent::<Model>(), frame.parent_to_local::<Model>()).finite())
     }),
-    ("homog::Bounds::of", |r| Some(Bounds::<World>::of(r.points::<_, 4>())?.finite())),
-    ("homog::Foreshortening::image", |r| Some(foreshortening(r)?.image(r.number())?.finite())),
-    ("homog::Foreshortening::source", |r| Some(foreshortening(r)?.source(r.number())?.finite())),
+    ("homog::Bounds::of", |r| Some(Bounds::<World>::from_points(r.points::<_, 4>())?.finite())),
+    ("homog::Foreshortening::image", |r| {
+        Some(foreshortening(r)?.image_parameter(r.number())?.finite())
+    }),
+    ("homog::Foreshortening::source", |r| {
+        Some(foreshortening(r)?.source_parameter(r.number())?.finite())
+    }),
     ("homog::Foreshortening::derivative", |r| {
         Some(foreshortening(r)?.derivative(r.number())?.finite())
     }),
     ("homog::Foreshortening::attribute", |r| {
-        Some(foreshortening(r)?.attribute(r.number(), r.number(), r.number())?.finite())
+        Some(foreshortening(r)?.interpolate_attribute(r.number(), r.number(), r.number())?.finite())
     }),
     ("homog::Foreshortening on its segment", on_the_segment),
     ("homog::perspective_weights", |r| {
@@ -93,12 +101,12 @@ pub const SUBJECTS: &[Subject] = &[
     }),
 ];
 
-fn hom2(r: &mut Random) -> Hom2 {
-    Hom2::from_raw(DVec3::from(r.numbers()))
+fn hom2(r: &mut Random) -> HPoint2 {
+    HPoint2::from_raw(DVec3::from(r.numbers()))
 }
 
-fn line(r: &mut Random) -> Line2 {
-    Line2::from_raw(DVec3::from(r.numbers()))
+fn line(r: &mut Random) -> HLine2 {
+    HLine2::from_raw(DVec3::from(r.numbers()))
 }
 
 fn homography(r: &mut Random) -> Homography {
@@ -116,7 +124,7 @@ fn on_the_segment(r: &mut Random) -> Option<bool> {
         return None;
     }
     let inside = |s: Option<f64>| s.is_some_and(|s| (0.0..=1.0).contains(&s));
-    Some(inside(f.image(t)) && inside(f.source(t)))
+    Some(inside(f.image_parameter(t)) && inside(f.source_parameter(t)))
 }
 
 /// A matrix of any numbers can be shown.

@@ -6,16 +6,16 @@ use crate::subject::Subject;
 use homog::{Clip, Projective, View};
 use projection::{
     ApexMovedFrustum, Axonometric, Classical, ConstructedPerspective, Convention, Decomposed,
-    DepthCurve, DepthFormat, Film, FourAngles, Fov, Frustum, Handedness, Jitter, Misprint, NPoint,
-    NdcY, Oblique, Orthographic, Perspective, Planometric, PrincipalView, ProjectionError,
-    Projector, Tile, VanishingPoint, ViewVolume, Wanted, Window, api, chapter, decompose,
-    misprint_of, oblique_near_plane, opening_angle_of, principal_vanishing_points, readings,
-    symptoms, third_row, vanishing_point,
+    DepthCurve, DepthFormat, FourAngles, Fov, Frustum, Handedness, IntendedProjection, Jitter,
+    Misprint, NPoint, NdcY, Oblique, Orthographic, Perspective, Planometric, PrincipalView,
+    ProjectionError, Projector, SensorSize, VanishingPoint, ViewOffset, ViewVolume, Window, api,
+    chapter, decompose, misprint_of, oblique_near_plane, opening_angle_of,
+    principal_vanishing_points, readings, symptoms, third_row, vanishing_point,
 };
 
 pub const SUBJECTS: &[Subject] = &[
     ("projection::Window::new", |r| Some(any_window(r)?.finite())),
-    ("projection::Window::centred", |r| Some(Window::centred(r.size(), r.size()).ok()?.finite())),
+    ("projection::Window::centred", |r| Some(Window::centered(r.size(), r.size()).ok()?.finite())),
     ("projection::Frustum::new", |r| {
         let ([l, rt, b, t], [near, far]) = (r.numbers(), r.near_and_any_far());
         frustum_is_finite(Frustum::new(l, rt, b, t, near, far).ok()?, r)
@@ -44,7 +44,7 @@ pub const SUBJECTS: &[Subject] = &[
         Some(angles.finite() && maps.finite())
     }),
     ("projection::Perspective::try_from", |r| {
-        let (window, [near, far]) = (Window::centred(r.size(), r.size()), r.near_and_any_far());
+        let (window, [near, far]) = (Window::centered(r.size(), r.size()), r.near_and_any_far());
         let centred = Frustum::from_window(window.ok()?, near, far).ok()?;
         Some(Perspective::try_from(centred).ok()?.view_to_clip(convention(r)).finite())
     }),
@@ -68,14 +68,18 @@ pub const SUBJECTS: &[Subject] = &[
         let [near, far] = r.near_and_any_far();
         frustum_is_finite(FourAngles { left, right, down, up }.frustum(near, far).ok()?, r)
     }),
-    ("projection::Perspective::tile", |r| frustum_is_finite(any_lens(r)?.tile(tile(r)).ok()?, r)),
+    ("projection::Perspective::tile", |r| {
+        frustum_is_finite(any_lens(r)?.view_offset(tile(r)).ok()?, r)
+    }),
     ("projection::Perspective::shifted", |r| {
         frustum_is_finite(any_lens(r)?.shifted(r.number(), r.number()).ok()?, r)
     }),
     ("projection::Perspective::jittered", |r| {
         frustum_is_finite(any_lens(r)?.jittered(jitter(r)).ok()?, r)
     }),
-    ("projection::Frustum::tile", |r| frustum_is_finite(any_frustum(r)?.tile(tile(r)).ok()?, r)),
+    ("projection::Frustum::tile", |r| {
+        frustum_is_finite(any_frustum(r)?.view_offset(tile(r)).ok()?, r)
+    }),
     ("projection::Frustum::shifted", |r| {
         frustum_is_finite(any_frustum(r)?.shifted(r.number(), r.number()).ok()?, r)
     }),
@@ -83,7 +87,7 @@ pub const SUBJECTS: &[Subject] = &[
         frustum_is_finite(any_frustum(r)?.jittered(jitter(r)).ok()?, r)
     }),
     ("projection::Orthographic::tile", |r| {
-        Some(any_box(r)?.tile(tile(r)).ok()?.view_to_clip(convention(r)).finite())
+        Some(any_box(r)?.view_offset(tile(r)).ok()?.view_to_clip(convention(r)).finite())
     }),
     ("projection::Orthographic::shifted", |r| {
         let moved = any_box(r)?.shifted(r.number(), r.number()).ok()?;
@@ -138,11 +142,11 @@ pub const SUBJECTS: &[Subject] = &[
     ("projection::PrincipalView", |r| classical(Ok(r.pick(&PrincipalView::ALL)), r)),
     ("projection::Projector::from_eye", |r| {
         let projector = Projector::<View>::from_eye(r.point(), r.plane()).ok()?;
-        Some((projector.onto_plane(), projector.depth_kept()).finite())
+        Some((projector.onto_plane(), projector.depth_preserving()).finite())
     }),
     ("projection::Projector::along", |r| {
         let projector = Projector::<View>::along(r.vector(), r.plane()).ok()?;
-        Some((projector.onto_plane(), projector.depth_kept()).finite())
+        Some((projector.onto_plane(), projector.depth_preserving()).finite())
     }),
     ("projection::ConstructedPerspective::one_point", |r| {
         constructed(ConstructedPerspective::one_point(pair(r), r.size()), r)
@@ -205,8 +209,8 @@ pub const SUBJECTS: &[Subject] = &[
         Some(found.all(|symptom| symptom.remedied.finite()))
     }),
     ("projection::misprint_of", |r| {
-        let wanted = Wanted::Frustum(any_frustum(r)?);
-        let matrix = r.pick(&Misprint::ALL).printed(wanted)?;
+        let wanted = IntendedProjection::Frustum(any_frustum(r)?);
+        let matrix = r.pick(&Misprint::ALL).misprinted_matrix(wanted)?;
         misprint_of(matrix, wanted).map(|_| matrix.finite())
     }),
     ("projection::chapter::p", |r| two(r, chapter::p)),
@@ -245,7 +249,7 @@ type Matrix = Made<Projective<View, Clip>>;
 impl Finite for Window {
     fn finite(&self) -> bool {
         let sides = [self.left(), self.right(), self.bottom(), self.top()];
-        (sides, [self.width(), self.height()], self.centre()).finite()
+        (sides, [self.width(), self.height()], self.center()).finite()
     }
 }
 
@@ -289,17 +293,17 @@ fn any_lens(r: &mut Random) -> Option<Perspective> {
         0 => Fov::Vertical(r.opening()),
         1 => Fov::Horizontal(r.opening()),
         2 => Fov::Diagonal(r.opening()),
-        3 => Fov::FocalLength { focal: r.size(), film: Film::Height(r.size()) },
-        4 => Fov::FocalLength { focal: r.size(), film: Film::Width(r.size()) },
-        _ => Fov::FocalLength { focal: r.size(), film: Film::Diagonal(r.size()) },
+        3 => Fov::FocalLength { focal: r.size(), film: SensorSize::Height(r.size()) },
+        4 => Fov::FocalLength { focal: r.size(), film: SensorSize::Width(r.size()) },
+        _ => Fov::FocalLength { focal: r.size(), film: SensorSize::Diagonal(r.size()) },
     };
     let (aspect, [near, far]) = (r.size(), r.near_and_any_far());
     Perspective::new(fov, aspect, near, far).ok()
 }
 
-fn tile(r: &mut Random) -> Tile {
+fn tile(r: &mut Random) -> ViewOffset {
     let [full, size] = [(r.size(), r.size()), (r.size(), r.size())];
-    Tile { full, corner: pair(r), size }
+    ViewOffset { full, corner: pair(r), size }
 }
 
 fn jitter(r: &mut Random) -> Jitter {
@@ -315,7 +319,7 @@ fn frustum_is_finite(frustum: Frustum, r: &mut Random) -> Option<bool> {
 /// All matrices of a classical projection, and of a picture of it.
 fn classical(made: Made<impl Into<Classical>>, r: &mut Random) -> Option<bool> {
     let made = made.ok()?.into();
-    let matrices = (made.onto_plane(), made.depth_kept(), made.depth_kept_inverse());
+    let matrices = (made.onto_plane(), made.depth_preserving(), made.depth_preserving_inverse());
     let (volume, c) = (any_box(r), convention(r));
     let picture = volume.map(|volume| (made.view_to_clip(volume, c), made.clip_to_view(volume, c)));
     Some((matrices, picture).finite())
@@ -355,12 +359,12 @@ fn decomposed(matrix: glam::DMat4, r: &mut Random) -> Option<bool> {
         }
         Decomposed::Orthographic(volume) => volume.view_to_clip(c).finite(),
         Decomposed::Classical { projection, volume } => {
-            (projection.depth_kept(), volume.view_to_clip(c)).finite()
+            (projection.depth_preserving(), volume.view_to_clip(c)).finite()
         }
         Decomposed::PlacedOrthographic { placement, volume } => {
             (placement, volume.view_to_clip(c)).finite()
         }
-        Decomposed::NPoint(projection) => projection.depth_kept().finite(),
+        Decomposed::NPoint(projection) => projection.depth_preserving().finite(),
         Decomposed::Flat { centre, projection } => {
             (centre, projection.map(Classical::onto_plane)).finite()
         }

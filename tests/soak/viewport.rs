@@ -5,23 +5,23 @@ use crate::random::Random;
 use crate::subject::Subject;
 use homog::{Clip, View};
 use viewport::{
-    DepthRange, DrawingScale, Fit, Grid, Limits, Paper, PixelConvention, Ray, Rectangle,
+    DepthRange, DrawingScale, FitPolicy, Limits, Paper, PixelConvention, PointGrid, Ray, Rectangle,
     Resolution, Tile, Viewport, WindowToViewport, tiles,
 };
 
 pub const SUBJECTS: &[Subject] = &[
     ("viewport::Rectangle::new", |r| Some(any_rectangle(r)?.finite())),
     ("viewport::Rectangle::of_size", |r| {
-        Some(Rectangle::of_size(r.size(), r.size()).ok()?.finite())
+        Some(Rectangle::from_size(r.size(), r.size()).ok()?.finite())
     }),
-    ("viewport::Rectangle::shrunk", |r| Some(any_rectangle(r)?.shrunk(r.number()).ok()?.finite())),
+    ("viewport::Rectangle::shrunk", |r| Some(any_rectangle(r)?.shrink(r.number()).ok()?.finite())),
     ("viewport::Rectangle::inset", |r| {
         let [x, y] = [r.fraction(), r.fraction()];
-        Some(any_rectangle(r)?.inset(r.fraction(), [x, y]).ok()?.finite())
+        Some(any_rectangle(r)?.inset_rectangle(r.fraction(), [x, y]).ok()?.finite())
     }),
-    ("viewport::Rectangle::snapped", |r| Some(any_rectangle(r)?.snapped().ok()?.finite())),
+    ("viewport::Rectangle::snapped", |r| Some(any_rectangle(r)?.snap_to_pixels().ok()?.finite())),
     ("viewport::Rectangle::grid", |r| {
-        let mut cells = any_rectangle(r)?.grid(r.count(), r.count(), r.number()).ok()?;
+        let mut cells = any_rectangle(r)?.split_grid(r.count(), r.count(), r.number()).ok()?;
         Some(cells.by_ref().take(4).all(|cell| cell.finite()))
     }),
     ("viewport::Viewport::new", |r| {
@@ -47,11 +47,12 @@ pub const SUBJECTS: &[Subject] = &[
     }),
     ("viewport::Unprojector::point", |r| {
         let unprojector = any_viewport(r)?.unprojector::<View>(r.projective::<Clip, View>());
-        Some(unprojector.point(r.point())?.finite())
+        Some(unprojector.unproject_point(r.point())?.finite())
     }),
     ("viewport::Unprojector::ray", |r| {
         let unprojector = any_viewport(r)?.unprojector::<View>(r.projective::<Clip, View>());
-        let Ray { origin, direction, near, far } = unprojector.ray(r.numbers(), r.numbers())?;
+        let Ray { origin, direction, near, far } =
+            unprojector.pick_ray(r.numbers(), r.numbers())?;
         Some((origin, direction, near, far).finite())
     }),
     ("viewport::tiles", |r| {
@@ -71,36 +72,38 @@ pub const SUBJECTS: &[Subject] = &[
     }),
     ("viewport::PixelConvention::to", |r| {
         let [from, to] = [r.pick(&PixelConvention::ALL), r.pick(&PixelConvention::ALL)];
-        Some(from.to(to, r.size()).ok()?.finite())
+        Some(from.convert_to(to, r.size()).ok()?.finite())
     }),
     ("viewport::Fit::place", |r| {
         let alignment = [r.fraction(), r.fraction()];
-        Some(fit(r).place([r.size(), r.size()], any_rectangle(r)?, alignment).ok()?.finite())
+        Some(
+            fit(r).place_picture([r.size(), r.size()], any_rectangle(r)?, alignment).ok()?.finite(),
+        )
     }),
     ("viewport::Fit::window", |r| {
-        Some(fit(r).window([r.size(), r.size()], any_rectangle(r)?).ok()?.finite())
+        Some(fit(r).fit_window([r.size(), r.size()], any_rectangle(r)?).ok()?.finite())
     }),
     ("viewport::Grid::new", |r| {
         let [rows, columns] = [r.count() as usize, r.count() as usize];
-        let grid = Grid::new(rows, columns).ok()?;
+        let grid = PointGrid::new(rows, columns).ok()?;
         let ends = [grid.xz(0, 0), grid.xz(rows - 1, columns - 1), grid.points().nth(1)];
         Some(ends.finite() && grid.xz(rows, 0).is_none())
     }),
     ("viewport::WindowToViewport::new", |r| {
         let map = WindowToViewport::new(limits(r), limits(r)).ok()?;
-        let [to_origin, scale, to_place] = map.chain();
+        let [to_origin, scale, to_place] = map.factor_chain();
         let chain = (to_origin, scale, to_place);
-        Some((map.factors(), map.homography(), map.inverse().homography(), chain).finite())
+        Some((map.scale_factors(), map.homography(), map.inverse().homography(), chain).finite())
     }),
     ("viewport::Resolution::rectangle", |r| {
         let resolution = Resolution::dots_per_inch(r.size()).ok()?;
-        Some(resolution.rectangle(any_rectangle(r)?).ok()?.finite())
+        Some(resolution.to_pixel_rectangle(any_rectangle(r)?).ok()?.finite())
     }),
     ("viewport::Paper::pixels", |r| {
         let paper = Paper::new(r.size(), r.size()).ok()?;
         let resolution = Resolution::dots_per_inch(r.size()).ok()?;
-        paper.pixels(resolution)?;
-        Some(paper.turned().area().finite())
+        paper.pixel_size(resolution)?;
+        Some(paper.rotated().to_rectangle().finite())
     }),
     ("viewport::DrawingScale::new", |r| {
         Some(DrawingScale::new(r.count(), r.count()).ok()?.ratio().finite())
@@ -114,7 +117,7 @@ pub const SUBJECTS: &[Subject] = &[
 impl Finite for Rectangle {
     fn finite(&self) -> bool {
         let far = [self.x() + self.width(), self.y() + self.height()];
-        ([self.x(), self.y(), self.width(), self.height()], far, self.centre()).finite()
+        ([self.x(), self.y(), self.width(), self.height()], far, self.center()).finite()
     }
 }
 
@@ -130,8 +133,14 @@ fn any_viewport(r: &mut Random) -> Option<Viewport> {
     Some(Viewport::new(any_rectangle(r)?, r.pick(&PixelConvention::ALL), depth))
 }
 
-fn fit(r: &mut Random) -> Fit {
-    r.pick(&[Fit::Stretch, Fit::Contain, Fit::Cover, Fit::FixedWidth, Fit::FixedHeight])
+fn fit(r: &mut Random) -> FitPolicy {
+    r.pick(&[
+        FitPolicy::Stretch,
+        FitPolicy::Contain,
+        FitPolicy::Cover,
+        FitPolicy::FixedWidth,
+        FitPolicy::FixedHeight,
+    ])
 }
 
 fn limits(r: &mut Random) -> Limits {

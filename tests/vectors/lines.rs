@@ -1,43 +1,43 @@
 //! What faces hide of edges (HL-1).
 
 use crate::Runner;
-use crate::numbers::{list, number, numbers, pairs};
+use crate::numbers::{parse_array, parse_number, parse_numbers, zip_arrays};
 use camera::Camera;
 use camera::ViewProjection;
-use drawing::{Obstacles, Sight, Tolerance};
+use drawing::{Occluders, Projector, Tolerance};
 use homog::{Point, Vector, World};
 use projection::{Convention, Frustum, Orthographic};
 use serde_json::Value;
 use viewport::Viewport;
 
 /// One per file.
-pub const RUNNERS: &[(&str, Runner)] = &[("hidden_lines", hidden)];
+pub const RUNNERS: &[(&str, Runner)] = &[("hidden_lines", check_hidden_lines)];
 
 /// The README's tolerance, in t.
 const TOLERANCE: f64 = 1e-9;
 
-fn hidden(input: &Value, out: &Value) -> Result<(), String> {
-    let sight = Sight::new(
-        &view_projection(input)?,
-        &Viewport::image(SIDE, SIDE).map_err(|e| e.to_string())?,
+fn check_hidden_lines(input: &Value, out: &Value) -> Result<(), String> {
+    let sight = Projector::new(
+        &parse_view_projection(input)?,
+        &Viewport::image(IMAGE_SIDE, IMAGE_SIDE).map_err(|e| e.to_string())?,
     );
-    let triangles: Vec<[Point<World>; 3]> = list(&input["triangles"])?
+    let triangles: Vec<[Point<World>; 3]> = parse_array(&input["triangles"])?
         .iter()
         .map(|triangle| {
-            let [a, b, c, d, e, f, g, h, i] = numbers::<9>(triangle)?;
+            let [a, b, c, d, e, f, g, h, i] = parse_numbers::<9>(triangle)?;
             Ok([[a, b, c], [d, e, f], [g, h, i]].map(Point::from))
         })
         .collect::<Result<_, String>>()?;
-    let tolerance = Tolerance { screen: 1e-4, world: 1e-10, shortest: 1e-7 };
-    let obstacles = Obstacles::new(triangles, sight, tolerance);
-    for (number, (edge, visible)) in pairs(&input["edges"], &out["visible"])?.enumerate() {
-        let [a, b, c, d, e, f] = numbers::<6>(edge)?;
-        let parts = obstacles.parts([[a, b, c], [d, e, f]].map(Point::from));
+    let tolerance = Tolerance { screen: 1e-4, world: 1e-10, min_part: 1e-7 };
+    let obstacles = Occluders::new(triangles, sight, tolerance);
+    for (number, (edge, visible)) in zip_arrays(&input["edges"], &out["visible"])?.enumerate() {
+        let [a, b, c, d, e, f] = parse_numbers::<6>(edge)?;
+        let parts = obstacles.edge_parts([[a, b, c], [d, e, f]].map(Point::from));
         if out["fragile"][number] == true {
             continue;
         }
         let judge = |name: &str, ours: &[[f64; 2]], theirs: &Value| {
-            same(ours, theirs).map_err(|why| format!("edge {number}: {name} {why}"))
+            compare_intervals(ours, theirs).map_err(|why| format!("edge {number}: {name} {why}"))
         };
         judge("visible", &parts.visible, visible)?;
         judge("hidden", &parts.hidden, &out["hidden"][number])?;
@@ -46,29 +46,36 @@ fn hidden(input: &Value, out: &Value) -> Result<(), String> {
 }
 
 /// The side of the picture in pixels. Tolerances are measured in them.
-const SIDE: u32 = 1 << 20;
+const IMAGE_SIDE: u32 = 1 << 20;
 
 /// The window's half, at distance 1: what is beyond the picture's sides would be cut away, which the vectors do not.
-const WIDE: f64 = 4096.0;
+const HALF_WINDOW: f64 = 4096.0;
 
-fn view_projection(input: &Value) -> Result<ViewProjection, String> {
+fn parse_view_projection(input: &Value) -> Result<ViewProjection, String> {
     let up = |gaze: Vector<World>| {
         if gaze.x() == 0.0 && gaze.z() == 0.0 { Vector::Z } else { Vector::Y }
     };
     let view_projection = if let Some(direction) = input.get("direction") {
-        let gaze: Vector<World> = numbers::<3>(direction)?.into();
+        let gaze: Vector<World> = parse_numbers::<3>(direction)?.into();
         let camera = Camera::look_to(Point::ORIGIN, gaze, up(gaze)).map_err(|e| e.to_string())?;
-        let window = Orthographic::new(-WIDE, WIDE, -WIDE, WIDE, -WIDE, WIDE);
+        let window = Orthographic::new(
+            -HALF_WINDOW,
+            HALF_WINDOW,
+            -HALF_WINDOW,
+            HALF_WINDOW,
+            -HALF_WINDOW,
+            HALF_WINDOW,
+        );
         let window = window.map_err(|e| e.to_string())?;
         ViewProjection { camera, view_to_clip: window.view_to_clip(Convention::CHAPTER) }
     } else {
-        let eye: Point<World> = numbers::<3>(&input["eye"])?.into();
+        let eye: Point<World> = parse_numbers::<3>(&input["eye"])?.into();
         let gaze = match input.get("gaze") {
-            Some(gaze) => numbers::<3>(gaze)?.into(),
+            Some(gaze) => parse_numbers::<3>(gaze)?.into(),
             None => Point::ORIGIN - eye,
         };
-        let near = input.get("near").map_or(Ok(1.0 / 64.0), number)?;
-        let side = near * WIDE;
+        let near = input.get("near").map_or(Ok(1.0 / 64.0), parse_number)?;
+        let side = near * HALF_WINDOW;
         let camera = Camera::look_to(eye, gaze, up(gaze)).map_err(|e| e.to_string())?;
         let frustum = Frustum::new(-side, side, -side, side, near, 1024.0);
         let frustum = frustum.map_err(|e| e.to_string())?;
@@ -77,8 +84,9 @@ fn view_projection(input: &Value) -> Result<ViewProjection, String> {
     Ok(view_projection)
 }
 
-fn same(ours: &[[f64; 2]], theirs: &Value) -> Result<(), String> {
-    let theirs = list(theirs)?.iter().map(numbers::<2>).collect::<Result<Vec<_>, _>>()?;
+fn compare_intervals(ours: &[[f64; 2]], theirs: &Value) -> Result<(), String> {
+    let theirs =
+        parse_array(theirs)?.iter().map(parse_numbers::<2>).collect::<Result<Vec<_>, _>>()?;
     let close = |(a, b): (&[f64; 2], &[f64; 2])| (0..2).all(|i| (a[i] - b[i]).abs() <= TOLERANCE);
     if ours.len() == theirs.len() && ours.iter().zip(&theirs).all(close) {
         return Ok(());

@@ -45,7 +45,7 @@ const RUNNERS: &[&[(&str, Runner)]] = &[
 const PENDING: &[(&str, &str)] = &[];
 
 /// How many failing cases of a file are printed in full.
-const SHOWN: usize = 5;
+const MAX_PRINTED_FAILURES: usize = 5;
 
 #[derive(Default)]
 struct Tally {
@@ -59,7 +59,7 @@ fn main() -> ExitCode {
     let chosen = std::env::var_os("VECTORS").map(PathBuf::from);
     let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/vectors");
     let folder = chosen.as_deref().unwrap_or(&beside);
-    let files = match files(folder) {
+    let files = match vector_files(folder) {
         Ok(files) => files,
         Err(_) if chosen.is_none() => {
             println!("SKIPPED vectors: the folder {} was not found", folder.display());
@@ -72,25 +72,25 @@ fn main() -> ExitCode {
         }
     };
     // A filter may be meant for another test program.
-    if files.is_empty() && filters().is_empty() {
+    if files.is_empty() && name_filters().is_empty() {
         println!("FAILED vectors: there are no such files in {}", folder.display());
         return ExitCode::FAILURE;
     }
-    report(&files)
+    run_files(&files)
 }
 
 /// The arguments that choose files.
-fn filters() -> Vec<String> {
+fn name_filters() -> Vec<String> {
     std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect()
 }
 
 /// The JSON files of the folder that the arguments choose, in order.
-fn files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
-    let filters = filters();
+fn vector_files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+    let filters = name_filters();
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder)? {
         let path = entry?.path();
-        let name = stem(&path);
+        let name = file_stem(&path);
         let wanted = filters.is_empty() || filters.iter().any(|filter| name.contains(filter));
         if wanted && path.extension().is_some_and(|extension| extension == "json") {
             files.push(path);
@@ -100,15 +100,15 @@ fn files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-fn stem(path: &Path) -> String {
+fn file_stem(path: &Path) -> String {
     path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-fn report(files: &[PathBuf]) -> ExitCode {
+fn run_files(files: &[PathBuf]) -> ExitCode {
     let mut total = Tally::default();
     for path in files {
-        let name = stem(path);
-        let tally = run(path, &name);
+        let name = file_stem(path);
+        let tally = run_file(path, &name);
         total.passed += tally.passed;
         total.failed += tally.failed;
         total.fragile += tally.fragile;
@@ -128,10 +128,10 @@ fn report(files: &[PathBuf]) -> ExitCode {
 }
 
 /// Runs the cases of one file and prints its line.
-fn run(path: &Path, name: &str) -> Tally {
-    let cases = match cases(path) {
+fn run_file(path: &Path, name: &str) -> Tally {
+    let cases = match parse_cases(path) {
         Ok(cases) => cases,
-        Err(error) => return broken(name, &error),
+        Err(error) => return broken_file(name, &error),
     };
     let runner = RUNNERS.iter().copied().flatten().find(|(topic, _)| *topic == name);
     if let Some((_, runner)) = runner {
@@ -141,15 +141,15 @@ fn run(path: &Path, name: &str) -> Tally {
         println!("{name:26} {:4} cases   pending: {reason}", cases.len());
         return Tally { pending: cases.len(), ..Tally::default() };
     }
-    broken(name, "there is no runner for this file")
+    broken_file(name, "there is no runner for this file")
 }
 
-fn broken(name: &str, error: &str) -> Tally {
+fn broken_file(name: &str, error: &str) -> Tally {
     println!("{name:26} FAILED: {error}");
     Tally { failed: 1, ..Tally::default() }
 }
 
-fn cases(path: &Path) -> Result<Vec<Value>, String> {
+fn parse_cases(path: &Path) -> Result<Vec<Value>, String> {
     let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
     let mut file: Value = serde_json::from_str(&text).map_err(|error| error.to_string())?;
     match file["cases"].take() {
@@ -163,33 +163,33 @@ fn run_cases(name: &str, cases: &[Value], runner: Runner) -> Tally {
     let mut failures = Vec::new();
     for (index, case) in cases.iter().enumerate() {
         let fragile = [case, &case["in"], &case["out"]].iter().any(|part| part["fragile"] == true);
-        match judge(case, runner) {
+        match judge_case(case, runner) {
             Ok(Ok(())) if !fragile => tally.passed += 1,
             Ok(_) if fragile => tally.fragile += 1,
             Ok(Ok(())) => {}
             Ok(Err(difference)) | Err(difference) => {
                 tally.failed += 1;
-                failures.push(format!("  {name} case {index}{}: {difference}", note(case)));
+                failures.push(format!("  {name} case {index}{}: {difference}", case_note(case)));
             }
         }
     }
     let Tally { passed, failed, fragile, .. } = tally;
     println!("{name:26} {passed:4} passed {failed:4} failed {fragile:4} fragile");
-    for failure in failures.iter().take(SHOWN) {
+    for failure in failures.iter().take(MAX_PRINTED_FAILURES) {
         println!("{failure}");
     }
-    if failures.len() > SHOWN {
-        println!("  {name}: and {} more", failures.len() - SHOWN);
+    if failures.len() > MAX_PRINTED_FAILURES {
+        println!("  {name}: and {} more", failures.len() - MAX_PRINTED_FAILURES);
     }
     tally
 }
 
 /// The runner's judgement; the outer error is a panic, which is a failure even where the answer is not judged.
-fn judge(case: &Value, runner: Runner) -> Result<Result<(), String>, String> {
+fn judge_case(case: &Value, runner: Runner) -> Result<Result<(), String>, String> {
     catch_unwind(AssertUnwindSafe(|| runner(&case["in"], &case["out"])))
         .map_err(|_| "it panicked, see above".to_owned())
 }
 
-fn note(case: &Value) -> String {
+fn case_note(case: &Value) -> String {
     case["note"].as_str().map(|note| format!(" ({note})")).unwrap_or_default()
 }

@@ -8,7 +8,7 @@ use std::fmt::Display;
 pub const TOLERANCE: f64 = 1e-12;
 
 /// A number; `"NaN"`, `"inf"` and `"-inf"` are strings in the files, for JSON has no such numbers.
-pub fn number(value: &Value) -> Result<f64, String> {
+pub fn parse_number(value: &Value) -> Result<f64, String> {
     match value {
         Value::String(name) if ["NaN", "inf", "-inf"].contains(&name.as_str()) => {
             name.parse().map_err(|error| format!("{name}: {error}"))
@@ -18,32 +18,32 @@ pub fn number(value: &Value) -> Result<f64, String> {
 }
 
 /// The number in the field `name`.
-pub fn field(object: &Value, name: &str) -> Result<f64, String> {
-    number(&object[name]).map_err(|error| format!("{name}: {error}"))
+pub fn number_field(object: &Value, name: &str) -> Result<f64, String> {
+    parse_number(&object[name]).map_err(|error| format!("{name}: {error}"))
 }
 
 /// The whole number in the field `name`, as a count.
-pub fn count(object: &Value, name: &str) -> Result<u32, String> {
+pub fn count_field(object: &Value, name: &str) -> Result<u32, String> {
     let count = object[name].as_u64().and_then(|count| count.try_into().ok());
     count.ok_or_else(|| format!("{name}: {} is not a count", object[name]))
 }
 
 /// The text in the field `name`.
-pub fn text<'a>(object: &'a Value, name: &str) -> Result<&'a str, String> {
+pub fn text_field<'a>(object: &'a Value, name: &str) -> Result<&'a str, String> {
     object[name].as_str().ok_or_else(|| format!("{name}: {} is not text", object[name]))
 }
 
 /// The items of a list.
-pub fn list(value: &Value) -> Result<&[Value], String> {
+pub fn parse_array(value: &Value) -> Result<&[Value], String> {
     value.as_array().map(Vec::as_slice).ok_or_else(|| format!("{value} is not a list"))
 }
 
 /// The items of two lists of the same length, side by side.
-pub fn pairs<'a>(
+pub fn zip_arrays<'a>(
     ours: &'a Value,
     theirs: &'a Value,
 ) -> Result<impl Iterator<Item = (&'a Value, &'a Value)>, String> {
-    let (ours, theirs) = (list(ours)?, list(theirs)?);
+    let (ours, theirs) = (parse_array(ours)?, parse_array(theirs)?);
     if ours.len() != theirs.len() {
         return Err(format!("the case has {} inputs but {} outputs", ours.len(), theirs.len()));
     }
@@ -51,31 +51,32 @@ pub fn pairs<'a>(
 }
 
 /// A list of exactly `N` numbers.
-pub fn numbers<const N: usize>(value: &Value) -> Result<[f64; N], String> {
-    let numbers = list(value)?.iter().map(number).collect::<Result<Vec<_>, _>>()?;
+pub fn parse_numbers<const N: usize>(value: &Value) -> Result<[f64; N], String> {
+    let numbers = parse_array(value)?.iter().map(parse_number).collect::<Result<Vec<_>, _>>()?;
     numbers.try_into().map_err(|_| format!("{value} is not a list of {N} numbers"))
 }
 
 /// A point or vector (x, y, z).
-pub fn point(value: &Value) -> Result<[f64; 3], String> {
-    numbers(value)
+pub fn parse_point(value: &Value) -> Result<[f64; 3], String> {
+    parse_numbers(value)
 }
 
 /// A homogeneous point (x, y, z, w).
-pub fn point4(value: &Value) -> Result<[f64; 4], String> {
-    numbers(value)
+pub fn parse_point4(value: &Value) -> Result<[f64; 4], String> {
+    parse_numbers(value)
 }
 
 /// A 4×4 matrix, a list of rows.
-pub fn matrix(value: &Value) -> Result<DMat4, String> {
-    let rows: Vec<[f64; 4]> = list(value)?.iter().map(numbers).collect::<Result<_, _>>()?;
+pub fn parse_matrix(value: &Value) -> Result<DMat4, String> {
+    let rows: Vec<[f64; 4]> =
+        parse_array(value)?.iter().map(parse_numbers).collect::<Result<_, _>>()?;
     let rows: [[f64; 4]; 4] =
         rows.try_into().map_err(|_| format!("{value} is not a list of four rows"))?;
     Ok(DMat4::from_cols_array_2d(&rows).transpose())
 }
 
 /// Ours against theirs: |ours − theirs| ≤ tolerance · max(1, |theirs|).
-pub fn close(name: &str, ours: f64, theirs: f64, tolerance: f64) -> Result<(), String> {
+pub fn assert_close(name: &str, ours: f64, theirs: f64, tolerance: f64) -> Result<(), String> {
     let allowed = tolerance * theirs.abs().max(1.0);
     if (ours - theirs).abs() <= allowed {
         return Ok(());
@@ -84,26 +85,36 @@ pub fn close(name: &str, ours: f64, theirs: f64, tolerance: f64) -> Result<(), S
 }
 
 /// Ours against theirs, number by number.
-pub fn close_all(name: &str, ours: &[f64], theirs: &[f64], tolerance: f64) -> Result<(), String> {
+pub fn assert_all_close(
+    name: &str,
+    ours: &[f64],
+    theirs: &[f64],
+    tolerance: f64,
+) -> Result<(), String> {
     if ours.len() != theirs.len() {
         return Err(format!("{name} has {} numbers, not {}", ours.len(), theirs.len()));
     }
     let mut pairs = ours.iter().zip(theirs).enumerate();
-    pairs.try_for_each(|(i, (&a, &b))| close(&format!("{name}[{i}]"), a, b, tolerance))
+    pairs.try_for_each(|(i, (&a, &b))| assert_close(&format!("{name}[{i}]"), a, b, tolerance))
 }
 
 /// Ours against theirs, entry by entry.
-pub fn close_matrix(name: &str, ours: DMat4, theirs: DMat4, tolerance: f64) -> Result<(), String> {
+pub fn assert_matrix_close(
+    name: &str,
+    ours: DMat4,
+    theirs: DMat4,
+    tolerance: f64,
+) -> Result<(), String> {
     for row in 0..4 {
         let [a, b]: [DVec4; 2] = [ours.row(row), theirs.row(row)];
-        close_all(&format!("{name}[{row}]"), &a.to_array(), &b.to_array(), tolerance)?;
+        assert_all_close(&format!("{name}[{row}]"), &a.to_array(), &b.to_array(), tolerance)?;
     }
     Ok(())
 }
 
 /// Judges a result against an expectation that may be a refusal (`{"error": …}`, whatever its code): `check` sees what
 /// was built if it had to be built.
-pub fn judge<T, E: Display>(
+pub fn compare_outcome<T, E: Display>(
     ours: Result<T, E>,
     out: &Value,
     check: impl FnOnce(T) -> Result<(), String>,

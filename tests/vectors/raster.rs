@@ -3,43 +3,43 @@
 //! Coverage must agree sample by sample. Depth and weights are kept in f32 on purpose, so they are judged with
 //! the precision that f32 has.
 
-use crate::numbers::{close, number};
+use crate::numbers::{assert_close, parse_number};
 use homog::{Point, Screen};
-use raster::{Cover, Frame, Samples, ScreenVertex};
+use raster::{Frame, Opacity, Samples, ScreenVertex};
 use serde_json::Value;
 use viewport::PixelConvention;
 
 pub const RUNNERS: &[(&str, crate::Runner)] =
-    &[("raster_coverage", coverage), ("raster_attributes", attributes)];
+    &[("raster_coverage", check_coverage), ("raster_attributes", check_attributes)];
 
 /// A few units in the last place of f32, for values of about 1.
-const SINGLE: f64 = 4e-6;
+const SINGLE_PRECISION_TOLERANCE: f64 = 4e-6;
 
-fn coverage(input: &Value, out: &Value) -> Result<(), String> {
-    let image = Image::of(input)?;
-    let triangles = list(&input["triangles"])?;
-    let expected = list(&out["pixels"])?;
+fn check_coverage(input: &Value, out: &Value) -> Result<(), String> {
+    let image = TestImage::from_input(input)?;
+    let triangles = parse_array(&input["triangles"])?;
+    let expected = parse_array(&out["pixels"])?;
     let mut hits = vec![0_usize; image.width as usize * image.height as usize];
     for (number, (triangle, expected)) in triangles.iter().zip(expected).enumerate() {
-        let corners = list(triangle)?;
-        let corner = |k: usize| image.vertex(&corners[k][0], &corners[k][1], 0.5, 1.0);
-        let mut frame = image.frame()?;
-        frame.triangle([corner(0)?, corner(1)?, corner(2)?], 0, Cover::Solid);
-        let mut found = Vec::new();
-        for (at, id) in frame.visibility().ids.iter().enumerate() {
+        let corners = parse_array(triangle)?;
+        let corner = |k: usize| image.parse_vertex(&corners[k][0], &corners[k][1], 0.5, 1.0);
+        let mut frame = image.new_frame()?;
+        frame.add_triangle([corner(0)?, corner(1)?, corner(2)?], 0, Opacity::Opaque);
+        let mut actual = Vec::new();
+        for (at, id) in frame.visibility_buffer().ids.iter().enumerate() {
             if id.is_some() {
                 hits[at] += 1;
-                found.push(image.pixel(at));
+                actual.push(image.pixel_at(at));
             }
         }
-        found.sort_unstable_by_key(|&[x, y]| (y, x));
-        let expected: Vec<[i64; 2]> = list(expected)?
+        actual.sort_unstable_by_key(|&[x, y]| (y, x));
+        let expected: Vec<[i64; 2]> = parse_array(expected)?
             .iter()
             .map(|p| Some([p[0].as_i64()?, p[1].as_i64()?]))
             .collect::<Option<_>>()
             .ok_or("a pixel is not a pair of whole numbers")?;
-        if found != expected {
-            return Err(format!("triangle {number} covers {found:?}, not {expected:?}"));
+        if actual != expected {
+            return Err(format!("triangle {number} covers {actual:?}, not {expected:?}"));
         }
     }
     let covered = hits.iter().filter(|&&hits| hits > 0).count() as u64;
@@ -52,60 +52,77 @@ fn coverage(input: &Value, out: &Value) -> Result<(), String> {
     Ok(())
 }
 
-fn attributes(input: &Value, out: &Value) -> Result<(), String> {
-    let image = Image::of(input)?;
-    let vertices = list(&input["vertices"])?;
+fn check_attributes(input: &Value, out: &Value) -> Result<(), String> {
+    let image = TestImage::from_input(input)?;
+    let vertices = parse_array(&input["vertices"])?;
     let vertex = |k: usize| {
         let v = &vertices[k];
-        image.vertex(&v["x"], &v["y"], number(&v["z"])?, number(&v["w"])?)
+        image.parse_vertex(&v["x"], &v["y"], parse_number(&v["z"])?, parse_number(&v["w"])?)
     };
-    let mut frame = image.frame()?;
-    frame.triangle([vertex(0)?, vertex(1)?, vertex(2)?], 0, Cover::Solid);
-    let depth = frame.visibility().depth;
+    let mut frame = image.new_frame()?;
+    frame.add_triangle([vertex(0)?, vertex(1)?, vertex(2)?], 0, Opacity::Opaque);
+    let depth = frame.visibility_buffer().depth;
     let mut fragments = Vec::new();
-    frame.fragments(|f| fragments.push(Seen { x: f.x, y: f.y, weights: f.weights }));
-    let pixels = list(&out["pixels"])?;
+    frame.for_each_fragment(|f| {
+        fragments.push(CoveredFragment { x: f.x, y: f.y, weights: f.weights })
+    });
+    let pixels = parse_array(&out["pixels"])?;
     if pixels.len() != fragments.len() {
         return Err(format!("{} pixels are covered, not {}", fragments.len(), pixels.len()));
     }
     for pixel in pixels {
         let place = [pixel["x"].as_i64(), pixel["y"].as_i64()];
-        let at = |f: &Seen| (f.y * image.width + f.x) as usize;
+        let at = |f: &CoveredFragment| (f.y * image.width + f.x) as usize;
         let fragment = fragments
             .iter()
-            .find(|f| image.pixel(at(f)).map(Some) == place)
+            .find(|f| image.pixel_at(at(f)).map(Some) == place)
             .ok_or_else(|| format!("pixel {place:?} is not covered"))?;
-        close("z", f64::from(depth[at(fragment)]), number(&pixel["z"])?, SINGLE)?;
-        for (k, share) in list(&pixel["bary_persp"])?.iter().enumerate() {
-            close("share", f64::from(fragment.weights[k]), number(share)?, SINGLE)?;
+        assert_close(
+            "z",
+            f64::from(depth[at(fragment)]),
+            parse_number(&pixel["z"])?,
+            SINGLE_PRECISION_TOLERANCE,
+        )?;
+        for (k, share) in parse_array(&pixel["bary_persp"])?.iter().enumerate() {
+            assert_close(
+                "share",
+                f64::from(fragment.weights[k]),
+                parse_number(share)?,
+                SINGLE_PRECISION_TOLERANCE,
+            )?;
         }
-        for (k, expected) in list(&pixel["attr"])?.iter().enumerate() {
-            let value = |v: usize| number(&vertices[v]["attr"][k]);
+        for (k, expected) in parse_array(&pixel["attr"])?.iter().enumerate() {
+            let value = |v: usize| parse_number(&vertices[v]["attr"][k]);
             let sum = [value(0)?, value(1)?, value(2)?];
             let ours: f64 = (0..3).map(|v| sum[v] * f64::from(fragment.weights[v])).sum();
             let size = sum.iter().fold(1.0, |size: f64, value| size.max(value.abs()));
-            close("attribute", ours, number(expected)?, SINGLE * size)?;
+            assert_close(
+                "attribute",
+                ours,
+                parse_number(expected)?,
+                SINGLE_PRECISION_TOLERANCE * size,
+            )?;
         }
     }
     Ok(())
 }
 
 /// What is kept of a fragment.
-struct Seen {
+struct CoveredFragment {
     x: u32,
     y: u32,
     weights: [f32; 3],
 }
 
 /// The size of a picture and the convention its pixels are named in.
-struct Image {
+struct TestImage {
     width: u32,
     height: u32,
     convention: PixelConvention,
 }
 
-impl Image {
-    fn of(input: &Value) -> Result<Self, String> {
+impl TestImage {
+    fn from_input(input: &Value) -> Result<Self, String> {
         let side = |name: &str| {
             let side = input[name].as_u64().and_then(|side| u32::try_from(side).ok());
             side.ok_or_else(|| format!("`{name}` is not a number of pixels"))
@@ -120,20 +137,30 @@ impl Image {
         Ok(Self { width: side("width")?, height: side("height")?, convention })
     }
 
-    fn frame(&self) -> Result<Frame, String> {
+    fn new_frame(&self) -> Result<Frame, String> {
         Frame::new(self.width, self.height, Samples::One).map_err(|error| error.to_string())
     }
 
-    fn vertex(&self, x: &Value, y: &Value, depth: f64, w: f64) -> Result<ScreenVertex, String> {
+    fn parse_vertex(
+        &self,
+        x: &Value,
+        y: &Value,
+        depth: f64,
+        w: f64,
+    ) -> Result<ScreenVertex, String> {
         let height = f64::from(self.height);
-        let to_image = self.convention.to(PixelConvention::IMAGE, height);
+        let to_image = self.convention.convert_to(PixelConvention::IMAGE, height);
         let to_image = to_image.map_err(|error| error.to_string())?;
-        let place = to_image.point(Point::<Screen>::new(number(x)?, number(y)?, depth));
+        let place = to_image.transform_point(Point::<Screen>::new(
+            parse_number(x)?,
+            parse_number(y)?,
+            depth,
+        ));
         ScreenVertex::snap(place, w).ok_or_else(|| format!("({x}, {y}) cannot be drawn"))
     }
 
     /// The pixel's name in the convention of the file: its column and its row, from the top or from the bottom.
-    fn pixel(&self, at: usize) -> [i64; 2] {
+    fn pixel_at(&self, at: usize) -> [i64; 2] {
         let (width, height) = (i64::from(self.width), i64::from(self.height));
         let (x, y) = (at as i64 % width, at as i64 / width);
         let counts_up = matches!(self.convention.y, viewport::YAxis::Up);
@@ -141,6 +168,6 @@ impl Image {
     }
 }
 
-fn list(value: &Value) -> Result<&Vec<Value>, String> {
+fn parse_array(value: &Value) -> Result<&Vec<Value>, String> {
     value.as_array().ok_or_else(|| format!("{value} is no list"))
 }

@@ -13,20 +13,20 @@ mod instructions;
 mod raster;
 
 use crate::Outcome;
-use crate::program::{cargo, watch};
+use crate::program::{cargo_command, run_visibly};
 
-pub fn run(arguments: &[String]) -> Outcome {
+pub fn run_bench(arguments: &[String]) -> Outcome {
     match arguments.split_first() {
-        None => maths(&[]).and_then(|()| raster::run(&[])),
-        Some((part, rest)) if part == "maths" => maths(rest),
-        Some((part, rest)) if part == "raster" => raster::run(rest),
-        Some((part, rest)) if part == "--instructions" => instructions::run(rest),
+        None => bench_maths(&[]).and_then(|()| raster::bench_raster(&[])),
+        Some((part, rest)) if part == "maths" => bench_maths(rest),
+        Some((part, rest)) if part == "raster" => raster::bench_raster(rest),
+        Some((part, rest)) if part == "--instructions" => instructions::run_instructions(rest),
         Some((flag, _)) if flag.starts_with('-') => Err(format!("unknown flag `{flag}`")),
-        Some(_) => maths(arguments),
+        Some(_) => bench_maths(arguments),
     }
 }
 
-fn maths(names: &[String]) -> Outcome {
+fn bench_maths(names: &[String]) -> Outcome {
     let call = ["bench", "--quiet", "--package", "alberti-tests", "--bench", "bench", "--"];
-    watch(cargo(&call).args(names))
+    run_visibly(cargo_command(&call).args(names))
 }

@@ -11,14 +11,14 @@ mod vectors;
 
 use crate::Outcome;
 use crate::tidy::{Source, rust_files};
-use crate::workspace::{read, root};
+use crate::workspace::{project_root, read_text};
 use scan::Test;
 use std::fs;
 use vectors::VECTORS;
 
-const TABLE: &str = "tests/CONFORMANCE.md";
+const TABLE_PATH: &str = "tests/CONFORMANCE.md";
 
-pub fn run(arguments: &[String]) -> Outcome {
+pub fn run_conformance(arguments: &[String]) -> Outcome {
     let check = match arguments {
         [] => false,
         [flag] if flag == "--check" => true,
@@ -28,25 +28,26 @@ pub fn run(arguments: &[String]) -> Outcome {
     // The tests of this tool prove nothing about the mathematics, and hold samples of tests.
     let of_crates = sources.iter().filter(|source| !source.path.starts_with("xtask/"));
     let tests: Vec<Test> =
-        of_crates.flat_map(|source| scan::tests(&source.path, &source.text)).collect();
-    let document = table::document(&tests);
-    let path = root().join(TABLE);
-    let mut faults = [missing(&tests), unknown(&tests), vectors_without_runner(&sources)].concat();
+        of_crates.flat_map(|source| scan::scan_tests(&source.path, &source.text)).collect();
+    let document = table::conformance_document(&tests);
+    let path = project_root().join(TABLE_PATH);
+    let mut faults =
+        [missing_items(&tests), unknown_items(&tests), vectors_without_runner(&sources)].concat();
     if !check {
-        fs::write(&path, &document).map_err(|error| format!("{TABLE}: {error}"))?;
-    } else if read(&path).ok().as_ref() != Some(&document) {
-        faults.push(format!("{TABLE} is stale: run `cargo xtask conformance`"));
+        fs::write(&path, &document).map_err(|error| format!("{TABLE_PATH}: {error}"))?;
+    } else if read_text(&path).ok().as_ref() != Some(&document) {
+        faults.push(format!("{TABLE_PATH} is stale: run `cargo xtask conformance`"));
     }
     if faults.is_empty() {
-        println!("{}", summary(&tests));
+        println!("{}", coverage_summary(&tests));
         return Ok(());
     }
     Err(format!("{} faults\n  {}", faults.len(), faults.join("\n  ")))
 }
 
 /// Items without a test in a crate that answers for them and is complete.
-fn missing(tests: &[Test]) -> Vec<String> {
-    let lines = items::all().flat_map(|item| {
+fn missing_items(tests: &[Test]) -> Vec<String> {
+    let lines = items::all_items().flat_map(|item| {
         let missing = item.complete_owners().filter(|owner| !table::has_test(item, owner, tests));
         missing.map(|owner| format!("{owner} has no test of {}: {}", item.id, item.title))
     });
@@ -54,9 +55,9 @@ fn missing(tests: &[Test]) -> Vec<String> {
 }
 
 /// Tests that name what there is not.
-fn unknown(tests: &[Test]) -> Vec<String> {
+fn unknown_items(tests: &[Test]) -> Vec<String> {
     let lines = tests.iter().flat_map(|test| {
-        let strange = test.ids.iter().filter(|id| items::all().all(|item| item.id != **id));
+        let strange = test.ids.iter().filter(|id| items::all_items().all(|item| item.id != **id));
         strange.map(|id| format!("{}: `{}` names {id}, which is no item", test.path, test.name))
     });
     lines.collect()
@@ -70,11 +71,11 @@ fn vectors_without_runner(sources: &[Source]) -> Vec<String> {
     strange.map(|(name, _)| format!("no runner in tests/vectors is for {name}")).collect()
 }
 
-fn summary(tests: &[Test]) -> String {
+fn coverage_summary(tests: &[Test]) -> String {
     let naming = tests.iter().filter(|test| !test.ids.is_empty()).count();
-    let all = items::all().count();
+    let all = items::all_items().count();
     let proved =
         |item: &&items::Item| item.owners.iter().all(|owner| table::has_test(item, owner, tests));
-    let proved = items::all().filter(proved).count();
+    let proved = items::all_items().filter(proved).count();
     format!("{naming} tests name items; {proved} of {all} items are proved by every owner")
 }

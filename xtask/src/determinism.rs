@@ -7,31 +7,31 @@
 
 use crate::Outcome;
 use crate::program::{Build, Program};
-use crate::workspace::{Scene, make_folder, scenes, target};
+use crate::workspace::{Scene, create_folder, list_scenes, target_folder};
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// One way to draw every scene.
-struct Way {
+struct Variant {
     name: String,
     flags: Vec<String>,
 }
 
-pub fn run(arguments: &[String]) -> Outcome {
-    let options = Options::read(arguments)?;
+pub fn run_determinism(arguments: &[String]) -> Outcome {
+    let options = Options::parse_arguments(arguments)?;
     let mut builds = vec![Build::Release, Build::Debug];
     if options.wide {
         builds.push(Build::Wide);
     }
-    let folder = target().join("determinism");
+    let folder = target_folder().join("determinism");
     let mut drawn = Vec::new();
     for build in builds {
-        let program = Program::built(build)?;
-        for way in ways(build, program.has_flag("--threads"), options.threads) {
-            drawn.push((draw(&program, &way, &folder)?, way.name));
+        let program = Program::build(build)?;
+        for way in variants(build, program.supports_flag("--threads"), options.threads) {
+            drawn.push((render_all(&program, &way, &folder)?, way.name));
         }
     }
-    compare(&drawn)
+    compare_outputs(&drawn)
 }
 
 struct Options {
@@ -40,7 +40,7 @@ struct Options {
 }
 
 impl Options {
-    fn read(arguments: &[String]) -> Result<Self, String> {
+    fn parse_arguments(arguments: &[String]) -> Result<Self, String> {
         let mut options = Self { wide: false, threads: 3 };
         let mut rest = arguments.iter();
         while let Some(argument) = rest.next() {
@@ -58,9 +58,11 @@ impl Options {
 }
 
 /// Twice plainly; then, of the release build, with each number of threads.
-fn ways(build: Build, has_threads: bool, threads: u32) -> Vec<Way> {
-    let way =
-        |name: &str, flags: Vec<String>| Way { name: format!("{}-{name}", build.name()), flags };
+fn variants(build: Build, has_threads: bool, threads: u32) -> Vec<Variant> {
+    let way = |name: &str, flags: Vec<String>| Variant {
+        name: format!("{}-{name}", build.name()),
+        flags,
+    };
     let mut ways = vec![way("first", Vec::new()), way("again", Vec::new())];
     if has_threads && build == Build::Release {
         ways.extend((1..=threads).map(|count| {
@@ -71,13 +73,13 @@ fn ways(build: Build, has_threads: bool, threads: u32) -> Vec<Way> {
 }
 
 /// Draws every scene one way and gives the folder of the pictures.
-fn draw(program: &Program, way: &Way, folder: &Path) -> Result<PathBuf, String> {
+fn render_all(program: &Program, way: &Variant, folder: &Path) -> Result<PathBuf, String> {
     let folder = folder.join(&way.name);
-    make_folder(&folder)?;
+    create_folder(&folder)?;
     let flags: Vec<&str> = way.flags.iter().map(String::as_str).collect();
-    for scene in scenes()? {
-        for ending in ENDINGS {
-            program.render(&scene.path, &drawn_as(&folder, &scene, ending), &flags)?;
+    for scene in list_scenes()? {
+        for ending in EXTENSIONS {
+            program.render(&scene.path, &output_path(&folder, &scene, ending), &flags)?;
         }
     }
     println!("{:18} drawn", way.name);
@@ -85,24 +87,24 @@ fn draw(program: &Program, way: &Way, folder: &Path) -> Result<PathBuf, String> 
 }
 
 /// What each scene is drawn as: a picture, and as a line drawing both kinds of vectors.
-const ENDINGS: [&str; 3] = ["png", "svg", "pdf"];
+const EXTENSIONS: [&str; 3] = ["png", "svg", "pdf"];
 
-fn drawn_as(folder: &Path, scene: &Scene, ending: &str) -> PathBuf {
+fn output_path(folder: &Path, scene: &Scene, ending: &str) -> PathBuf {
     folder.join(format!("{}.{ending}", scene.name))
 }
 
 /// Compares every way's pictures with those of the first.
-fn compare(drawn: &[(PathBuf, String)]) -> Outcome {
+fn compare_outputs(drawn: &[(PathBuf, String)]) -> Outcome {
     let Some(((first, first_name), others)) = drawn.split_first() else { return Ok(()) };
     let bytes =
         |path: PathBuf| fs::read(&path).map_err(|error| format!("{}: {error}", path.display()));
     let mut differences = Vec::new();
-    let scenes = scenes()?;
+    let scenes = list_scenes()?;
     for scene in &scenes {
-        for ending in ENDINGS {
-            let expected = bytes(drawn_as(first, scene, ending))?;
+        for ending in EXTENSIONS {
+            let expected = bytes(output_path(first, scene, ending))?;
             for (folder, name) in others {
-                if bytes(drawn_as(folder, scene, ending))? != expected {
+                if bytes(output_path(folder, scene, ending))? != expected {
                     let scene = &scene.name;
                     differences.push(format!("{scene}.{ending}: {name} is not {first_name}"));
                 }

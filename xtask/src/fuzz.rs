@@ -19,35 +19,43 @@ mod seeds;
 mod session;
 
 use crate::Outcome;
-use crate::program::{cargo, succeed};
-use crate::workspace::{make_folder, root, target};
-use session::{Report, Session};
+use crate::program::{cargo_command, run_command};
+use crate::workspace::{create_folder, project_root, target_folder};
+use session::{Session, SessionReport};
 use std::path::{Path, PathBuf};
 
 /// A place where a stranger's bytes, or any numbers, come in.
-struct Target {
+struct FuzzTarget {
     name: &'static str,
     about: &'static str,
     /// The words that its inputs are made of, if they are text.
     words: Option<&'static str>,
 }
 
-const TARGETS: &[Target] = &[
-    Target {
+const TARGETS: &[FuzzTarget] = &[
+    FuzzTarget {
         name: "model",
         about: "a whole .glb or .gltf: loaded, posed, drawn, encoded",
         words: Some("gltf.dict"),
     },
-    Target { name: "meshopt", about: "a buffer view compressed by meshopt", words: None },
-    Target { name: "draco", about: "a primitive compressed by Draco", words: None },
-    Target { name: "image", about: "an image of a texture: PNG, JPEG, WebP, KTX2", words: None },
-    Target {
+    FuzzTarget { name: "meshopt", about: "a buffer view compressed by meshopt", words: None },
+    FuzzTarget { name: "draco", about: "a primitive compressed by Draco", words: None },
+    FuzzTarget {
+        name: "image",
+        about: "an image of a texture: PNG, JPEG, WebP, KTX2",
+        words: None,
+    },
+    FuzzTarget {
         name: "scene",
         about: "the text of a scene: parsed, resolved, drawn by one thread and by two",
         words: Some("scene.dict"),
     },
-    Target { name: "maths", about: "any numbers for the functions of `tests/soak`", words: None },
-    Target {
+    FuzzTarget {
+        name: "maths",
+        about: "any numbers for the functions of `tests/soak`",
+        words: None,
+    },
+    FuzzTarget {
         name: "raster",
         about: "triangles, lines, points: whole, in parts, by all instructions",
         words: None,
@@ -55,60 +63,60 @@ const TARGETS: &[Target] = &[
 ];
 
 /// What the person asked for.
-struct Order {
-    targets: Vec<&'static Target>,
+struct FuzzOrder {
+    targets: Vec<&'static FuzzTarget>,
     minutes: f64,
     jobs: usize,
     corpus: PathBuf,
 }
 
-pub fn run(arguments: &[String]) -> Outcome {
+pub fn run_fuzz(arguments: &[String]) -> Outcome {
     if arguments.iter().any(|argument| argument == "--help" || argument == "-h") {
-        println!("{}", help());
+        println!("{}", fuzz_help());
         return Ok(());
     }
-    let order = order(arguments)?;
-    let programs = build()?;
+    let order = parse_order(arguments)?;
+    let programs = build_targets()?;
     let mut reports = Vec::new();
     for target in order.targets {
         let folder = order.corpus.join(target.name);
         for part in ["seeds", "corpus", "artifacts"] {
-            make_folder(&folder.join(part))?;
+            create_folder(&folder.join(part))?;
         }
-        let seeds = seeds::write(target.name, &folder.join("seeds"))?;
+        let seeds = seeds::write_seeds(target.name, &folder.join("seeds"))?;
         println!("{}: {}; {seeds} seeds", target.name, target.about);
         let session = Session {
             program: programs.join(target.name),
-            words: target.words.map(|file| root().join("tests/fuzz").join(file)),
+            words: target.words.map(|file| project_root().join("tests/fuzz").join(file)),
             folder,
             minutes: order.minutes,
             jobs: order.jobs,
         };
-        let report = session.run(target.name)?;
-        println!("{}\n{report}", Report::HEADING);
+        let report = session.run_jobs(target.name)?;
+        println!("{}\n{report}", SessionReport::HEADING);
         reports.push(report);
     }
-    println!("\n{}", Report::HEADING);
+    println!("\n{}", SessionReport::HEADING);
     reports.iter().for_each(|report| println!("{report}"));
     let crashed = reports.iter().filter(|report| !report.crashes.is_empty());
     let crashed: Vec<&str> = crashed.map(|report| report.name.as_str()).collect();
     if crashed.is_empty() { Ok(()) } else { Err(format!("crashes in {}", crashed.join(", "))) }
 }
 
-fn order(arguments: &[String]) -> Result<Order, String> {
-    let corpus = target().join("fuzz");
-    let mut order = Order { targets: Vec::new(), minutes: 20.0, jobs: 1, corpus };
+fn parse_order(arguments: &[String]) -> Result<FuzzOrder, String> {
+    let corpus = target_folder().join("fuzz");
+    let mut order = FuzzOrder { targets: Vec::new(), minutes: 20.0, jobs: 1, corpus };
     let mut words = arguments.iter();
     while let Some(word) = words.next() {
         let mut value = || words.next().ok_or_else(|| format!("{word} needs a value"));
         match word.as_str() {
-            "--minutes" => order.minutes = number(value()?)?,
-            "--jobs" => order.jobs = number(value()?)?,
-            "--corpus" => order.corpus = root().join(value()?),
+            "--minutes" => order.minutes = parse_number(value()?)?,
+            "--jobs" => order.jobs = parse_number(value()?)?,
+            "--corpus" => order.corpus = project_root().join(value()?),
             flag if flag.starts_with('-') => return Err(format!("unknown flag `{flag}`")),
             name => {
                 let found = TARGETS.iter().find(|target| target.name == name);
-                let unknown = || format!("there is no target `{name}`\n\n{}", help());
+                let unknown = || format!("there is no target `{name}`\n\n{}", fuzz_help());
                 order.targets.push(found.ok_or_else(unknown)?);
             }
         }
@@ -122,11 +130,11 @@ fn order(arguments: &[String]) -> Result<Order, String> {
     Err("--minutes and --jobs must be more than 0".into())
 }
 
-fn number<T: std::str::FromStr>(text: &str) -> Result<T, String> {
+fn parse_number<T: std::str::FromStr>(text: &str) -> Result<T, String> {
     text.parse().map_err(|_| format!("`{text}` is no number that fits here"))
 }
 
-fn help() -> String {
+fn fuzz_help() -> String {
     let mut text = String::from(
         "Usage: cargo xtask fuzz [TARGET…] [--minutes N] [--jobs N] [--corpus DIR]\n\n\
          Minutes are of processor time, for each target: 20. Jobs: 1. Corpus: target/fuzz.\n\
@@ -139,7 +147,7 @@ fn help() -> String {
 }
 
 /// Counters at every branch, and what comparisons compare: `cargo fuzz` asks the compiler for the same.
-const FLAGS: [&str; 6] = [
+const COMPILER_FLAGS: [&str; 6] = [
     "-Cpasses=sancov-module",
     "-Cllvm-args=-sanitizer-coverage-level=4",
     "-Cllvm-args=-sanitizer-coverage-inline-8bit-counters",
@@ -149,30 +157,33 @@ const FLAGS: [&str; 6] = [
 ];
 
 /// Builds all targets; gives the folder of their programs.
-fn build() -> Result<PathBuf, String> {
+fn build_targets() -> Result<PathBuf, String> {
     println!("building the targets, which takes minutes for the first time");
     // Named, the platform keeps the flags away from build scripts and macros.
-    let platform = platform()?;
-    let folder = target().join("fuzz/build");
+    let platform = host_triple()?;
+    let folder = target_folder().join("fuzz/build");
     let manifest = ["--manifest-path", "tests/fuzz/Cargo.toml"];
-    let mut build = cargo(&["build", "--quiet", "--release", "--bins", "--target", &platform]);
+    let mut build =
+        cargo_command(&["build", "--quiet", "--release", "--bins", "--target", &platform]);
     build.args(manifest).env("CARGO_TARGET_DIR", &folder);
-    succeed(build.env_remove("RUSTFLAGS").env("CARGO_ENCODED_RUSTFLAGS", FLAGS.join("\u{1f}")))?;
+    run_command(
+        build.env_remove("RUSTFLAGS").env("CARGO_ENCODED_RUSTFLAGS", COMPILER_FLAGS.join("\u{1f}")),
+    )?;
     Ok(folder.join(platform).join("release"))
 }
 
 /// The platform that the compiler runs on, by its name for it.
-fn platform() -> Result<String, String> {
+fn host_triple() -> Result<String, String> {
     let mut version =
         std::process::Command::new(std::env::var_os("RUSTC").unwrap_or("rustc".into()));
-    let text = crate::program::output(version.arg("-vV").current_dir(root()))?;
+    let text = crate::program::capture_output(version.arg("-vV").current_dir(project_root()))?;
     let host = text.lines().find_map(|line| line.strip_prefix("host: "));
     host.map(str::to_owned).ok_or_else(|| "the compiler does not say its platform".into())
 }
 
 /// Where the shared assets are, if they are there.
-fn assets() -> Option<PathBuf> {
-    let beside = root().join("../shared/assets");
+fn assets_folder() -> Option<PathBuf> {
+    let beside = project_root().join("../shared/assets");
     let folder = std::env::var_os("ASSETS").map_or(beside, |named| Path::new(&named).to_owned());
     folder.is_dir().then_some(folder)
 }
@@ -180,13 +191,13 @@ fn assets() -> Option<PathBuf> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::workspace::{files, read};
+    use crate::workspace::{list_files, read_text};
 
     #[test]
     fn each_target_is_a_program_of_its_package() {
-        let package = root().join("tests/fuzz");
-        let manifest = read(&package.join("Cargo.toml")).unwrap();
-        let mut files: Vec<String> = files(&package.join("targets"), "rs")
+        let package = project_root().join("tests/fuzz");
+        let manifest = read_text(&package.join("Cargo.toml")).unwrap();
+        let mut files: Vec<String> = list_files(&package.join("targets"), "rs")
             .unwrap()
             .iter()
             .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
@@ -204,7 +215,7 @@ mod tests {
     #[test]
     fn dictionaries_are_lines_of_quoted_words() {
         for file in TARGETS.iter().filter_map(|target| target.words) {
-            let text = read(&root().join("tests/fuzz").join(file)).unwrap();
+            let text = read_text(&project_root().join("tests/fuzz").join(file)).unwrap();
             for line in text.lines().filter(|line| !line.starts_with('#')) {
                 let quoted = line.len() > 2 && line.starts_with('"') && line.ends_with('"');
                 assert!(quoted, "{file}: {line}");
@@ -215,12 +226,12 @@ mod tests {
     #[test]
     fn orders_are_read_and_slips_are_named() {
         let words = |line: &str| line.split(' ').map(str::to_owned).collect::<Vec<_>>();
-        let good = order(&words("scene model --minutes 0.5 --jobs 2")).ok().unwrap();
+        let good = parse_order(&words("scene model --minutes 0.5 --jobs 2")).ok().unwrap();
         let names: Vec<&str> = good.targets.iter().map(|target| target.name).collect();
         assert_eq!((names, good.minutes, good.jobs), (vec!["scene", "model"], 0.5, 2));
-        assert_eq!(order(&[]).ok().unwrap().targets.len(), TARGETS.len());
+        assert_eq!(parse_order(&[]).ok().unwrap().targets.len(), TARGETS.len());
         for slip in ["modell", "--minutes", "--minutes x", "--jobs 0", "--fast"] {
-            assert!(order(&words(slip)).is_err(), "{slip}");
+            assert!(parse_order(&words(slip)).is_err(), "{slip}");
         }
     }
 }

@@ -2,10 +2,10 @@
 
 use crate::Outcome;
 use crate::program::{Build, Program};
-use crate::workspace::{make_folder, scenes, target};
+use crate::workspace::{create_folder, list_scenes, target_folder};
 use std::fs;
 
-const HEAD: &str = "<!doctype html>
+const PAGE_HEAD: &str = "<!doctype html>
 <html lang=\"en\">
 <meta charset=\"utf-8\">
 <title>Alberti: gallery</title>
@@ -21,17 +21,17 @@ const HEAD: &str = "<!doctype html>
 <main>
 ";
 
-pub fn run(arguments: &[String]) -> Outcome {
+pub fn run_gallery(arguments: &[String]) -> Outcome {
     if let Some(argument) = arguments.first() {
         return Err(format!("unknown argument `{argument}`"));
     }
-    let folder = target().join("gallery");
-    make_folder(&folder)?;
-    let program = Program::built(Build::Release)?;
-    let mut page = String::from(HEAD);
-    for scene in scenes()? {
+    let folder = target_folder().join("gallery");
+    create_folder(&folder)?;
+    let program = Program::build(Build::Release)?;
+    let mut page = String::from(PAGE_HEAD);
+    for scene in list_scenes()? {
         program.render(&scene.path, &folder.join(format!("{}.png", scene.name)), &[])?;
-        page += &figure(&scene.name, &scene.caption()?);
+        page += &figure_html(&scene.name, &scene.scene_caption()?);
     }
     page += "</main>\n";
     let path = folder.join("index.html");
@@ -40,14 +40,14 @@ pub fn run(arguments: &[String]) -> Outcome {
     Ok(())
 }
 
-fn figure(name: &str, caption: &str) -> String {
-    let (name, caption) = (escaped(name), escaped(caption));
+fn figure_html(name: &str, caption: &str) -> String {
+    let (name, caption) = (escape_html(name), escape_html(caption));
     format!(
         "<figure>\n  <img src=\"{name}.png\" alt=\"{caption}\">\n  <figcaption><b>scenes/{name}.ron</b> {caption}</figcaption>\n</figure>\n"
     )
 }
 
-fn escaped(text: &str) -> String {
+fn escape_html(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }
 
@@ -57,6 +57,6 @@ mod tests {
 
     #[test]
     fn captions_cannot_break_the_page() {
-        assert!(figure("a", "1 < 2 & \"so\"").contains("1 &lt; 2 &amp; &quot;so&quot;"));
+        assert!(figure_html("a", "1 < 2 & \"so\"").contains("1 &lt; 2 &amp; &quot;so&quot;"));
     }
 }

@@ -1,7 +1,7 @@
 //! Writing binary glTF files: for the scenes' models, and for all that tests and fuzzers build.
 
 /// A `.glb` file of a JSON text and a binary chunk (glTF 2.0, §4.4), each filled up to a multiple of four bytes.
-pub fn glb(json: &[u8], bytes: &[u8]) -> Vec<u8> {
+pub fn encode_glb(json: &[u8], bytes: &[u8]) -> Vec<u8> {
     let mut file = b"glTF\x02\0\0\0\0\0\0\0".to_vec();
     for (kind, filler, data) in [(b"JSON", b' ', json), (b"BIN\0", 0, bytes)] {
         let length = data.len().next_multiple_of(4);

@@ -4,48 +4,55 @@
 //! makes new goldens of scenes that were looked at and found right.
 
 use crate::Outcome;
-use crate::program::{Build, Program, cargo};
-use crate::workspace::{Scene, scenes, shown};
+use crate::program::{Build, Program, cargo_command};
+use crate::workspace::{Scene, list_scenes, relative_path};
 use std::fs;
 use std::io::Cursor;
 use std::path::Path;
 
 /// Goldens are kept small, for they are kept for ever.
-const MOST_BYTES: usize = 150_000;
+const MAX_BYTES: usize = 150_000;
 
-pub fn run(arguments: &[String]) -> Outcome {
+pub fn run_golden(arguments: &[String]) -> Outcome {
     match arguments.iter().position(|argument| argument == "--bless") {
         Some(flag) => {
             let names: Vec<&String> =
                 arguments[..flag].iter().chain(&arguments[flag + 1..]).collect();
-            bless(&names)
+            bless_goldens(&names)
         }
-        None => compare(arguments),
+        None => compare_goldens(arguments),
     }
 }
 
-fn compare(names: &[String]) -> Outcome {
-    let mut test =
-        cargo(&["test", "--quiet", "--package", "alberti-tests", "--test", "goldens", "--"]);
+fn compare_goldens(names: &[String]) -> Outcome {
+    let mut test = cargo_command(&[
+        "test",
+        "--quiet",
+        "--package",
+        "alberti-tests",
+        "--test",
+        "goldens",
+        "--",
+    ]);
     let status = test.args(names).status().map_err(|error| error.to_string())?;
     if status.success() { Ok(()) } else { Err("some pictures differ from their goldens".into()) }
 }
 
 /// Makes the present pictures of the named scenes, or with `--all` of every scene, their goldens.
-fn bless(names: &[&String]) -> Outcome {
+fn bless_goldens(names: &[&String]) -> Outcome {
     if std::env::var_os("CI").is_some() {
         return Err("goldens are blessed by a person who has looked at them, never in CI".into());
     }
-    let chosen = chosen(names)?;
-    let program = Program::built(Build::Release)?;
+    let chosen = chosen_scenes(names)?;
+    let program = Program::build(Build::Release)?;
     for scene in &chosen {
-        let golden = scene.golden();
+        let golden = scene.golden_path();
         program.render(&scene.path, &golden, &[])?;
-        let bytes = compress(&golden)?;
-        println!("{} ({bytes} bytes): look at it before you commit it.", shown(&golden));
-        println!("  It should show this: {}", scene.caption()?);
-        if bytes > MOST_BYTES {
-            return Err(format!("{} is larger than {MOST_BYTES} bytes", shown(&golden)));
+        let bytes = compress_file(&golden)?;
+        println!("{} ({bytes} bytes): look at it before you commit it.", relative_path(&golden));
+        println!("  It should show this: {}", scene.scene_caption()?);
+        if bytes > MAX_BYTES {
+            return Err(format!("{} is larger than {MAX_BYTES} bytes", relative_path(&golden)));
         }
     }
     Ok(())
@@ -53,14 +60,14 @@ fn bless(names: &[&String]) -> Outcome {
 
 /// Writes a PNG again with the same pixels and the best compression, and gives its new size. The
 /// program prefers speed.
-fn compress(path: &Path) -> Result<usize, String> {
+fn compress_file(path: &Path) -> Result<usize, String> {
     let bytes = fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
-    let bytes = compressed(&bytes).map_err(|error| format!("{}: {error}", path.display()))?;
+    let bytes = recompress_png(&bytes).map_err(|error| format!("{}: {error}", path.display()))?;
     fs::write(path, &bytes).map_err(|error| format!("{}: {error}", path.display()))?;
     Ok(bytes.len())
 }
 
-fn compressed(bytes: &[u8]) -> Result<Vec<u8>, String> {
+fn recompress_png(bytes: &[u8]) -> Result<Vec<u8>, String> {
     let mut reader =
         png::Decoder::new(Cursor::new(bytes)).read_info().map_err(|e| e.to_string())?;
     let mut pixels = vec![0; reader.output_buffer_size().ok_or("too large")?];
@@ -77,8 +84,8 @@ fn compressed(bytes: &[u8]) -> Result<Vec<u8>, String> {
     Ok(smaller)
 }
 
-fn chosen(names: &[&String]) -> Result<Vec<Scene>, String> {
-    let scenes = scenes()?;
+fn chosen_scenes(names: &[&String]) -> Result<Vec<Scene>, String> {
+    let scenes = list_scenes()?;
     if names.is_empty() {
         return Err("say which: --bless NAME… or --bless --all".into());
     }

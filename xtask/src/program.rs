@@ -1,6 +1,6 @@
 //! Building the program `alberti` and making it draw.
 
-use crate::workspace::{root, target};
+use crate::workspace::{project_root, target_folder};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -31,9 +31,10 @@ pub struct Program {
 
 impl Program {
     /// Builds the program and says where it is.
-    pub fn built(build: Build) -> Result<Self, String> {
-        let mut cargo = cargo(&["build", "--quiet", "--package", "alberti", "--bin", "alberti"]);
-        let mut folder = target();
+    pub fn build(build: Build) -> Result<Self, String> {
+        let mut cargo =
+            cargo_command(&["build", "--quiet", "--package", "alberti", "--bin", "alberti"]);
+        let mut folder = target_folder();
         if build != Build::Debug {
             cargo.arg("--release");
         }
@@ -41,7 +42,7 @@ impl Program {
             folder = folder.join("wide");
             cargo.env("RUSTFLAGS", "-Ctarget-feature=+avx2,+fma").env("CARGO_TARGET_DIR", &folder);
         }
-        succeed(&mut cargo)?;
+        run_command(&mut cargo)?;
         let profile = if build == Build::Debug { "debug" } else { "release" };
         let name = format!("alberti{}", std::env::consts::EXE_SUFFIX);
         Ok(Self { path: folder.join(profile).join(name) })
@@ -54,33 +55,33 @@ impl Program {
 
     /// Draws a scene, or says what the program said.
     pub fn render(&self, scene: &Path, picture: &Path, flags: &[&str]) -> Result<(), String> {
-        succeed(
+        run_command(
             Command::new(&self.path).arg("render").arg(scene).arg("-o").arg(picture).args(flags),
         )
     }
 
     /// Whether `alberti render` has a flag, by its help.
-    pub fn has_flag(&self, flag: &str) -> bool {
+    pub fn supports_flag(&self, flag: &str) -> bool {
         let help = Command::new(&self.path).args(["render", "--help"]).output();
         help.is_ok_and(|help| String::from_utf8_lossy(&help.stdout).contains(flag))
     }
 }
 
 /// Cargo, run at the root: the one that started this program.
-pub fn cargo(arguments: &[&str]) -> Command {
+pub fn cargo_command(arguments: &[&str]) -> Command {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.current_dir(root()).args(arguments);
+    cargo.current_dir(project_root()).args(arguments);
     cargo
 }
 
 /// Runs a command to its end. What it prints is shown only if it fails.
-pub fn succeed(command: &mut Command) -> Result<(), String> {
-    output(command).map(drop)
+pub fn run_command(command: &mut Command) -> Result<(), String> {
+    capture_output(command).map(drop)
 }
 
 /// Runs a command to its end and gives what it wrote to its standard output.
-pub fn output(command: &mut Command) -> Result<String, String> {
-    let shown = shown(command);
+pub fn capture_output(command: &mut Command) -> Result<String, String> {
+    let shown = command_line(command);
     let output = command.output().map_err(|error| format!("{shown}: {error}"))?;
     let [stdout, stderr] =
         [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
@@ -91,14 +92,14 @@ pub fn output(command: &mut Command) -> Result<String, String> {
 }
 
 /// Runs a command to its end while the person sees what it prints.
-pub fn watch(command: &mut Command) -> Result<(), String> {
-    let shown = shown(command);
+pub fn run_visibly(command: &mut Command) -> Result<(), String> {
+    let shown = command_line(command);
     let status = command.status().map_err(|error| format!("{shown}: {error}"))?;
     if status.success() { Ok(()) } else { Err(format!("`{shown}` failed ({status})")) }
 }
 
 /// A command as one would type it.
-pub fn shown(command: &Command) -> String {
+pub fn command_line(command: &Command) -> String {
     let program = Path::new(command.get_program()).file_stem().unwrap_or_default();
     let words = std::iter::once(program).chain(command.get_args());
     words.map(|word| word.to_string_lossy()).collect::<Vec<_>>().join(" ")

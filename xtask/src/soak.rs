@@ -4,9 +4,9 @@
 //! give an answer that is not finite.
 
 use crate::Outcome;
-use crate::program::{cargo, watch};
+use crate::program::{cargo_command, run_visibly};
 
-pub fn run(arguments: &[String]) -> Outcome {
+pub fn run_soak(arguments: &[String]) -> Outcome {
     let call = ["bench", "--quiet", "--package", "alberti-tests", "--bench", "soak", "--"];
-    watch(cargo(&call).args(arguments))
+    run_visibly(cargo_command(&call).args(arguments))
 }

@@ -11,15 +11,15 @@ mod step;
 
 use crate::Outcome;
 use crate::tidy::NO_STD;
-use crate::workspace::{read, root};
+use crate::workspace::{project_root, read_text};
 use std::time::Duration;
-use step::{Action, Report, Step};
+use step::{Action, Step, StepReport};
 
-pub fn run(arguments: &[String]) -> Outcome {
-    let steps = steps()?;
+pub fn run_tests(arguments: &[String]) -> Outcome {
+    let steps = all_steps()?;
     let keep_going = arguments.iter().any(|argument| argument == "--keep-going");
     if arguments.iter().any(|argument| argument == "--list") {
-        println!("{}", list(&steps));
+        println!("{}", list_steps(&steps));
         return Ok(());
     }
     let names: Vec<&String> =
@@ -28,40 +28,46 @@ pub fn run(arguments: &[String]) -> Outcome {
     {
         return Err(format!(
             "there is no step `{unknown}`; these are the steps:\n{}",
-            list(&steps)
+            list_steps(&steps)
         ));
     }
     let chosen = steps.iter().filter(|step| names.is_empty() || names.contains(&&step.name));
     let mut reports = Vec::new();
     for step in chosen {
-        let report = step.run();
+        let report = step.run_step();
         let failed = report.failure.is_some();
         reports.push(report);
         if failed && !keep_going {
             break;
         }
     }
-    summary(&reports)
+    print_summary(&reports)
 }
 
-fn steps() -> Result<Vec<Step>, String> {
+fn all_steps() -> Result<Vec<Step>, String> {
     let maths: String = NO_STD.iter().map(|name| format!(" --package {name}")).collect();
     let without_maths: String = NO_STD.iter().map(|name| format!(" --exclude {name}")).collect();
     let mut steps = vec![
         Step::cargo("fmt", "the code is laid out as rustfmt does it", &["fmt --all --check"]),
-        Step::own("tidy", "the rules of the house", || crate::tidy::run(&[])),
-        Step::own("models", "the models are what the code makes", || {
-            crate::models::run(&["--check".into()])
+        Step::built_in("tidy", "the rules of the house", || crate::tidy::run_tidy(&[])),
+        Step::built_in("models", "the models are what the code makes", || {
+            crate::models::run_models(&["--check".into()])
         }),
-        Step::own("conformance", "each item is proved by a test, and the table says which", || {
-            crate::conformance::run(&["--check".into()])
-        }),
+        Step::built_in(
+            "conformance",
+            "each item is proved by a test, and the table says which",
+            || crate::conformance::run_conformance(&["--check".into()]),
+        ),
         Step::cargo(
             "clippy",
             "no lint has anything to say",
             &["clippy --quiet --workspace --all-targets -- -D warnings"],
         ),
-        Step::own("no-std", "the five crates of mathematics do without std", no_std::run),
+        Step::built_in(
+            "no-std",
+            "the five crates of mathematics do without std",
+            no_std::check_no_std,
+        ),
         Step::cargo(
             "maths",
             "the tests and examples of those five, by themselves",
@@ -83,9 +89,11 @@ fn steps() -> Result<Vec<Step>, String> {
         about: "the documentation builds without a warning".into(),
         action: Action::Documentation,
     });
-    steps.push(Step::own("determinism", "debug and release draw the same bytes, twice", || {
-        crate::determinism::run(&[])
-    }));
+    steps.push(Step::built_in(
+        "determinism",
+        "debug and release draw the same bytes, twice",
+        || crate::determinism::run_determinism(&[]),
+    ));
     // As a command of its own, so that what it has to skip is repeated at the end.
     steps.push(Step::cargo(
         "instructions",
@@ -97,18 +105,18 @@ fn steps() -> Result<Vec<Step>, String> {
 
 /// A step for each `[[test]]` of `tests/Cargo.toml`, described by the first sentence of its file.
 fn integration_tests() -> Result<Vec<Step>, String> {
-    let folder = root().join("tests");
-    let manifest = read(&folder.join("Cargo.toml"))?;
+    let folder = project_root().join("tests");
+    let manifest = read_text(&folder.join("Cargo.toml"))?;
     let step = |(name, path): (String, String)| {
-        let source = read(&folder.join(path))?;
+        let source = read_text(&folder.join(path))?;
         let call = format!("test --package alberti-tests --test {name}");
         Ok(Step::cargo(&name, &first_sentence(&source), &[&call]))
     };
-    tests_of(&manifest).into_iter().map(step).collect()
+    test_targets(&manifest).into_iter().map(step).collect()
 }
 
 /// Name and path of each `[[test]]` of a manifest.
-fn tests_of(manifest: &str) -> Vec<(String, String)> {
+fn test_targets(manifest: &str) -> Vec<(String, String)> {
     let value = |table: &str, key: &str| {
         let line = table.lines().find_map(|line| line.trim().strip_prefix(key))?;
         Some(line.trim_start().strip_prefix('=')?.trim().trim_matches('"').to_owned())
@@ -129,14 +137,14 @@ fn first_sentence(source: &str) -> String {
         .to_owned()
 }
 
-fn list(steps: &[Step]) -> String {
+fn list_steps(steps: &[Step]) -> String {
     let lines: Vec<String> =
         steps.iter().map(|step| format!("  {:12} {}", step.name, step.about)).collect();
     lines.join("\n")
 }
 
 /// The table at the end: each step with its time, then what was skipped, then the verdict.
-fn summary(reports: &[Report]) -> Outcome {
+fn print_summary(reports: &[StepReport]) -> Outcome {
     println!("\n── summary");
     for report in reports {
         let verdict = if report.failure.is_some() { "FAILED" } else { "passed" };
@@ -185,7 +193,7 @@ name = "c"
 "#;
         let expected =
             [("a", "a/main.rs"), ("b", "b.rs")].map(|(a, b)| (a.to_owned(), b.to_owned()));
-        assert_eq!(tests_of(manifest), expected);
+        assert_eq!(test_targets(manifest), expected);
     }
 
     #[test]
@@ -197,7 +205,7 @@ name = "c"
 
     #[test]
     fn every_step_has_its_own_name_and_says_what_it_is_for() {
-        let steps = steps().unwrap();
+        let steps = all_steps().unwrap();
         for (i, step) in steps.iter().enumerate() {
             assert!(!step.about.is_empty(), "{}", step.name);
             assert!(steps[..i].iter().all(|other| other.name != step.name), "{}", step.name);

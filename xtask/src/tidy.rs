@@ -17,47 +17,47 @@ pub use source::{Source, rust_files};
 
 /// A broken rule: where, and what to do about it.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Fault {
+pub struct Violation {
     /// The file from the root, with a line where there is one.
-    pub place: String,
+    pub location: String,
     pub message: String,
 }
 
-impl Fault {
+impl Violation {
     pub fn new(place: impl Into<String>, message: impl Into<String>) -> Self {
-        Self { place: place.into(), message: message.into() }
+        Self { location: place.into(), message: message.into() }
     }
 }
 
 /// The rules for a single file of Rust.
-const FILE_RULES: &[fn(&Source) -> Vec<Fault>] = &[
+const FILE_RULES: &[fn(&Source) -> Vec<Violation>] = &[
     size::file_length,
     size::function_length,
-    boundaries::only_one_names,
+    boundaries::crate_boundaries,
     boundaries::no_std_where_promised,
-    words::opening,
-    words::unfinished,
-    words::printing,
+    words::module_docs,
+    words::unfinished_markers,
+    words::printing_macros,
 ];
 
-pub fn run(arguments: &[String]) -> Outcome {
+pub fn run_tidy(arguments: &[String]) -> Outcome {
     if let Some(argument) = arguments.first() {
         return Err(format!("unknown argument `{argument}`"));
     }
     let sources = rust_files()?;
     for long in sources.iter().filter_map(size::long_file) {
-        println!("note: {}: {}", long.place, long.message);
+        println!("note: {}: {}", long.location, long.message);
     }
-    let mut faults: Vec<Fault> =
+    let mut faults: Vec<Violation> =
         sources.iter().flat_map(|source| FILE_RULES.iter().flat_map(|rule| rule(source))).collect();
-    faults.extend(words::machine_paths(&source::text_files()?));
+    faults.extend(words::machine_path_mentions(&source::text_files()?));
     faults.extend(boundaries::dependencies()?);
     faults.extend(scenes::goldens_and_table()?);
-    faults.extend(documents::links()?);
+    faults.extend(documents::broken_links()?);
     if faults.is_empty() {
         println!("{} files of Rust are tidy", sources.len());
         return Ok(());
     }
-    let lines = faults.iter().map(|fault| format!("\n  {}: {}", fault.place, fault.message));
+    let lines = faults.iter().map(|fault| format!("\n  {}: {}", fault.location, fault.message));
     Err(format!("{} rules are broken{}", faults.len(), lines.collect::<String>()))
 }

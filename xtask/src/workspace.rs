@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 
 /// The folder of the workspace's `Cargo.toml`. Known from this file's own place, so commands work
 /// from any folder.
-pub fn root() -> &'static Path {
+pub fn project_root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
 }
 
 /// The folder that Cargo builds into when it is run at the root.
-pub fn target() -> PathBuf {
-    root().join(std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into()))
+pub fn target_folder() -> PathBuf {
+    project_root().join(std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into()))
 }
 
 /// A scene file and the name by which goldens and commands know it: its file name without `.ron`.
@@ -22,13 +22,13 @@ pub struct Scene {
 
 impl Scene {
     /// The comment that opens the file: what the picture shows and why.
-    pub fn caption(&self) -> Result<String, String> {
-        Ok(caption(&read(&self.path)?))
+    pub fn scene_caption(&self) -> Result<String, String> {
+        Ok(caption(&read_text(&self.path)?))
     }
 
     /// Where the golden image of this scene is kept.
-    pub fn golden(&self) -> PathBuf {
-        root().join("tests/goldens").join(format!("{}.png", self.name))
+    pub fn golden_path(&self) -> PathBuf {
+        project_root().join("tests/goldens").join(format!("{}.png", self.name))
     }
 }
 
@@ -38,9 +38,9 @@ fn caption(source: &str) -> String {
 }
 
 /// All of `scenes/*.ron`, by name.
-pub fn scenes() -> Result<Vec<Scene>, String> {
+pub fn list_scenes() -> Result<Vec<Scene>, String> {
     let mut scenes: Vec<Scene> =
-        files(&root().join("scenes"), "ron")?.into_iter().filter_map(scene).collect();
+        list_files(&project_root().join("scenes"), "ron")?.into_iter().filter_map(scene).collect();
     scenes.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(scenes)
 }
@@ -51,7 +51,7 @@ fn scene(path: PathBuf) -> Option<Scene> {
 }
 
 /// The files directly in `folder` whose names end in `.extension`, sorted.
-pub fn files(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, String> {
+pub fn list_files(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, String> {
     let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let mut paths: Vec<PathBuf> = entries
         .filter_map(|entry| Some(entry.ok()?.path()))
@@ -62,18 +62,18 @@ pub fn files(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, String> {
 }
 
 /// The text of a file, or a sentence that names it.
-pub fn read(path: &Path) -> Result<String, String> {
+pub fn read_text(path: &Path) -> Result<String, String> {
     fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 /// Makes a folder and those above it.
-pub fn make_folder(path: &Path) -> Result<(), String> {
+pub fn create_folder(path: &Path) -> Result<(), String> {
     fs::create_dir_all(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 /// `path` as seen from the root, with forward slashes: how rules and messages name files.
-pub fn shown(path: &Path) -> String {
-    path.strip_prefix(root()).unwrap_or(path).to_string_lossy().replace('\\', "/")
+pub fn relative_path(path: &Path) -> String {
+    path.strip_prefix(project_root()).unwrap_or(path).to_string_lossy().replace('\\', "/")
 }
 
 #[cfg(test)]
@@ -89,6 +89,6 @@ mod tests {
 
     #[test]
     fn the_root_is_where_the_workspace_is_declared() {
-        assert!(read(&root().join("Cargo.toml")).unwrap().contains("[workspace]"));
+        assert!(read_text(&project_root().join("Cargo.toml")).unwrap().contains("[workspace]"));
     }
 }

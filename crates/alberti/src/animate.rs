@@ -1,18 +1,18 @@
 //! `alberti animate`: a turntable, or an animation of the model, as pictures, an animated PNG or GIF, or raw frames.
 
-mod sink;
+mod frame_sink;
 
-use super::Failure;
-use super::loading::LoadArgs;
-use super::look::LookArgs;
-use super::progress::Counter;
-use super::render::{open, threads, warn};
+use super::CliError;
+use super::load_options::LoadArgs;
+use super::progress::ProgressCounter;
+use super::render::{open_input, print_warnings, thread_count};
+use super::scene_overrides::SceneOverrideArgs;
+use frame_sink::FrameSink;
 use model::ModelInstance;
-use pipeline::film::{Film, FilmError, Motion};
 use pipeline::scene::file::{Choice, Finite, SceneFile};
-use pipeline::scene::{CameraPath, ResolveOptions, chosen_animation};
+use pipeline::scene::{CameraPath, ResolveOptions, select_animation};
+use pipeline::sequence::{Motion, Sequence, SequenceError};
 use pipeline::{Origin, ResolveError, Scene};
-use sink::Sink;
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
@@ -42,45 +42,56 @@ pub(crate) struct AnimateArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
     #[command(flatten)]
-    look: LookArgs,
+    overrides: SceneOverrideArgs,
     #[command(flatten)]
-    load: LoadArgs,
+    load_options: LoadArgs,
 }
 
-pub(crate) fn run(args: &AnimateArgs) -> Result<(), Failure> {
-    let (origin, mut file) = open(&args.input, &args.look.import(&args.load))?;
-    args.look.override_in(&mut file);
-    let scene =
-        Scene::resolve(&origin, &file, &ResolveOptions { import: args.look.import(&args.load) })?;
-    warn(&scene, &[]);
-    let film = args.film(&origin, &file, scene)?;
-    let mut sink = Sink::open(&args.input, &args.output, &film, args.fps)?;
-    let counter = Counter::start(film.frames());
-    let drawn = film.draw(threads(args.threads), |frame, picture| {
-        counter.count();
-        sink.take(frame, picture)
+pub(crate) fn run(args: &AnimateArgs) -> Result<(), CliError> {
+    let (origin, mut file) =
+        open_input(&args.input, &args.overrides.import_options(&args.load_options))?;
+    args.overrides.apply_to(&mut file);
+    let scene = Scene::resolve(
+        &origin,
+        &file,
+        &ResolveOptions { import: args.overrides.import_options(&args.load_options) },
+    )?;
+    print_warnings(&scene, &[]);
+    let film = args.build_sequence(&origin, &file, scene)?;
+    let mut sink = FrameSink::open(&args.input, &args.output, &film, args.fps)?;
+    let counter = ProgressCounter::start(film.frame_count());
+    let drawn = film.render_frames(thread_count(args.threads), |frame, picture| {
+        counter.increment();
+        sink.write_frame(frame, picture)
     });
     match drawn {
         Ok(()) => sink.finish(),
-        Err(FilmError::Sink(failure)) => Err(failure),
-        Err(FilmError::Render(error)) => Err(error.into()),
-        Err(other) => Err(Failure::Usage(other.to_string())),
+        Err(SequenceError::Output(failure)) => Err(failure),
+        Err(SequenceError::Render(error)) => Err(error.into()),
+        Err(other) => Err(CliError::Usage(other.to_string())),
     }
 }
 
 impl AnimateArgs {
-    fn film(&self, origin: &Origin, file: &SceneFile, scene: Scene) -> Result<Film, Failure> {
-        let animations = animations(&scene.models, file)?;
+    fn build_sequence(
+        &self,
+        origin: &Origin,
+        file: &SceneFile,
+        scene: Scene,
+    ) -> Result<Sequence, CliError> {
+        let animations = choose_animations(&scene.models, file)?;
         let ends = scene.models.iter().zip(&animations).filter_map(|(placed, &animation)| {
             Some(placed.model.animations.get(animation?)?.duration_seconds)
         });
         let end = ends.fold(0.0, f64::max);
-        let path = CameraPath::of(origin, file).map_err(ResolveError::from)?;
-        let [begin, end] = path.as_ref().map_or([0.0, end], CameraPath::span);
+        let path = CameraPath::from_scene_file(origin, file).map_err(ResolveError::from)?;
+        let [begin, end] = path.as_ref().map_or([0.0, end], CameraPath::time_range);
         let from = self.from.map_or(begin, Finite::value);
         let to = self.to.map_or(end, Finite::value);
         let motion = match self.turntable {
-            None if animations.iter().any(Option::is_some) => Motion::Clip { animations, from, to },
+            None if animations.iter().any(Option::is_some) => {
+                Motion::Animations { animations, from, to }
+            }
             // The camera moves, and nothing else.
             None if path.is_some() => Motion::Turntable { angle: 0.0 },
             degrees => {
@@ -92,29 +103,32 @@ impl AnimateArgs {
             (Motion::Turntable { .. }, None) if path.is_none() => 120,
             (_, None) => libm::round((to - from).abs() * self.fps).clamp(1.0, 100_000.0) as usize,
         };
-        let film = Film::new(origin, file, scene, motion, frames)?;
+        let film = Sequence::new(origin, file, scene, motion, frames)?;
         match path {
             None => Ok(film),
-            Some(path) => Ok(film.along(origin, &path, [from, to])?),
+            Some(path) => Ok(film.with_camera_path(origin, &path, [from, to])?),
         }
     }
 }
 
 /// For each model the animation that the file chooses, else its first.
-fn animations(models: &[ModelInstance], file: &SceneFile) -> Result<Vec<Option<usize>>, Failure> {
+fn choose_animations(
+    models: &[ModelInstance],
+    file: &SceneFile,
+) -> Result<Vec<Option<usize>>, CliError> {
     let chosen = |(placed, choice): (&ModelInstance, Option<&Choice>)| {
         if placed.model.animations.is_empty() && choice.is_none() {
             return Ok(None);
         }
-        chosen_animation(&placed.model, choice).map(Some).map_err(|(problem, help)| {
+        select_animation(&placed.model, choice).map(Some).map_err(|(problem, help)| {
             let help = help.map_or(String::new(), |help| format!("\n  = help: {help}"));
-            Failure::Usage(format!("{}: {problem}{help}", placed.model.name))
+            CliError::Usage(format!("{}: {problem}{help}", placed.model.name))
         })
     };
     let choices = file
         .models
         .iter()
-        .flat_map(|model| std::iter::repeat_n(model.animation.as_ref(), model.copies()));
+        .flat_map(|model| std::iter::repeat_n(model.animation.as_ref(), model.instance_count()));
     models.iter().zip(choices).map(chosen).collect()
 }
 

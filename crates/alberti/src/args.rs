@@ -2,22 +2,22 @@
 
 use super::animate::AnimateArgs;
 use super::batch::BatchArgs;
-use super::color::ColorArg;
+use super::color::ColorChoice;
 use super::compare::CompareArgs;
 use super::compare_projections::CompareProjectionsArgs;
 use super::curve::CurveArgs;
 use super::demo::DemoArgs;
 use super::explain::ExplainArgs;
-use super::format::Format;
-use super::loading::LoadArgs;
-use super::look::{LookArgs, named_view};
+use super::format::OutputFormat;
+use super::load_options::LoadArgs;
 use super::manual::{CompletionArgs, ManArgs};
 use super::matrix::MatrixArgs;
-use super::part::PartArgs;
+use super::model_state::ModelStateArgs;
 use super::passes::PassArgs;
-use super::pick::PickArgs;
 use super::reference::ReferenceArgs;
+use super::region::RegionArgs;
 use super::scene::SceneArgs;
+use super::scene_overrides::{SceneOverrideArgs, named_view};
 use super::sheet::SheetArgs;
 use super::sweep::SweepArgs;
 use camera::NamedView;
@@ -34,7 +34,7 @@ pub(crate) struct Args {
     pub(crate) command: Command,
     /// Colours in messages; with `auto` on a terminal, unless the variable NO_COLOR says no
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
-    pub(crate) color: ColorArg,
+    pub(crate) color: ColorChoice,
 }
 
 const EXAMPLES: &str = "\
@@ -110,14 +110,14 @@ pub(crate) struct RenderArgs {
     pub(crate) output: Option<PathBuf>,
     /// What is written [default: by the end of the output's name; png to the standard output]
     #[arg(long)]
-    pub(crate) format: Option<Format>,
+    pub(crate) format: Option<OutputFormat>,
     /// A picture from each of these sides, such as front,right,top,iso
     #[arg(long, value_name = "VIEWS", value_delimiter = ',', value_parser = named_view(), conflicts_with_all = ["view", "camera"])]
     pub(crate) views: Vec<NamedView>,
     #[command(flatten)]
-    pub(crate) look: LookArgs,
+    pub(crate) overrides: SceneOverrideArgs,
     #[command(flatten)]
-    pub(crate) part: PartArgs,
+    pub(crate) region: RegionArgs,
     #[command(flatten)]
     pub(crate) passes: PassArgs,
     #[command(flatten)]
@@ -138,7 +138,7 @@ pub(crate) struct RenderArgs {
     #[arg(long, conflicts_with = "json")]
     pub(crate) show: bool,
     #[command(flatten)]
-    pub(crate) load: LoadArgs,
+    pub(crate) load_options: LoadArgs,
 }
 
 #[derive(Debug, clap::Args)]
@@ -149,7 +149,7 @@ pub(crate) struct CheckArgs {
     #[arg(long)]
     pub(crate) json: bool,
     #[command(flatten)]
-    pub(crate) load: LoadArgs,
+    pub(crate) load_options: LoadArgs,
 }
 
 #[derive(Debug, clap::Args)]
@@ -157,12 +157,12 @@ pub(crate) struct InfoArgs {
     /// A model (.gltf, .glb)
     pub(crate) file: PathBuf,
     #[command(flatten)]
-    pub(crate) pick: PickArgs,
+    pub(crate) model_state: ModelStateArgs,
     /// Everything there is to know, for programs
     #[arg(long)]
     pub(crate) json: bool,
     #[command(flatten)]
-    pub(crate) load: LoadArgs,
+    pub(crate) load_options: LoadArgs,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

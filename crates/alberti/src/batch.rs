@@ -10,14 +10,14 @@ mod contact_sheet;
 mod jobs;
 mod key;
 mod report;
+mod runner;
 mod shard;
-mod work;
 
-use super::Failure;
-use super::loading::LoadArgs;
-use super::look::LookArgs;
-use jobs::Job;
-use report::{Record, Report};
+use super::CliError;
+use super::load_options::LoadArgs;
+use super::scene_overrides::SceneOverrideArgs;
+use jobs::BatchJob;
+use report::{BatchReport, JobRecord};
 use shard::Shard;
 use std::io::Write as _;
 use std::path::PathBuf;
@@ -42,40 +42,41 @@ pub(crate) struct BatchArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
     #[command(flatten)]
-    look: LookArgs,
+    overrides: SceneOverrideArgs,
     #[command(flatten)]
-    load: LoadArgs,
+    load_options: LoadArgs,
 }
 
 /// Does the jobs; the exit code is 1 if one has failed.
-pub(crate) fn run(args: &BatchArgs) -> Result<ExitCode, Failure> {
-    let all = jobs::find(&args.inputs)?;
-    let shard = args.shard.unwrap_or(Shard::WHOLE);
-    let mine: Vec<&Job> =
-        all.iter().enumerate().filter(|(at, _)| shard.has(*at)).map(|(_, job)| job).collect();
-    let cannot =
-        |cause| Failure::Usage(format!("cannot make the folder {}: {cause}", args.out.display()));
-    std::fs::create_dir_all(&args.out).map_err(cannot)?;
-    let settings = format!("{:?} {:?}", args.look, args.load);
-    let done = if args.again { Vec::new() } else { report::read_all(&args.out) };
-    let report = Report::open(&args.out, shard)?;
-    let threads = super::render::threads(args.threads);
-    let order = work::Order { args, settings: &settings, done: &done, threads };
-    let records = order.work(&mine, &report);
-    report.finish(&records)?;
-    if shard.is_whole() {
-        let sheet = contact_sheet::html(&records);
+pub(crate) fn run(args: &BatchArgs) -> Result<ExitCode, CliError> {
+    let all = jobs::find_jobs(&args.inputs)?;
+    let shard = args.shard.unwrap_or(Shard::ALL_JOBS);
+    let mine: Vec<&BatchJob> =
+        all.iter().enumerate().filter(|(at, _)| shard.has_job(*at)).map(|(_, job)| job).collect();
+    let create_error =
+        |cause| CliError::Usage(format!("cannot make the folder {}: {cause}", args.out.display()));
+    std::fs::create_dir_all(&args.out).map_err(create_error)?;
+    let settings = format!("{:?} {:?}", args.overrides, args.load_options);
+    let done = if args.again { Vec::new() } else { report::read_reports(&args.out) };
+    let report = BatchReport::open_report(&args.out, shard)?;
+    let threads = super::render::thread_count(args.threads);
+    let order = runner::BatchRun { args, settings: &settings, earlier: &done, threads };
+    let records = order.run_jobs(&mine, &report);
+    report.finish_report(&records)?;
+    if shard.has_all_jobs() {
+        let sheet = contact_sheet::contact_sheet_html(&records);
         pipeline::write_file(&args.out.join("index.html"), sheet.as_bytes())?;
     }
-    conclude(&records)
+    print_summary(&records)
 }
 
 /// A sentence on the standard output, and the exit code.
-fn conclude(records: &[Record]) -> Result<ExitCode, Failure> {
+fn print_summary(records: &[JobRecord]) -> Result<ExitCode, CliError> {
     let count = |status| records.iter().filter(|record| record.status == status).count();
-    let (done, before, failed) = (count(report::DONE), count(report::KEPT), count(report::FAILED));
+    let (done, before, failed) =
+        (count(report::DONE), count(report::DONE_BEFORE), count(report::FAILED));
     for record in records.iter().filter(|record| record.status == report::FAILED) {
-        super::complain("failed", &format!("{}: {}", record.input, record.message));
+        super::print_message("failed", &format!("{}: {}", record.input, record.message));
     }
     writeln!(std::io::stdout(), "{done} done, {before} done before, {failed} failed")?;
     Ok(if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 /// When messages have colours.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
-pub(crate) enum ColorArg {
+pub(crate) enum ColorChoice {
     /// On a terminal, unless NO_COLOR is set
     Auto,
     /// Wherever they go
@@ -15,26 +15,26 @@ pub(crate) enum ColorArg {
 }
 
 /// What the flag says, once it has been read.
-static CHOSEN: OnceLock<ColorArg> = OnceLock::new();
+static COLOR_CHOICE: OnceLock<ColorChoice> = OnceLock::new();
 
-pub(super) fn choose(arg: ColorArg) {
-    CHOSEN.get_or_init(|| arg);
+pub(super) fn set_color_choice(arg: ColorChoice) {
+    COLOR_CHOICE.get_or_init(|| arg);
 }
 
-pub(super) fn on_stderr() -> bool {
-    decide(CHOSEN.get().copied(), std::io::stderr().is_terminal())
+pub(super) fn stderr_has_color() -> bool {
+    should_use_color(COLOR_CHOICE.get().copied(), std::io::stderr().is_terminal())
 }
 
-pub(super) fn on_stdout() -> bool {
-    decide(CHOSEN.get().copied(), std::io::stdout().is_terminal())
+pub(super) fn stdout_has_color() -> bool {
+    should_use_color(COLOR_CHOICE.get().copied(), std::io::stdout().is_terminal())
 }
 
 /// Terminals that are dumb, and people who set NO_COLOR to anything (no-color.org), get none.
-fn decide(chosen: Option<ColorArg>, terminal: bool) -> bool {
-    match chosen.unwrap_or(ColorArg::Auto) {
-        ColorArg::Always => true,
-        ColorArg::Never => false,
-        ColorArg::Auto => {
+fn should_use_color(chosen: Option<ColorChoice>, terminal: bool) -> bool {
+    match chosen.unwrap_or(ColorChoice::Auto) {
+        ColorChoice::Always => true,
+        ColorChoice::Never => false,
+        ColorChoice::Auto => {
             let set = |name| std::env::var_os(name).filter(|value| !value.is_empty());
             terminal && set("NO_COLOR").is_none() && set("TERM").is_none_or(|term| term != "dumb")
         }
@@ -42,7 +42,7 @@ fn decide(chosen: Option<ColorArg>, terminal: bool) -> bool {
 }
 
 /// The word that a message begins with: errors are red, all else is yellow.
-pub(super) fn level(word: &str, colors: bool) -> String {
+pub(super) fn style_level(word: &str, colors: bool) -> String {
     match colors {
         false => word.to_owned(),
         true if word.starts_with("error") => format!("\x1b[1;31m{word}\x1b[0m"),

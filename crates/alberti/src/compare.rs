@@ -1,9 +1,9 @@
 //! `--compare`: the picture against one that it should be.
 
-use super::Failure;
-use super::passes::beside;
+use super::CliError;
+use super::passes::sibling_path;
 use homog::PixelRect;
-use pipeline::{Draft, OutputError, Picture};
+use pipeline::{AtomicFile, OutputError, Picture};
 use std::fmt;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -23,43 +23,48 @@ pub(crate) struct CompareArgs {
 
 /// What was found.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct Comparison {
+pub(super) struct PictureComparison {
     /// The greatest difference of a channel, of 255.
-    pub(super) greatest: u8,
+    pub(super) max_difference: u8,
     /// How many pixels differ by more than the tolerance.
-    pub(super) beyond: usize,
+    pub(super) differing_pixels: usize,
     /// How many pixels there are.
-    pub(super) pixels: usize,
+    pub(super) total_pixels: usize,
     pub(super) tolerance: u8,
 }
 
-impl Comparison {
-    fn of(expected: &Picture, actual: &Picture, tolerance: u8) -> Self {
-        let mut found = Self { greatest: 0, beyond: 0, pixels: actual.pixels.len(), tolerance };
+impl PictureComparison {
+    fn new(expected: &Picture, actual: &Picture, tolerance: u8) -> Self {
+        let mut comparison = Self {
+            max_difference: 0,
+            differing_pixels: 0,
+            total_pixels: actual.pixels.len(),
+            tolerance,
+        };
         for (expected, actual) in expected.pixels.iter().zip(&actual.pixels) {
-            let difference = difference(*expected, *actual);
-            found.greatest = found.greatest.max(difference);
-            found.beyond += usize::from(difference > tolerance);
+            let difference = pixel_difference(*expected, *actual);
+            comparison.max_difference = comparison.max_difference.max(difference);
+            comparison.differing_pixels += usize::from(difference > tolerance);
         }
-        found
+        comparison
     }
 
     /// Whether no pixel is farther off than the tolerance.
     pub(super) const fn agrees(&self) -> bool {
-        self.beyond == 0
+        self.differing_pixels == 0
     }
 
     /// The share of pixels that are farther off.
-    pub(super) fn share(&self) -> f64 {
-        self.beyond as f64 / self.pixels.max(1) as f64
+    pub(super) fn differing_fraction(&self) -> f64 {
+        self.differing_pixels as f64 / self.total_pixels.max(1) as f64
     }
 }
 
-impl fmt::Display for Comparison {
+impl fmt::Display for PictureComparison {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { greatest, beyond, tolerance, .. } = self;
+        let Self { max_difference: greatest, differing_pixels: beyond, tolerance, .. } = self;
         let verdict = if self.agrees() { "agrees" } else { "differs" };
-        let percent = 100.0 * self.share();
+        let percent = 100.0 * self.differing_fraction();
         write!(
             f,
             "compared: {verdict}; greatest difference {greatest} of 255, {beyond} pixels ({percent:.4} %) beyond {tolerance}"
@@ -68,7 +73,7 @@ impl fmt::Display for Comparison {
 }
 
 /// How far two pixels are apart in their farthest channel. What nobody sees has no colour.
-fn difference(expected: [u8; 4], actual: [u8; 4]) -> u8 {
+fn pixel_difference(expected: [u8; 4], actual: [u8; 4]) -> u8 {
     if expected[3] == 0 && actual[3] == 0 {
         return 0;
     }
@@ -76,29 +81,29 @@ fn difference(expected: [u8; 4], actual: [u8; 4]) -> u8 {
 }
 
 impl CompareArgs {
-    pub(super) const fn is_wanted(&self) -> bool {
+    pub(super) const fn is_requested(&self) -> bool {
         self.compare.is_some()
     }
 
     /// The picture that is expected, if one is named.
-    pub(super) fn reference(&self, region: PixelRect) -> Result<Option<Picture>, Failure> {
+    pub(super) fn load_reference(&self, region: PixelRect) -> Result<Option<Picture>, CliError> {
         let Some(path) = &self.compare else { return Ok(None) };
         let fault =
-            |why: String| Failure::Usage(format!("cannot compare with {}: {why}", path.display()));
-        let picture = read(path, region).map_err(fault)?;
+            |why: String| CliError::Usage(format!("cannot compare with {}: {why}", path.display()));
+        let picture = read_reference(path, region).map_err(fault)?;
         Ok(Some(picture))
     }
 
     /// Compares, and writes expected, difference and actual side by side.
-    pub(super) fn compared(
+    pub(super) fn create_comparison(
         &self,
         expected: &Picture,
         actual: &Picture,
         output: &Path,
-    ) -> Result<(Comparison, (PathBuf, Draft)), Failure> {
-        let comparison = Comparison::of(expected, actual, self.tolerance);
-        let path = beside(output, "compare", "png");
-        let mut draft = Draft::of(&path)?;
+    ) -> Result<(PictureComparison, (PathBuf, AtomicFile)), CliError> {
+        let comparison = PictureComparison::new(expected, actual, self.tolerance);
+        let path = sibling_path(output, "compare", "png");
+        let mut draft = AtomicFile::create(&path)?;
         let bytes = side_by_side(expected, actual).to_png();
         draft.write_all(&bytes).map_err(|cause| OutputError { path: path.clone(), cause })?;
         Ok((comparison, (path, draft)))
@@ -106,7 +111,7 @@ impl CompareArgs {
 }
 
 /// A picture of the size of the region; 16 bits are rounded to 8.
-fn read(path: &Path, region: PixelRect) -> Result<Picture, String> {
+fn read_reference(path: &Path, region: PixelRect) -> Result<Picture, String> {
     let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
     let mut decoder = png::Decoder::new(std::io::BufReader::new(file));
     decoder.set_transformations(png::Transformations::EXPAND | png::Transformations::ALPHA);
@@ -132,7 +137,7 @@ fn read(path: &Path, region: PixelRect) -> Result<Picture, String> {
             .as_chunks::<2>()
             .0
             .iter()
-            .map(|&[grey, alpha]| [grey, grey, grey, alpha])
+            .map(|&[gray, alpha]| [gray, gray, gray, alpha])
             .collect(),
     };
     Ok(Picture { width, height, pixels })
@@ -147,7 +152,7 @@ fn side_by_side(expected: &Picture, actual: &Picture) -> Picture {
         pixels.extend(expected);
         pixels.extend(expected.iter().zip(actual).map(|(expected, actual)| {
             // Even the least difference can be seen.
-            let shade = match difference(*expected, *actual) {
+            let shade = match pixel_difference(*expected, *actual) {
                 0 => 255,
                 far => 191 - (f64::from(far) * 191.0 / 255.0) as u8,
             };
@@ -164,13 +169,13 @@ mod tests {
 
     #[test]
     fn what_nobody_sees_does_not_differ() {
-        assert_eq!(difference([9, 9, 9, 0], [0; 4]), 0);
-        assert_eq!(difference([9, 9, 9, 255], [0, 20, 9, 254]), 11);
+        assert_eq!(pixel_difference([9, 9, 9, 0], [0; 4]), 0);
+        assert_eq!(pixel_difference([9, 9, 9, 255], [0, 20, 9, 254]), 11);
         let picture = |pixels: Vec<[u8; 4]>| Picture { width: 2, height: 1, pixels };
         let [a, b] = [picture(vec![[0; 4], [7; 4]]), picture(vec![[0; 4], [9, 7, 7, 7]])];
-        let found = Comparison::of(&a, &b, 1);
-        assert_eq!((found.greatest, found.beyond, found.agrees()), (2, 1, false));
-        assert!(Comparison::of(&a, &b, 2).agrees());
+        let found = PictureComparison::new(&a, &b, 1);
+        assert_eq!((found.max_difference, found.differing_pixels, found.agrees()), (2, 1, false));
+        assert!(PictureComparison::new(&a, &b, 2).agrees());
         assert_eq!(side_by_side(&a, &b).pixels[2], [255; 4]);
         assert_ne!(side_by_side(&a, &b).pixels[3], [255; 4]);
     }

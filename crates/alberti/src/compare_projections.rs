@@ -1,14 +1,14 @@
 //! `alberti compare-projections`: a subject in every projection of the textbooks, side by side.
 
-use super::Failure;
+use super::CliError;
 use super::args::ProjectionArg;
-use super::figure::{check_panels, finish_panels};
+use super::page_output::{check_panel_output, finish_panels};
+use super::panel_subject::PanelSubjectArgs;
 use super::progress::Progress;
-use super::render::threads;
-use super::subject::SubjectArgs;
+use super::render::thread_count;
 use clap::ValueEnum as _;
 use pipeline::Scene;
-use pipeline::demonstration::{Member, compared};
+use pipeline::demonstration::{NamedProjection, projection_panels};
 use pipeline::scene::ResolveOptions;
 use std::path::PathBuf;
 
@@ -24,32 +24,32 @@ pub(crate) struct CompareProjectionsArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=16))]
     columns: Option<u8>,
     #[command(flatten)]
-    subject: SubjectArgs,
+    subject: PanelSubjectArgs,
 }
 
-pub(crate) fn run(args: &CompareProjectionsArgs) -> Result<(), Failure> {
-    check_panels(&args.output)?;
+pub(crate) fn run(args: &CompareProjectionsArgs) -> Result<(), CliError> {
+    check_panel_output(&args.output)?;
     let progress = Progress::start("loading");
-    let (origin, file) = args.subject.open()?;
-    let options = ResolveOptions { import: args.subject.load.options() };
+    let (origin, file) = args.subject.open_scene()?;
+    let options = ResolveOptions { import: args.subject.load_options.import_options() };
     let scene = Scene::resolve(&origin, &file, &options)?;
-    progress.stage("drawing");
-    let members = members(&args.projections);
-    let threads = threads(args.subject.threads);
-    let mut panels = compared(&origin, &file, &scene.models, &members, threads)?;
+    progress.enter_stage("drawing");
+    let members = select_members(&args.projections);
+    let threads = thread_count(args.subject.threads);
+    let mut panels = projection_panels(&origin, &file, &scene.models, &members, threads)?;
     panels.columns = args.columns.map_or(panels.columns, usize::from);
     finish_panels(&args.output, &panels, &scene, progress)
 }
 
 /// Those that are wanted, or all; each once.
-fn members(wanted: &[ProjectionArg]) -> Vec<Member> {
+fn select_members(wanted: &[ProjectionArg]) -> Vec<NamedProjection> {
     let all = if wanted.is_empty() { ProjectionArg::value_variants() } else { wanted };
-    let mut members: Vec<Member> = Vec::new();
+    let mut members: Vec<NamedProjection> = Vec::new();
     for projection in all {
         let value = projection.to_possible_value();
         let name = value.map(|value| value.get_name().to_owned()).unwrap_or_default();
         if members.iter().all(|member| member.name != name) {
-            members.push(Member { name, projection: (*projection).into() });
+            members.push(NamedProjection { name, projection: (*projection).into() });
         }
     }
     members

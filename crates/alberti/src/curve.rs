@@ -1,8 +1,8 @@
 //! `alberti curve`: curves of the pipeline's formulas, with their tables.
 
-use super::figure::{ends_in, write_page};
-use super::format::Format;
-use super::{Failure, say};
+use super::format::OutputFormat;
+use super::page_output::{has_extension, write_page};
+use super::{CliError, print_stdout};
 use pipeline::demonstration::{DepthRow, DepthTable};
 use projection::{Convention, DepthFormat};
 use std::path::{Path, PathBuf};
@@ -32,7 +32,7 @@ struct DepthArgs {
     bits: DepthFormat,
     /// Which depths the near and the far plane have; reversed they are the other way round
     #[arg(long, value_name = "WHICH", default_value = "zero-one")]
-    range: RangeArg,
+    range: DepthRangeArg,
     /// The distances of the table, with commas between [default: sixteen from near to far, in equal ratios]
     #[arg(long, value_name = "DISTANCES", value_delimiter = ',')]
     at: Vec<f64>,
@@ -43,7 +43,7 @@ struct DepthArgs {
 }
 
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
-enum RangeArg {
+enum DepthRangeArg {
     /// Near at 0, far at 1: Vulkan, Direct3D, Metal, WebGPU
     ZeroOne,
     /// Near at -1, far at 1: OpenGL, WebGL
@@ -51,42 +51,45 @@ enum RangeArg {
 }
 
 /// The ways in which a table is written without its curves.
-type Written = fn(&DepthTable, &[DepthRow]) -> String;
-const TABLES: [(&str, Written); 3] =
+type TableFormatter = fn(&DepthTable, &[DepthRow]) -> String;
+const TABLE_FORMATS: [(&str, TableFormatter); 3] =
     [("txt", DepthTable::to_text), ("md", DepthTable::to_markdown), ("csv", DepthTable::to_csv)];
 
-pub(crate) fn run(args: &CurveArgs) -> Result<(), Failure> {
+pub(crate) fn run(args: &CurveArgs) -> Result<(), CliError> {
     let CurveSubject::Depth(args) = &args.subject;
     let convention = match args.range {
-        RangeArg::ZeroOne => Convention::WEBGPU,
-        RangeArg::MinusOneOne => Convention::OPENGL,
+        DepthRangeArg::ZeroOne => Convention::WEBGPU,
+        DepthRangeArg::MinusOneOne => Convention::OPENGL,
     };
-    let table = DepthTable::new(args.near, args.far, convention, args.bits).map_err(told)?;
-    let distances = if args.at.is_empty() { table.distances() } else { args.at.clone() };
+    let table =
+        DepthTable::new(args.near, args.far, convention, args.bits).map_err(projection_error)?;
+    let distances = if args.at.is_empty() { table.default_distances() } else { args.at.clone() };
     let rows: Vec<DepthRow> = distances
         .into_iter()
-        .map(|distance| table.row(distance))
+        .map(|distance| table.row_at(distance))
         .collect::<Result<_, _>>()
-        .map_err(told)?;
+        .map_err(projection_error)?;
     match &args.output {
-        Some(output) => write(output, &table, &rows),
-        None => say(table.to_text(&rows).as_bytes()),
+        Some(output) => write_output(output, &table, &rows),
+        None => print_stdout(table.to_text(&rows).as_bytes()),
     }
 }
 
-fn write(output: &Path, table: &DepthTable, rows: &[DepthRow]) -> Result<(), Failure> {
-    if let Some((_, written)) = TABLES.iter().find(|(ending, _)| ends_in(output, ending)) {
+fn write_output(output: &Path, table: &DepthTable, rows: &[DepthRow]) -> Result<(), CliError> {
+    if let Some((_, written)) =
+        TABLE_FORMATS.iter().find(|(ending, _)| has_extension(output, ending))
+    {
         return Ok(pipeline::write_file(output, written(table, rows).as_bytes())?);
     }
-    Format::of(output).map_err(|_| {
+    OutputFormat::from_path(output).map_err(|_| {
         let (name, endings) = (output.display(), ".svg, .pdf, .png, .txt, .md or .csv");
-        Failure::Usage(format!("the output {name} does not end in {endings}"))
+        CliError::Usage(format!("the output {name} does not end in {endings}"))
     })?;
     write_page(output, &table.to_page(rows))
 }
 
-fn told(error: projection::ProjectionError) -> Failure {
-    Failure::Usage(error.to_string())
+fn projection_error(error: projection::ProjectionError) -> CliError {
+    CliError::Usage(error.to_string())
 }
 
 fn parse_bits(text: &str) -> Result<DepthFormat, String> {

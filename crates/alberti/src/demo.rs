@@ -1,8 +1,8 @@
 //! `alberti demo`: what goes wrong where a stage of the pipeline is left out.
 
-use super::Failure;
-use super::figure::{check_panels, write_panels};
-use pipeline::demonstration::tear;
+use super::CliError;
+use super::page_output::{check_panel_output, write_panels};
+use pipeline::demonstration::wraparound_panels;
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
@@ -24,8 +24,8 @@ struct TearArgs {
     output: PathBuf,
 }
 
-pub(crate) fn run(args: &DemoArgs) -> Result<(), Failure> {
+pub(crate) fn run(args: &DemoArgs) -> Result<(), CliError> {
     let DemoSubject::Tear(args) = &args.subject;
-    check_panels(&args.output)?;
-    write_panels(&args.output, &tear()?)
+    check_panel_output(&args.output)?;
+    write_panels(&args.output, &wraparound_panels()?)
 }

@@ -1,15 +1,15 @@
 //! `alberti explain`: where a point, a segment, a vertex or a triangle goes, stage by stage, and why a node is not seen.
 
-use super::Failure;
-use super::loading::LoadArgs;
-use super::look::LookArgs;
-use super::render::{open, threads};
+use super::CliError;
+use super::load_options::LoadArgs;
+use super::render::{open_input, thread_count};
+use super::scene_overrides::SceneOverrideArgs;
 use homog::{Point, World};
 use model::Model;
 use model::ModelInstance;
 use pipeline::explain::{
-    Chain, Conventions, Explanation, Vertex, explain_chain, explain_node, explain_pixel,
-    explain_place, explain_segment, explain_triangle, explain_vertex,
+    ApiConventions, Explanation, TransformChain, VertexRef, explain_node, explain_pixel,
+    explain_point, explain_segment, explain_transforms, explain_triangle, explain_vertex,
 };
 use pipeline::scene::ResolveOptions;
 use pipeline::{Picture, Scene};
@@ -17,17 +17,17 @@ use std::io::Write as _;
 use std::path::PathBuf;
 
 /// The longer side of the picture on a page, in pixels.
-const SIDE: f64 = 960.0;
+const MAX_PAGE_SIDE: f64 = 960.0;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct ExplainArgs {
     /// A scene (.ron) or a model (.gltf, .glb)
     input: PathBuf,
     #[command(flatten)]
-    subject: SubjectArgs,
+    subject: ExplainSubjectArgs,
     /// Whose canonical volume, view space and pixels are spoken of
     #[arg(long, value_name = "NAME", default_value = "alberti", value_parser = conventions())]
-    conventions: Conventions,
+    conventions: ApiConventions,
     /// The explanation for programs
     #[arg(long)]
     json: bool,
@@ -38,15 +38,15 @@ pub(crate) struct ExplainArgs {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]
-    look: LookArgs,
+    overrides: SceneOverrideArgs,
     #[command(flatten)]
-    load: LoadArgs,
+    load_options: LoadArgs,
 }
 
 /// What is explained: a place, or a part of a model; without any the maps themselves.
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Subject")]
-struct SubjectArgs {
+struct ExplainSubjectArgs {
     /// A point of the world
     #[arg(long, value_name = "X,Y,Z", value_parser = numbers::<3>, allow_hyphen_values = true, conflicts_with_all = ["segment", "node"])]
     point: Option<[f64; 3]>,
@@ -73,19 +73,23 @@ struct SubjectArgs {
     model: usize,
 }
 
-pub(crate) fn run(args: &ExplainArgs) -> Result<(), Failure> {
-    let (origin, mut file) = open(&args.input, &args.look.import(&args.load))?;
-    args.look.override_in(&mut file);
-    let scene =
-        Scene::resolve(&origin, &file, &ResolveOptions { import: args.look.import(&args.load) })?;
+pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
+    let (origin, mut file) =
+        open_input(&args.input, &args.overrides.import_options(&args.load_options))?;
+    args.overrides.apply_to(&mut file);
+    let scene = Scene::resolve(
+        &origin,
+        &file,
+        &ResolveOptions { import: args.overrides.import_options(&args.load_options) },
+    )?;
     let size = (scene.image.width, scene.image.height);
-    let chain = Chain::of(&scene.view_projection, size, args.conventions)
+    let chain = TransformChain::new(&scene.view_projection, size, args.conventions)
         .map_err(pipeline::RenderError::from)?;
-    let told = args.subject.explain(&chain, &scene).map_err(Failure::Usage)?;
+    let explanation = args.subject.explain_subject(&chain, &scene).map_err(CliError::Usage)?;
     let text = match (args.json, args.html) {
-        (true, _) => format!("{:#}\n", told.to_json()),
-        (_, true) => told.to_html(&chain, Some(&small_picture(scene)?)),
-        _ => told.to_string(),
+        (true, _) => format!("{:#}\n", explanation.to_json()),
+        (_, true) => explanation.to_html(&chain, Some(&render_page_picture(scene)?)),
+        _ => explanation.to_string(),
     };
     match &args.output {
         Some(path) => pipeline::write_file(path, text.as_bytes())?,
@@ -95,18 +99,23 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<(), Failure> {
 }
 
 /// The picture of a scene, no larger than a page has room for.
-fn small_picture(mut scene: Scene) -> Result<Picture, Failure> {
+fn render_page_picture(mut scene: Scene) -> Result<Picture, CliError> {
     let image = &mut scene.image;
     let most = f64::from(image.width.max(image.height));
-    let shrunk = |side: u32| ((f64::from(side) * (SIDE / most).min(1.0)) as u32).max(1);
-    (image.width, image.height) = (shrunk(image.width), shrunk(image.height));
-    Ok(pipeline::render(&scene, threads(None))?)
+    let shrunk_side =
+        |side: u32| ((f64::from(side) * (MAX_PAGE_SIDE / most).min(1.0)) as u32).max(1);
+    (image.width, image.height) = (shrunk_side(image.width), shrunk_side(image.height));
+    Ok(pipeline::render(&scene, thread_count(None))?)
 }
 
-impl SubjectArgs {
-    fn explain(&self, chain: &Chain, scene: &Scene) -> Result<Explanation, String> {
+impl ExplainSubjectArgs {
+    fn explain_subject(
+        &self,
+        chain: &TransformChain,
+        scene: &Scene,
+    ) -> Result<Explanation, String> {
         if let Some(place) = self.point {
-            return Ok(explain_place(chain, place.into()));
+            return Ok(explain_point(chain, place.into()));
         }
         if let Some([x, y]) = self.pixel {
             return explain_pixel(chain, scene, x, y);
@@ -115,23 +124,23 @@ impl SubjectArgs {
             let ends = [[ax, ay, az], [bx, by, bz]];
             return Ok(explain_segment(chain, ends.map(Point::<World>::from)));
         }
-        let Some(node) = &self.node else { return Ok(explain_chain(chain)) };
+        let Some(node) = &self.node else { return Ok(explain_transforms(chain)) };
         let placed = scene.models.get(self.model).ok_or_else(|| {
             let count = scene.models.len();
             format!("the scene has {count} models; there is no model {}", self.model)
         })?;
-        self.part(chain, placed, node_of(&placed.model, node)?)
+        self.explain_part(chain, placed, find_node(&placed.model, node)?)
     }
 
-    fn part(
+    fn explain_part(
         &self,
-        chain: &Chain,
+        chain: &TransformChain,
         placed: &ModelInstance,
         node: usize,
     ) -> Result<Explanation, String> {
         let primitive = self.primitive;
         match (self.vertex, self.triangle) {
-            (Some(index), _) => explain_vertex(chain, placed, Vertex { node, primitive, index }),
+            (Some(index), _) => explain_vertex(chain, placed, VertexRef { node, primitive, index }),
             (_, Some(triangle)) => explain_triangle(chain, placed, node, primitive, triangle),
             _ => Ok(explain_node(chain, placed, node)),
         }
@@ -139,7 +148,7 @@ impl SubjectArgs {
 }
 
 /// The number of a node by its number or name.
-fn node_of(model: &Model, node: &str) -> Result<usize, String> {
+fn find_node(model: &Model, node: &str) -> Result<usize, String> {
     let named = || model.nodes.iter().position(|known| known.name.as_deref() == Some(node));
     let numbered = node.parse().ok().filter(|&number: &usize| number < model.nodes.len());
     numbered.or_else(named).ok_or_else(|| {
@@ -167,8 +176,8 @@ fn pair(text: &str) -> Result<[u32; 2], String> {
     Ok([side(x)?, side(y)?])
 }
 
-fn conventions() -> impl clap::builder::TypedValueParser<Value = Conventions> {
+fn conventions() -> impl clap::builder::TypedValueParser<Value = ApiConventions> {
     use clap::builder::{PossibleValuesParser, TypedValueParser as _};
-    PossibleValuesParser::new(Conventions::ALL.map(Conventions::name))
-        .try_map(|name| name.parse::<Conventions>())
+    PossibleValuesParser::new(ApiConventions::ALL.map(ApiConventions::name))
+        .try_map(|name| name.parse::<ApiConventions>())
 }

@@ -1,12 +1,12 @@
 //! The format of an output, by the end of its name.
 
-use super::failure::Failure;
+use super::error::CliError;
 use drawing::{Page, to_pdf};
 use std::path::Path;
 
 /// What an output is written as.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
-pub(crate) enum Format {
+pub(crate) enum OutputFormat {
     /// Pixels
     Png,
     /// A line drawing
@@ -15,9 +15,9 @@ pub(crate) enum Format {
     Pdf,
 }
 
-impl Format {
+impl OutputFormat {
     /// The format of a file of this name.
-    pub(super) fn of(output: &Path) -> Result<Self, Failure> {
+    pub(super) fn from_path(output: &Path) -> Result<Self, CliError> {
         let ending = output.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         match ending.as_deref() {
             Some("png") => Ok(Self::Png),
@@ -26,7 +26,7 @@ impl Format {
             _ => {
                 let name = output.display();
                 let help = "name it so, or say what it is with --format";
-                Err(Failure::Usage(format!(
+                Err(CliError::Usage(format!(
                     "the output {name} does not end in .png, .svg or .pdf\n  = help: {help}"
                 )))
             }
@@ -34,7 +34,7 @@ impl Format {
     }
 
     /// The end of the names of such files.
-    pub(super) fn ending(self) -> &'static str {
+    pub(super) fn extension(self) -> &'static str {
         match self {
             Self::Png => "png",
             Self::Svg => "svg",
@@ -43,7 +43,7 @@ impl Format {
     }
 
     /// Pages in a format of lines; an SVG has the first alone.
-    pub(super) fn vectors(self, pages: &[Page]) -> Vec<u8> {
+    pub(super) fn encode_pages(self, pages: &[Page]) -> Vec<u8> {
         match self {
             Self::Pdf => to_pdf(pages),
             Self::Png | Self::Svg => {

@@ -67,9 +67,9 @@ enum GroundArg {
 }
 
 impl LightArgs {
-    pub(super) fn override_in(&self, file: &mut SceneFile) {
+    pub(super) fn apply_to(&self, file: &mut SceneFile) {
         if let Some(environment) = &self.environment {
-            file.environment = Some(environment.file());
+            file.environment = Some(environment.to_environment_file());
         }
         if let Some(exposure) = self.exposure {
             file.image.exposure_ev = Some(exposure);
@@ -83,7 +83,7 @@ impl LightArgs {
             };
         }
         match self.ground {
-            Some(GroundArg::Shadow) => file.ground = Some(GroundFile::USUAL),
+            Some(GroundArg::Shadow) => file.ground = Some(GroundFile::DEFAULT),
             Some(GroundArg::None) => file.ground = None,
             None => {}
         }
@@ -92,12 +92,12 @@ impl LightArgs {
             file.ambient_occlusion = Some(file.ambient_occlusion.unwrap_or(usual));
         }
         if let Some(shadows) = self.shadows {
-            self::shadows(file, shadows);
+            switch_shadows(file, shadows);
         }
     }
 
     /// The file of the surroundings, if it was named here: a person may read what they have named.
-    pub(super) fn named_file(&self) -> Option<PathBuf> {
+    pub(super) fn environment_file(&self) -> Option<PathBuf> {
         match &self.environment {
             Some(EnvironmentArg::File(path)) => Some(path.clone()),
             _ => None,
@@ -106,27 +106,27 @@ impl LightArgs {
 }
 
 /// Switches the shadows of all lights; those that the scene has settings for keep them.
-fn shadows(file: &mut SceneFile, switch: SwitchArg) {
-    let switched = |known: Option<ShadowsFile>| match (switch, known) {
+fn switch_shadows(file: &mut SceneFile, switch: SwitchArg) {
+    let switched_shadows = |known: Option<ShadowsFile>| match (switch, known) {
         (SwitchArg::Off, _) => Some(ShadowsFile::Off),
         (SwitchArg::On, Some(on @ ShadowsFile::On { .. })) => Some(on),
-        (SwitchArg::On, _) => Some(ShadowsFile::USUAL),
+        (SwitchArg::On, _) => Some(ShadowsFile::DEFAULT),
     };
-    file.shadows = switched(file.shadows);
+    file.shadows = switched_shadows(file.shadows);
     for light in file.lights.iter_mut().flatten() {
         if let LightFile::Sun { shadows, .. } | LightFile::Spot { shadows, .. } = light {
-            *shadows = shadows.and_then(|own| switched(Some(own)));
+            *shadows = shadows.and_then(|own| switched_shadows(Some(own)));
         }
     }
 }
 
 impl EnvironmentArg {
-    fn file(&self) -> EnvironmentFile {
+    fn to_environment_file(&self) -> EnvironmentFile {
         match self {
             Self::Studio => EnvironmentFile::STUDIO,
             Self::Sky => EnvironmentFile::SKY,
             Self::None => EnvironmentFile::Dark,
-            Self::File(path) => EnvironmentFile::of_file(path.to_string_lossy().into_owned()),
+            Self::File(path) => EnvironmentFile::from_path(path.to_string_lossy().into_owned()),
         }
     }
 }

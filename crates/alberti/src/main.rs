@@ -9,35 +9,35 @@ mod compare;
 mod compare_projections;
 mod curve;
 mod demo;
+mod error;
 mod explain;
-mod failure;
-mod figure;
 mod format;
 mod info;
 mod light;
-mod loading;
-mod look;
+mod load_options;
 mod manual;
 mod matrix;
-mod paint;
-mod part;
+mod model_state;
+mod page_output;
+mod panel_subject;
 mod passes;
-mod pick;
 mod progress;
 mod reference;
+mod region;
 mod render;
-mod report;
+mod render_job;
+mod render_report;
 mod scene;
+mod scene_overrides;
 mod section;
 mod sheet;
-mod show;
-mod subject;
 mod sweep;
 mod template;
+mod terminal_image;
 
 use args::{Args, Command};
 use clap::{CommandFactory, Parser};
-use failure::Failure;
+use error::CliError;
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -46,15 +46,15 @@ fn main() -> ExitCode {
     match run(Args::parse()) {
         Ok(code) => code,
         Err(failure) => {
-            complain("error", &failure.told());
+            print_message("error", &failure.to_message());
             ExitCode::FAILURE
         }
     }
 }
 
 /// Does what was asked for.
-pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
-    color::choose(args.color);
+pub(crate) fn run(args: Args) -> Result<ExitCode, CliError> {
+    color::set_color_choice(args.color);
     match args.command {
         Command::Render(args) => return render::run(&args),
         Command::Sheet(args) => sheet::run(&args)?,
@@ -69,15 +69,15 @@ pub(crate) fn run(args: Args) -> Result<ExitCode, Failure> {
         Command::Animate(args) => animate::run(&args)?,
         Command::Batch(args) => return batch::run(&args),
         Command::Scene(args) => return scene::run(&args),
-        Command::Completions(args) => manual::completions(&args, Args::command())?,
-        Command::Man(args) => manual::pages(&args, Args::command())?,
+        Command::Completions(args) => manual::print_completions(&args, Args::command())?,
+        Command::Man(args) => manual::print_man_pages(&args, Args::command())?,
         Command::Reference(args) => reference::run(&args, Args::command())?,
     }
     Ok(ExitCode::SUCCESS)
 }
 
 /// Writes to the standard output. A reader who has seen enough and closed it is no failure.
-pub(crate) fn say(bytes: &[u8]) -> Result<(), Failure> {
+pub(crate) fn print_stdout(bytes: &[u8]) -> Result<(), CliError> {
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error.into()),
@@ -86,7 +86,7 @@ pub(crate) fn say(bytes: &[u8]) -> Result<(), Failure> {
 }
 
 /// Tells the person something on the standard error stream. That the stream may be closed is no reason to fail.
-pub(crate) fn complain(level: &str, message: &str) {
-    let level = color::level(level, color::on_stderr());
+pub(crate) fn print_message(level: &str, message: &str) {
+    let level = color::style_level(level, color::stderr_has_color());
     let _ = writeln!(std::io::stderr(), "{level}: {message}");
 }

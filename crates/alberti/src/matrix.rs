@@ -1,6 +1,6 @@
 //! `alberti matrix`: sixteen numbers, and what they are.
 
-use super::Failure;
+use super::CliError;
 use pipeline::explain::explain_matrix;
 use std::io::{Read as _, Write as _};
 
@@ -18,31 +18,31 @@ pub(crate) struct MatrixArgs {
     json: bool,
 }
 
-pub(crate) fn run(args: &MatrixArgs) -> Result<(), Failure> {
-    let text = if args.numbers.is_empty() { standard_input()? } else { args.numbers.join(" ") };
-    let rows = matrix(&text, args.columns).map_err(Failure::Usage)?;
-    let found = explain_matrix(rows).map_err(Failure::Usage)?;
+pub(crate) fn run(args: &MatrixArgs) -> Result<(), CliError> {
+    let text = if args.numbers.is_empty() { read_stdin()? } else { args.numbers.join(" ") };
+    let rows = parse_matrix(&text, args.columns).map_err(CliError::Usage)?;
+    let found = explain_matrix(rows).map_err(CliError::Usage)?;
     let text = if args.json { format!("{:#}\n", found.to_json()) } else { found.to_string() };
     std::io::stdout().write_all(text.as_bytes())?;
     Ok(())
 }
 
-fn standard_input() -> Result<String, Failure> {
+fn read_stdin() -> Result<String, CliError> {
     // Sixteen numbers need no more.
-    const MOST: u64 = 1 << 16;
+    const MAX_BYTES: u64 = 1 << 16;
     let mut bytes = Vec::new();
-    let read = std::io::stdin().take(MOST).read_to_end(&mut bytes);
+    let read = std::io::stdin().take(MAX_BYTES).read_to_end(&mut bytes);
     let fault =
-        |problem: String| Failure::Usage(format!("cannot read the standard input: {problem}"));
+        |problem: String| CliError::Usage(format!("cannot read the standard input: {problem}"));
     read.map_err(|error| fault(error.to_string()))?;
     String::from_utf8(bytes).map_err(|_| fault("it is not UTF-8 text".to_owned()))
 }
 
 /// The rows of the matrix that a text lists.
-fn matrix(text: &str, columns: bool) -> Result<[[f64; 4]; 4], String> {
+fn parse_matrix(text: &str, columns: bool) -> Result<[[f64; 4]; 4], String> {
     let between = |c: char| c.is_whitespace() || "[](){},;|".contains(c);
     let words = text.split(between).filter(|word| !word.is_empty());
-    let numbers: Vec<f64> = words.map(number).collect::<Result<_, _>>()?;
+    let numbers: Vec<f64> = words.map(parse_number).collect::<Result<_, _>>()?;
     let listed: [f64; 16] = numbers.try_into().map_err(|numbers: Vec<f64>| {
         format!("a matrix has 16 numbers, and here are {}", numbers.len())
     })?;
@@ -51,7 +51,7 @@ fn matrix(text: &str, columns: bool) -> Result<[[f64; 4]; 4], String> {
 }
 
 /// A number or a fraction.
-fn number(word: &str) -> Result<f64, String> {
+fn parse_number(word: &str) -> Result<f64, String> {
     let fault = || format!("`{word}` is not a number");
     let parse = |digits: &str| digits.parse::<f64>().map_err(|_| fault());
     match word.split_once('/') {
@@ -72,13 +72,13 @@ mod tests {
             [0.0, 0.0, 1.0, -1e3],
             [0.0, 0.0, 0.0, 1.0],
         ];
-        assert_eq!(matrix("1 0 0 2 0 1 0 1/2 0 0 1 -1e3 0 0 0 1", false), Ok(rows));
-        assert_eq!(matrix("[[1,0,0,2],[0,1,0,.5],[0,0,1,-1000],[0,0,0,1]]", false), Ok(rows));
-        assert_eq!(matrix("(1 0 0 0) (0 1 0 0) (0 0 1 0) (2 0.5 -1000 1)", true), Ok(rows));
+        assert_eq!(parse_matrix("1 0 0 2 0 1 0 1/2 0 0 1 -1e3 0 0 0 1", false), Ok(rows));
+        assert_eq!(parse_matrix("[[1,0,0,2],[0,1,0,.5],[0,0,1,-1000],[0,0,0,1]]", false), Ok(rows));
+        assert_eq!(parse_matrix("(1 0 0 0) (0 1 0 0) (0 0 1 0) (2 0.5 -1000 1)", true), Ok(rows));
         assert_eq!(
-            matrix("1 2 3", false),
+            parse_matrix("1 2 3", false),
             Err("a matrix has 16 numbers, and here are 3".to_owned())
         );
-        assert_eq!(matrix("1 x", false), Err("`x` is not a number".to_owned()));
+        assert_eq!(parse_matrix("1 x", false), Err("`x` is not a number".to_owned()));
     }
 }

@@ -1,11 +1,11 @@
 //! Flags for passes, and the files they go to.
 
-use super::Failure;
+use super::CliError;
 use clap::ValueEnum;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use pipeline::render::passes::{Pass, PassBuffer, PassEncoding};
 use pipeline::scene::file::{PassEncodingFile, PassFile, SceneFile};
-use pipeline::{Draft, OutputError};
+use pipeline::{AtomicFile, OutputError};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -33,7 +33,7 @@ enum EncodingArg {
 
 impl PassArgs {
     /// What the flags say goes before what the scene says.
-    pub(crate) fn override_in(&self, file: &mut SceneFile) {
+    pub(crate) fn apply_to(&self, file: &mut SceneFile) {
         if !self.passes.is_empty() {
             file.passes.write.clone_from(&self.passes);
         }
@@ -47,23 +47,23 @@ impl PassArgs {
 }
 
 /// The files of passes beside a picture, not yet in their places.
-pub(super) fn drafts(
+pub(super) fn create_pass_files(
     output: &Path,
     buffers: &[PassBuffer],
     encoding: PassEncoding,
-) -> Result<Vec<(PathBuf, Draft)>, Failure> {
+) -> Result<Vec<(PathBuf, AtomicFile)>, CliError> {
     let draft = |buffer: &PassBuffer| {
-        let path = beside(output, buffer.pass.name(), encoding.ending());
-        let mut draft = Draft::of(&path)?;
+        let path = sibling_path(output, buffer.pass.name(), encoding.file_extension());
+        let mut draft = AtomicFile::create(&path)?;
         let fault = |cause| OutputError { path: path.clone(), cause };
-        draft.write_all(&buffer.to_bytes(encoding)).map_err(fault)?;
+        draft.write_all(&buffer.encode_file(encoding)).map_err(fault)?;
         Ok((path, draft))
     };
     buffers.iter().map(draft).collect()
 }
 
 /// The name of a file that belongs to another: `picture.depth.png` for `picture.png`.
-pub(super) fn beside(output: &Path, what: &str, ending: &str) -> PathBuf {
+pub(super) fn sibling_path(output: &Path, what: &str, ending: &str) -> PathBuf {
     let mut name = output.file_stem().unwrap_or_default().to_owned();
     name.push(format!(".{what}.{ending}"));
     output.with_file_name(name)

@@ -7,9 +7,9 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 /// How long work may take before anything is said.
-const MOMENT: Duration = Duration::from_millis(400);
+const DISPLAY_DELAY: Duration = Duration::from_millis(400);
 /// How often the time is told.
-const TICK: Duration = Duration::from_millis(100);
+const REFRESH_INTERVAL: Duration = Duration::from_millis(100);
 
 /// A line on the terminal that says what is being done and since when; it is gone when the work is.
 #[derive(Debug)]
@@ -27,9 +27,9 @@ impl Progress {
         let watcher = std::thread::spawn(move || {
             let (mut stage, begin) = (stage, Instant::now());
             loop {
-                match receiver.recv_timeout(TICK) {
+                match receiver.recv_timeout(REFRESH_INTERVAL) {
                     Ok(next) => stage = next,
-                    Err(RecvTimeoutError::Timeout) if begin.elapsed() > MOMENT => {
+                    Err(RecvTimeoutError::Timeout) if begin.elapsed() > DISPLAY_DELAY => {
                         let seconds = begin.elapsed().as_secs_f32();
                         let _ = write!(std::io::stderr(), "\r\x1b[K{stage} … {seconds:.1} s");
                     }
@@ -37,7 +37,7 @@ impl Progress {
                     Err(RecvTimeoutError::Disconnected) => break,
                 }
             }
-            if begin.elapsed() > MOMENT {
+            if begin.elapsed() > DISPLAY_DELAY {
                 let _ = write!(std::io::stderr(), "\r\x1b[K");
             }
         });
@@ -45,7 +45,7 @@ impl Progress {
     }
 
     /// The work has come to another stage.
-    pub(crate) fn stage(&self, stage: &'static str) {
+    pub(crate) fn enter_stage(&self, stage: &'static str) {
         if let Some((sender, _)) = &self.stages {
             let _ = sender.send(stage);
         }
@@ -63,30 +63,30 @@ impl Drop for Progress {
 
 /// How many of many jobs are done, and how long the rest may take.
 #[derive(Debug)]
-pub(crate) struct Counter {
-    all: usize,
+pub(crate) struct ProgressCounter {
+    total: usize,
     done: AtomicUsize,
     begin: Instant,
-    speaks: bool,
+    is_visible: bool,
 }
 
-impl Counter {
+impl ProgressCounter {
     /// Starts to count, aloud if there is a terminal.
-    pub(crate) fn start(all: usize) -> Self {
-        let speaks = std::io::stderr().is_terminal();
-        Self { all, done: AtomicUsize::new(0), begin: Instant::now(), speaks }
+    pub(crate) fn start(total: usize) -> Self {
+        let is_visible = std::io::stderr().is_terminal();
+        Self { total, done: AtomicUsize::new(0), begin: Instant::now(), is_visible }
     }
 
     /// One more is done.
-    pub(crate) fn count(&self) {
+    pub(crate) fn increment(&self) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
-        if !self.speaks {
+        if !self.is_visible {
             return;
         }
         let each = self.begin.elapsed().as_secs_f64() / done as f64;
-        let left = each * self.all.saturating_sub(done) as f64;
-        let end = if done == self.all { "\r\x1b[K" } else { "" };
-        let all = self.all;
+        let left = each * self.total.saturating_sub(done) as f64;
+        let end = if done == self.total { "\r\x1b[K" } else { "" };
+        let all = self.total;
         let _ = write!(std::io::stderr(), "\r\x1b[K{done} of {all}, {left:.0} s left{end}");
     }
 }

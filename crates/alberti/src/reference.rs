@@ -12,7 +12,7 @@ mod markdown;
 mod search;
 mod text;
 
-use super::{Failure, say};
+use super::{CliError, print_stdout};
 use clap::{Command, ValueEnum};
 
 #[derive(Debug, clap::Args)]
@@ -38,15 +38,15 @@ enum ReferenceFormat {
 
 /// A part of the reference: a command, or a type of scene files.
 #[derive(Clone, Debug, Default)]
-struct Section {
+struct ReferenceSection {
     title: String,
     about: String,
-    entries: Vec<Entry>,
+    entries: Vec<ReferenceEntry>,
 }
 
 /// A flag, a field, or a word to choose.
 #[derive(Clone, Debug, Default)]
-struct Entry {
+struct ReferenceEntry {
     /// Its name, as it is written.
     term: String,
     /// What kind of value it has.
@@ -59,25 +59,35 @@ struct Entry {
 }
 
 /// Prints the reference of the flags and of scene files.
-pub(crate) fn run(args: &ReferenceArgs, program: Command) -> Result<(), Failure> {
-    let flags = flags::sections(program);
-    print(args, "Reference of Alberti", flags.into_iter().chain(fields::sections()).collect())
+pub(crate) fn run(args: &ReferenceArgs, program: Command) -> Result<(), CliError> {
+    let flags = flags::command_sections(program);
+    print_reference(
+        args,
+        "Reference of Alberti",
+        flags.into_iter().chain(fields::type_sections()).collect(),
+    )
 }
 
 /// Prints the reference of scene files.
-pub(crate) fn fields(args: &ReferenceArgs) -> Result<(), Failure> {
-    print(args, "Reference of scene files", fields::sections())
+pub(crate) fn run_fields(args: &ReferenceArgs) -> Result<(), CliError> {
+    print_reference(args, "Reference of scene files", fields::type_sections())
 }
 
-fn print(args: &ReferenceArgs, title: &str, sections: Vec<Section>) -> Result<(), Failure> {
+fn print_reference(
+    args: &ReferenceArgs,
+    title: &str,
+    sections: Vec<ReferenceSection>,
+) -> Result<(), CliError> {
     let sections = match &args.word {
-        Some(word) => search::matching(&sections, word).map_err(Failure::Usage)?,
+        Some(word) => search::find_sections(&sections, word).map_err(CliError::Usage)?,
         None => sections,
     };
-    say(match args.format {
-        ReferenceFormat::Text => text::page(&sections),
-        ReferenceFormat::Markdown => markdown::page(title, &sections),
-        ReferenceFormat::Html => html::page(title, &sections),
-    }
-    .as_bytes())
+    print_stdout(
+        match args.format {
+            ReferenceFormat::Text => text::format_text(&sections),
+            ReferenceFormat::Markdown => markdown::format_markdown(title, &sections),
+            ReferenceFormat::Html => html::format_html(title, &sections),
+        }
+        .as_bytes(),
+    )
 }

@@ -4,7 +4,7 @@ mod fmt;
 mod init;
 
 use super::reference::{self, ReferenceArgs};
-use super::{Failure, check};
+use super::{CliError, check};
 use clap::Subcommand;
 use std::process::ExitCode;
 
@@ -17,7 +17,7 @@ pub(crate) struct SceneArgs {
 #[derive(Debug, Subcommand)]
 enum SceneCommand {
     /// Tell everything that is wrong with scenes and their models, and what is probably not meant
-    Check(check::SceneCheckArgs),
+    Check(check::CheckScenesArgs),
     /// Write a scene file for a model, with comments, to go on from
     Init(init::InitArgs),
     /// Lay out scene files alike; comments stay
@@ -26,12 +26,12 @@ enum SceneCommand {
     Doc(ReferenceArgs),
 }
 
-pub(crate) fn run(args: &SceneArgs) -> Result<ExitCode, Failure> {
+pub(crate) fn run(args: &SceneArgs) -> Result<ExitCode, CliError> {
     match &args.command {
-        SceneCommand::Check(args) => return check::scenes(args),
+        SceneCommand::Check(args) => return check::run_scenes(args),
         SceneCommand::Fmt(args) => return fmt::run(args),
         SceneCommand::Init(args) => init::run(args)?,
-        SceneCommand::Doc(args) => reference::fields(args)?,
+        SceneCommand::Doc(args) => reference::run_fields(args)?,
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -13,7 +13,7 @@ pub(crate) struct SectionArgs {
 
 impl SectionArgs {
     /// Cuts of the flags come after those of the scene.
-    pub(crate) fn add_to(&self, file: &mut SceneFile) {
+    pub(crate) fn append_to(&self, file: &mut SceneFile) {
         file.sections.extend(self.sections.iter().cloned());
     }
 }

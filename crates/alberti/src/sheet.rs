@@ -1,11 +1,11 @@
 //! `alberti sheet`: the views of a scene or a bare model on paper, to scale.
 
-use super::Failure;
-use super::format::Format;
-use super::loading::LoadArgs;
-use super::pick::PickArgs;
+use super::CliError;
+use super::format::OutputFormat;
+use super::load_options::LoadArgs;
+use super::model_state::ModelStateArgs;
 use super::progress::Progress;
-use super::render::{open, threads, warn};
+use super::render::{open_input, print_warnings, thread_count};
 use super::section::SectionArgs;
 use clap::ValueEnum;
 use drawing::Page;
@@ -66,12 +66,12 @@ pub(crate) struct SheetArgs {
     #[command(flatten)]
     section: SectionArgs,
     #[command(flatten)]
-    pick: PickArgs,
+    model_state: ModelStateArgs,
     /// Threads to use; the sheet does not depend on it [default: as many as there are cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
     #[command(flatten)]
-    load: LoadArgs,
+    load_options: LoadArgs,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -123,54 +123,54 @@ enum HiddenArg {
     Drawn,
 }
 
-pub(crate) fn run(args: &SheetArgs) -> Result<(), Failure> {
-    let output = args.output.clone().map_or_else(|| beside(args), Ok)?;
-    let format = Format::of(&output)?;
+pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
+    let output = args.output.clone().map_or_else(|| default_output(args), Ok)?;
+    let format = OutputFormat::from_path(&output)?;
     let progress = Progress::start("loading");
-    let (origin, mut file) = open(&args.input, &args.load.options())?;
-    file.models.iter_mut().for_each(|model| args.pick.override_in(model));
-    args.section.add_to(&mut file);
+    let (origin, mut file) = open_input(&args.input, &args.load_options.import_options())?;
+    file.models.iter_mut().for_each(|model| args.model_state.apply_to(model));
+    args.section.append_to(&mut file);
     // The views are the sheet's; what the scene says of its camera does not matter.
     file.camera = pipeline::scene::file::CameraFile::default();
-    let mut described = file.sheet.take().unwrap_or_default();
-    override_with(&mut described, args);
-    let sheet = pipeline::scene::resolve_sheet(&origin, &described)
+    let mut sheet_file = file.sheet.take().unwrap_or_default();
+    apply_overrides(&mut sheet_file, args);
+    let sheet = pipeline::scene::resolve_sheet(&origin, &sheet_file)
         .map_err(pipeline::ResolveError::from)?;
-    let options = ResolveOptions { import: args.load.options() };
+    let options = ResolveOptions { import: args.load_options.import_options() };
     let scene = Scene::resolve(&origin, &file, &options)?;
-    progress.stage("drawing");
-    let page = sheet.draw(&scene.models, &scene.sections, threads(args.threads))?;
-    progress.stage("writing");
+    progress.enter_stage("drawing");
+    let page = sheet.draw(&scene.models, &scene.sections, thread_count(args.threads))?;
+    progress.enter_stage("writing");
     let warnings = page.warnings.clone();
     let bytes = match format {
-        Format::Png => picture(&page)?.to_png(),
-        Format::Svg | Format::Pdf => format.vectors(&[page]),
+        OutputFormat::Png => rasterize_page(&page)?.to_png(),
+        OutputFormat::Svg | OutputFormat::Pdf => format.encode_pages(&[page]),
     };
     pipeline::write_file(&output, &bytes)?;
     drop(progress);
-    warn(&scene, &warnings);
+    print_warnings(&scene, &warnings);
     Ok(())
 }
 
 /// The name of the input with another ending, in the current folder.
-fn beside(args: &SheetArgs) -> Result<PathBuf, Failure> {
+fn default_output(args: &SheetArgs) -> Result<PathBuf, CliError> {
     let stem = args.input.file_stem();
-    let stem = stem.ok_or_else(|| Failure::Usage("name the output with -o FILE".to_owned()))?;
+    let stem = stem.ok_or_else(|| CliError::Usage("name the output with -o FILE".to_owned()))?;
     Ok(PathBuf::from(stem).with_extension("pdf"))
 }
 
 /// A page as pixels, at 150 dots to the inch.
-pub(super) fn picture(page: &Page) -> Result<Picture, Failure> {
+pub(super) fn rasterize_page(page: &Page) -> Result<Picture, CliError> {
     let size = || {
         let paper = Paper::new(page.size.x, page.size.y).ok()?;
-        let [width, height] = paper.pixels(Resolution::dots_per_inch(DOTS_PER_INCH).ok()?)?;
+        let [width, height] = paper.pixel_size(Resolution::dots_per_inch(DOTS_PER_INCH).ok()?)?;
         page.to_picture(width, height)
     };
-    size().ok_or_else(|| Failure::Usage("the paper is too large for a picture".to_owned()))
+    size().ok_or_else(|| CliError::Usage("the paper is too large for a picture".to_owned()))
 }
 
 /// What the flags say goes before what the scene says.
-fn override_with(sheet: &mut SheetFile, args: &SheetArgs) {
+fn apply_overrides(sheet: &mut SheetFile, args: &SheetArgs) {
     args.paper.into_iter().for_each(|paper| sheet.paper = paper.into());
     args.orientation.into_iter().for_each(|way| sheet.orientation = Some(way.into()));
     args.angle.into_iter().for_each(|angle| sheet.angle = angle.into());
@@ -185,8 +185,8 @@ fn override_with(sheet: &mut SheetFile, args: &SheetArgs) {
         (&mut sheet.date, &args.date),
         (&mut sheet.number, &args.number),
     ];
-    for (place, text) in texts {
-        text.iter().for_each(|text| place.clone_from(text));
+    for (field, text) in texts {
+        text.iter().for_each(|text| field.clone_from(text));
     }
 }
 

@@ -1,17 +1,17 @@
 //! `alberti sweep`: one parameter of camera or lens, step by step, on one page.
 
-use super::Failure;
+use super::CliError;
 use super::args::ProjectionArg;
-use super::figure::{check_panels, finish_panels};
-use super::look::named_view;
+use super::page_output::{check_panel_output, finish_panels};
+use super::panel_subject::PanelSubjectArgs;
 use super::progress::Progress;
-use super::render::threads;
-use super::subject::SubjectArgs;
+use super::render::thread_count;
+use super::scene_overrides::named_view;
 use camera::NamedView;
 use pipeline::Scene;
-use pipeline::demonstration::{Sweep, Vary};
+use pipeline::demonstration::{Sweep, SweepParameter};
 use pipeline::scene::ResolveOptions;
-use pipeline::scene::file::{USUAL_PADDING, ViewFile};
+use pipeline::scene::file::{DEFAULT_PADDING, ViewFile};
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
@@ -44,7 +44,7 @@ pub(crate) struct SweepArgs {
     #[arg(long)]
     projection: Option<ProjectionArg>,
     #[command(flatten)]
-    subject: SubjectArgs,
+    subject: PanelSubjectArgs,
 }
 
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
@@ -71,23 +71,23 @@ enum VaryArg {
     Angle,
 }
 
-pub(crate) fn run(args: &SweepArgs) -> Result<(), Failure> {
-    check_panels(&args.output)?;
+pub(crate) fn run(args: &SweepArgs) -> Result<(), CliError> {
+    check_panel_output(&args.output)?;
     let progress = Progress::start("loading");
-    let (origin, mut file) = args.subject.open()?;
+    let (origin, mut file) = args.subject.open_scene()?;
     if let Some(view) = args.view {
         let from = Some(view.into());
-        file.camera.view = ViewFile::Frame { from, padding_percent: USUAL_PADDING };
+        file.camera.view = ViewFile::Frame { from, padding_percent: DEFAULT_PADDING };
     }
     if let Some(projection) = args.projection {
         file.camera.projection = Some(projection.into());
     }
-    let options = ResolveOptions { import: args.subject.load.options() };
+    let options = ResolveOptions { import: args.subject.load_options.import_options() };
     let scene = Scene::resolve(&origin, &file, &options)?;
-    progress.stage("drawing");
+    progress.enter_stage("drawing");
     let (vary, volumes) = (args.vary.into(), args.volumes);
-    let sweep = Sweep { vary, from: args.from, to: args.to, steps: args.steps, volumes };
-    let mut panels = sweep.draw(&scene, threads(args.subject.threads))?;
+    let sweep = Sweep { parameter: vary, from: args.from, to: args.to, steps: args.steps, volumes };
+    let mut panels = sweep.draw_panels(&scene, thread_count(args.subject.threads))?;
     panels.columns = args.columns.map_or(panels.columns, usize::from);
     finish_panels(&args.output, &panels, &scene, progress)
 }
@@ -97,7 +97,7 @@ fn number(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| "expected a number, such as 35 or 0.5".to_owned())
 }
 
-impl From<VaryArg> for Vary {
+impl From<VaryArg> for SweepParameter {
     fn from(arg: VaryArg) -> Self {
         match arg {
             VaryArg::Fov => Self::Fov,

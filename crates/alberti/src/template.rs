@@ -4,19 +4,19 @@ use std::path::PathBuf;
 
 /// A name with places in it. `{{` and `}}` stand for braces.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) struct Template {
-    parts: Vec<Part>,
+pub(super) struct NameTemplate {
+    parts: Vec<TemplatePart>,
 }
 
 #[derive(Clone, PartialEq, Eq, Debug)]
-enum Part {
+enum TemplatePart {
     Text(String),
     Word(&'static str),
     /// A number with at least so many digits.
     Number(&'static str, usize),
 }
 
-impl Template {
+impl NameTemplate {
     /// Reads a template with these fields for words and these for numbers.
     ///
     /// # Errors
@@ -30,9 +30,9 @@ impl Template {
         let mut rest = text;
         while let Some(at) = rest.find(['{', '}']) {
             let (before, brace) = rest.split_at(at);
-            push(&mut parts, before);
+            push_text(&mut parts, before);
             if let Some(behind) = brace.strip_prefix("{{").or(brace.strip_prefix("}}")) {
-                push(&mut parts, &brace[..1]);
+                push_text(&mut parts, &brace[..1]);
                 rest = behind;
                 continue;
             }
@@ -40,51 +40,51 @@ impl Template {
             let (field, behind) = inside.ok_or_else(|| {
                 format!("a brace in the template {text} has no partner\n  = help: {{{{ and }}}} stand for braces")
             })?;
-            parts.push(place(text, field, words, numbers)?);
+            parts.push(parse_field(text, field, words, numbers)?);
             rest = behind;
         }
-        push(&mut parts, rest);
+        push_text(&mut parts, rest);
         Ok(Self { parts })
     }
 
     /// Whether it has a place for this.
-    pub(super) fn has(&self, field: &str) -> bool {
+    pub(super) fn has_field(&self, field: &str) -> bool {
         self.parts.iter().any(|part| match part {
-            Part::Text(_) => false,
-            Part::Word(name) | Part::Number(name, _) => *name == field,
+            TemplatePart::Text(_) => false,
+            TemplatePart::Word(name) | TemplatePart::Number(name, _) => *name == field,
         })
     }
 
     /// The name with words and numbers in their places.
-    pub(super) fn fill(
+    pub(super) fn expand_fields(
         &self,
         word: impl Fn(&str) -> String,
         number: impl Fn(&str) -> usize,
     ) -> PathBuf {
-        let fill = |part: &Part| match part {
-            Part::Text(text) => text.clone(),
-            Part::Word(name) => file_name(&word(name)),
-            Part::Number(name, digits) => format!("{:01$}", number(name), *digits),
+        let fill = |part: &TemplatePart| match part {
+            TemplatePart::Text(text) => text.clone(),
+            TemplatePart::Word(name) => sanitize_file_name(&word(name)),
+            TemplatePart::Number(name, digits) => format!("{:01$}", number(name), *digits),
         };
         PathBuf::from(self.parts.iter().map(fill).collect::<String>())
     }
 }
 
-fn push(parts: &mut Vec<Part>, text: &str) {
+fn push_text(parts: &mut Vec<TemplatePart>, text: &str) {
     match parts.last_mut() {
         _ if text.is_empty() => {}
-        Some(Part::Text(last)) => last.push_str(text),
-        _ => parts.push(Part::Text(text.to_owned())),
+        Some(TemplatePart::Text(last)) => last.push_str(text),
+        _ => parts.push(TemplatePart::Text(text.to_owned())),
     }
 }
 
 /// What stands between two braces.
-fn place(
+fn parse_field(
     text: &str,
     field: &str,
     words: &[&'static str],
     numbers: &[&'static str],
-) -> Result<Part, String> {
+) -> Result<TemplatePart, String> {
     let (name, format) =
         field.split_once(':').map_or((field, None), |(name, format)| (name, Some(format)));
     let found = |names: &[&'static str]| names.iter().copied().find(|known| *known == name);
@@ -92,12 +92,12 @@ fn place(
         let digits = format.map_or(Some(1), |format| {
             format.strip_prefix('0')?.parse().ok().filter(|digits| (1..=9).contains(digits))
         });
-        return digits.map(|digits| Part::Number(number, digits)).ok_or_else(|| {
+        return digits.map(|digits| TemplatePart::Number(number, digits)).ok_or_else(|| {
             format!("`{{{field}}}` in the template {text} is no number\n  = help: write {{{name}}}, or {{{name}:04}} for four digits")
         });
     }
     match (found(words), format) {
-        (Some(word), None) => Ok(Part::Word(word)),
+        (Some(word), None) => Ok(TemplatePart::Word(word)),
         (Some(_), Some(_)) => Err(format!(
             "`{{{field}}}` in the template {text} is a word and has no digits\n  = help: write {{{name}}}"
         )),
@@ -112,7 +112,7 @@ fn place(
 }
 
 /// A word as a part of a file's name: what would lead to another folder, or is refused on some system, becomes `_`.
-fn file_name(word: &str) -> String {
+fn sanitize_file_name(word: &str) -> String {
     let safe = |c: char| if c.is_control() || "/\\:*?\"<>|".contains(c) { '_' } else { c };
     word.chars().map(safe).collect()
 }
@@ -121,14 +121,14 @@ fn file_name(word: &str) -> String {
 mod tests {
     use super::*;
 
-    fn filled(text: &str) -> Result<String, String> {
-        let template = Template::parse(text, &["stem", "view"], &["frame"])?;
-        let path = template.fill(|name| format!("<{name}/a>"), |_| 7);
+    fn expanded(text: &str) -> Result<String, String> {
+        let template = NameTemplate::parse(text, &["stem", "view"], &["frame"])?;
+        let path = template.expand_fields(|name| format!("<{name}/a>"), |_| 7);
         Ok(path.to_string_lossy().into_owned())
     }
 
     #[test]
-    fn places_are_filled() {
+    fn fields_are_expanded() {
         let all = [
             ("a.png", "a.png"),
             ("{stem}.png", "_stem_a_.png"),
@@ -137,14 +137,14 @@ mod tests {
             ("", ""),
         ];
         for (text, expected) in all {
-            assert_eq!(filled(text).as_deref(), Ok(expected), "{text}");
+            assert_eq!(expanded(text).as_deref(), Ok(expected), "{text}");
         }
-        let template = Template::parse("{stem}", &["stem"], &[]).expect("a template");
-        assert!(template.has("stem") && !template.has("view"));
+        let template = NameTemplate::parse("{stem}", &["stem"], &[]).expect("a template");
+        assert!(template.has_field("stem") && !template.has_field("view"));
     }
 
     #[test]
-    fn what_is_no_template_is_named() {
+    fn malformed_templates_are_rejected() {
         for (text, words) in [
             ("{stem", "no partner"),
             ("stem}", "no partner"),
@@ -154,8 +154,8 @@ mod tests {
             ("{frame:00}", "{frame:04}"),
             ("{stem:04}", "no digits"),
         ] {
-            let told = filled(text).expect_err(text);
-            assert!(told.contains(words), "{text}: {told}");
+            let message = expanded(text).expect_err(text);
+            assert!(message.contains(words), "{text}: {message}");
         }
     }
 }

@@ -32,7 +32,7 @@ fn main() -> Result<(), FramingError> {
             (view_projection.camera.eye(), view_projection.near, view_projection.far);
         println!(
             "  {view:<13} {eye:.1}  from {near:.1} to {far:.1} m ahead, {:?} decides",
-            view_projection.fit
+            view_projection.constraint
         );
     }
 
@@ -47,7 +47,8 @@ fn main() -> Result<(), FramingError> {
         interocular: 0.5,
         zero_parallax: (view_projection.near + view_projection.far) / 2.0,
     };
-    let pair = rig.pair(view_projection.camera, lens.at(view_projection.near)?)?;
+    let pair =
+        rig.off_axis_pair(view_projection.camera, lens.at_distance(view_projection.near)?)?;
     println!("\nA stereo pair whose eyes meet in the middle of the house:");
     for (name, eye) in [("left", pair.left), ("right", pair.right)] {
         let window = eye.window;

@@ -12,12 +12,12 @@
 //!
 //! Source: chapter §8.1.3, formula CA-1.
 
-use crate::{CameraError, exact};
+use crate::{CameraError, exact_cross};
 use homog::{Affine, Point, Vector, View, World};
 
 /// ‖t × g‖ ≤ this · ‖t‖ ‖g‖ counts as parallel. Directions a millionth of a radian apart are far
 /// from it.
-const PARALLEL: f64 = 1e-12;
+const PARALLEL_SINE: f64 = 1e-12;
 
 /// The orientation of a camera: right-handed orthonormal axes u (right), v (up), w (backwards) in
 /// world space.
@@ -49,11 +49,12 @@ impl Basis {
     /// A zero or non-finite vector; an `up` parallel to the gaze, that is with a sine of the angle
     /// between them of at most 10⁻¹².
     pub fn from_gaze(gaze: Vector<World>, up: Vector<World>) -> Result<Self, CameraError> {
-        let backwards = -unit(gaze, "gaze", CameraError::ZeroGaze)?;
-        unit(up, "view-up", CameraError::ZeroUp)?;
-        let right = exact::cross(gaze.raw(), up.raw());
-        let lengths = exact::near_one(gaze.raw()).length() * exact::near_one(up.raw()).length();
-        if right.length() <= PARALLEL * lengths {
+        let backwards = -unit_vector(gaze, "gaze", CameraError::ZeroGaze)?;
+        unit_vector(up, "view-up", CameraError::ZeroUp)?;
+        let right = exact_cross::cross_exact(gaze.raw(), up.raw());
+        let lengths = exact_cross::scale_near_one(gaze.raw()).length()
+            * exact_cross::scale_near_one(up.raw()).length();
+        if right.length() <= PARALLEL_SINE * lengths {
             let suggestion = Self::fallback_up(gaze);
             return Err(CameraError::UpParallelToGaze { up, gaze, suggestion });
         }
@@ -162,7 +163,7 @@ impl Basis {
 }
 
 /// The unit vector along `vector`, or the error that says what it lacks.
-fn unit(
+fn unit_vector(
     vector: Vector<World>,
     name: &'static str,
     zero: CameraError,

@@ -19,7 +19,7 @@
 //! gives another; the greater one counts, and in the other direction the picture is centred. There
 //! is no sphere around the points, no trial and no margin, and no point is cropped.
 
-use crate::points::Coordinates;
+use crate::point_coordinates::PointCoordinates;
 use crate::{Basis, Camera, FramingError};
 use homog::{Point, Vector, World};
 
@@ -27,7 +27,7 @@ use homog::{Point, Vector, World};
 ///
 /// Otherwise a needle that points at the viewer, narrower than the pyramid, would be framed from
 /// its very tip.
-const CLEARANCE: f64 = 1.0 / 64.0;
+const MIN_CLEARANCE: f64 = 1.0 / 64.0;
 
 /// The frame as the slopes of its four sides: the window at distance 1 in front of the eye.
 ///
@@ -83,7 +83,7 @@ impl Slopes {
 
 /// Which demand decided how far away the eye stands, or how large the window is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Fit {
+pub enum FramingConstraint {
     /// The points touch the left and right sides of the padded frame, and fit within its height.
     Width,
     /// The points touch the lower and upper sides of the padded frame, and fit within its width.
@@ -104,7 +104,7 @@ pub struct Framing {
     /// in one plane.
     pub far: f64,
     /// What the distance was decided by.
-    pub fit: Fit,
+    pub constraint: FramingConstraint,
 }
 
 /// Places a camera of the given orientation so that the image of `points` just fills the frame.
@@ -144,26 +144,26 @@ where
     I::IntoIter: Clone,
 {
     let frame = slopes.padded(padding)?;
-    let points = Coordinates::of(points.into_iter(), orientation)?;
-    let sides = Sides::touching(&points, frame);
-    let (eye, fit) = sides.eye(&points, frame);
+    let points = PointCoordinates::new(points.into_iter(), orientation)?;
+    let sides = SupportPlanes::from_points(&points, frame);
+    let (eye, fit) = sides.eye_coordinates(&points, frame);
     let (near, far) = (eye.z() - points.extent.max.z, eye.z() - points.extent.min.z);
-    points.check(near.is_finite() && far.is_finite())?;
-    let camera = points.camera(eye, near)?;
-    Ok(Framing { camera, near, far, fit })
+    points.check_range(near.is_finite() && far.is_finite())?;
+    let camera = points.camera_at(eye, near)?;
+    Ok(Framing { camera, near, far, constraint: fit })
 }
 
 /// The four supporting planes: the greatest x + r z and y + t z, the least x + l z and y + b z.
-struct Sides {
+struct SupportPlanes {
     left: f64,
     right: f64,
     bottom: f64,
     top: f64,
 }
 
-impl Sides {
-    fn touching<I: Iterator<Item = Point<World>> + Clone>(
-        points: &Coordinates<I>,
+impl SupportPlanes {
+    fn from_points<I: Iterator<Item = Point<World>> + Clone>(
+        points: &PointCoordinates<I>,
         frame: Slopes,
     ) -> Self {
         let out = f64::INFINITY;
@@ -178,30 +178,30 @@ impl Sides {
     }
 
     /// The eye in coordinates along u, v, w from the points' middle.
-    fn eye<I: Iterator<Item = Point<World>> + Clone>(
+    fn eye_coordinates<I: Iterator<Item = Point<World>> + Clone>(
         &self,
-        points: &Coordinates<I>,
+        points: &PointCoordinates<I>,
         frame: Slopes,
-    ) -> (Vector<homog::View>, Fit) {
+    ) -> (Vector<homog::View>, FramingConstraint) {
         let for_width = (self.right - self.left) / (frame.right - frame.left);
         let for_height = (self.top - self.bottom) / (frame.top - frame.bottom);
-        let clear = points.extent.max.z + CLEARANCE * points.extent.diagonal();
+        let clear = points.extent.max.z + MIN_CLEARANCE * points.extent.diagonal();
         let z = for_width.max(for_height).max(clear);
         let fit = match z {
-            _ if points.are_one() => Fit::Loose,
-            z if z == for_width => Fit::Width,
-            z if z == for_height => Fit::Height,
-            _ => Fit::Loose,
+            _ if points.is_single_point() => FramingConstraint::Loose,
+            z if z == for_width => FramingConstraint::Width,
+            z if z == for_height => FramingConstraint::Height,
+            _ => FramingConstraint::Loose,
         };
         let x_range = (self.right - frame.right * z, self.left - frame.left * z);
         let y_range = (self.top - frame.top * z, self.bottom - frame.bottom * z);
-        let x = points.centered(z, x_range, frame.left + frame.right, |p| p.x);
-        let y = points.centered(z, y_range, frame.bottom + frame.top, |p| p.y);
+        let x = points.center_image(z, x_range, frame.left + frame.right, |p| p.x);
+        let y = points.center_image(z, y_range, frame.bottom + frame.top, |p| p.y);
         (Vector::new(x, y, z), fit)
     }
 }
 
-impl<I: Iterator<Item = Point<World>> + Clone> Coordinates<I> {
+impl<I: Iterator<Item = Point<World>> + Clone> PointCoordinates<I> {
     /// The eye's coordinate within `range` for which the outermost slopes add up to `sum`, so that
     /// the margins on both sides are alike. `along` picks x or y of a point; the eye is at height
     /// `z`.
@@ -209,7 +209,7 @@ impl<I: Iterator<Item = Point<World>> + Clone> Coordinates<I> {
     /// Each point's slope (x − e)/D falls linearly with e, so that the sum of the greatest and the
     /// least falls too, piece by piece. On the right piece one linear equation gives the answer;
     /// the loop finds the piece.
-    fn centered(
+    fn center_image(
         &self,
         z: f64,
         range: (f64, f64),
@@ -219,7 +219,7 @@ impl<I: Iterator<Item = Point<World>> + Clone> Coordinates<I> {
         let (mut low, mut high) = range;
         let mut eye = low * 0.5 + high * 0.5;
         for _ in 0..64 {
-            let [(a, da), (b, db)] = self.outermost(z, eye, &along);
+            let [(a, da), (b, db)] = self.outermost_slopes(z, eye, &along);
             let excess = (a - eye) / da + (b - eye) / db - sum;
             let side = if excess > 0.0 { &mut low } else { &mut high };
             *side = eye;
@@ -236,7 +236,12 @@ impl<I: Iterator<Item = Point<World>> + Clone> Coordinates<I> {
 
     /// Coordinate and distance of the points with the greatest and the least slope as seen from
     /// `eye`.
-    fn outermost(&self, z: f64, eye: f64, along: impl Fn(glam::DVec3) -> f64) -> [(f64, f64); 2] {
+    fn outermost_slopes(
+        &self,
+        z: f64,
+        eye: f64,
+        along: impl Fn(glam::DVec3) -> f64,
+    ) -> [(f64, f64); 2] {
         let (mut greatest, mut least) = (-f64::INFINITY, f64::INFINITY);
         let mut ends = [(eye, 1.0); 2];
         self.for_each(|p| {

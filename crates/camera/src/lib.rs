@@ -62,32 +62,32 @@
 //! *Viewing* (CA-1 to CA-3); R. Kooima, *Generalized Perspective Projection*, 2008, for screens.
 #![no_std]
 
-mod attitude;
 mod basis;
+mod camera;
 mod error;
-mod exact;
+mod exact_cross;
 mod framing;
-mod named;
+mod named_view;
 mod orbit;
-mod parallel;
-mod points;
-mod pose;
+mod orientation;
+mod parallel_framing;
+mod point_coordinates;
 mod rays;
-mod screen;
+mod screen_corners;
 mod stereo;
 mod view_projection;
 mod window;
 
-pub use attitude::Attitude;
 pub use basis::Basis;
+pub use camera::Camera;
 pub use error::{CameraError, FramingError};
-pub use framing::{Fit, Framing, Slopes, frame_perspective};
-pub use named::{NamedView, UnknownView};
+pub use framing::{Framing, FramingConstraint, Slopes, frame_perspective};
+pub use named_view::{NamedView, UnknownView};
 pub use orbit::Orbit;
-pub use parallel::{ParallelFraming, frame_oblique, frame_parallel};
-pub use pose::Camera;
+pub use orientation::Orientation;
+pub use parallel_framing::{ParallelFraming, frame_oblique, frame_parallel};
 pub use rays::{PixelCenters, PixelGrid, Ray, Rays, VerticalAxis};
-pub use screen::ScreenCorners;
-pub use stereo::{CameraView, StereoPair, StereoRig, apex_moved};
+pub use screen_corners::ScreenCorners;
+pub use stereo::{CameraView, StereoPair, StereoRig, apex_moved_view};
 pub use view_projection::ViewProjection;
 pub use window::Window;

@@ -74,7 +74,7 @@ impl Orbit {
     /// The inverse of [`camera`](Self::camera), with the azimuth in (−π, π] and the elevation in
     /// [−π/2, π/2].
     #[must_use]
-    pub fn of(camera: Camera, target: Point<World>) -> Option<Self> {
+    pub fn from_camera(camera: Camera, target: Point<World>) -> Option<Self> {
         let offset = camera.eye() - target;
         let distance = offset.length();
         let direction = offset.normalized()?;

@@ -147,7 +147,7 @@ impl Rays {
         grid: PixelGrid,
         projectors: Vector<View>,
     ) -> Result<Self, CameraError> {
-        window.check()?;
+        window.check_edges()?;
         check_grid(grid)?;
         match projectors.normalized() {
             Some(unit) if unit.z() < 0.0 => {

@@ -68,13 +68,13 @@ impl StereoRig {
     /// assert_eq!((pair.left.window.left, pair.left.window.right), (-0.875, 1.125));
     /// # Ok::<(), camera::CameraError>(())
     /// ```
-    pub fn pair(self, middle: Camera, window: Window) -> Result<StereoPair, CameraError> {
+    pub fn off_axis_pair(self, middle: Camera, window: Window) -> Result<StereoPair, CameraError> {
         check_positive("interocular distance", self.interocular)?;
         check_positive("distance of zero parallax", self.zero_parallax)?;
         window.check_perspective()?;
         Ok(StereoPair {
-            left: self.eye(middle, window, -self.interocular / 2.0)?,
-            right: self.eye(middle, window, self.interocular / 2.0)?,
+            left: self.eye_view(middle, window, -self.interocular / 2.0)?,
+            right: self.eye_view(middle, window, self.interocular / 2.0)?,
         })
     }
 
@@ -91,8 +91,8 @@ impl StereoRig {
         middle: Camera,
         window: Window,
     ) -> Result<StereoPair, CameraError> {
-        let StereoPair { left, right } = self.pair(middle, window)?;
-        let moved = |eye: CameraView| apex_moved(eye.camera, eye.window);
+        let StereoPair { left, right } = self.off_axis_pair(middle, window)?;
+        let moved = |eye: CameraView| apex_moved_view(eye.camera, eye.window);
         Ok(StereoPair { left: moved(left)?, right: moved(right)? })
     }
 
@@ -111,7 +111,12 @@ impl StereoRig {
         Ok(parallax)
     }
 
-    fn eye(self, middle: Camera, window: Window, offset: f64) -> Result<CameraView, CameraError> {
+    fn eye_view(
+        self,
+        middle: Camera,
+        window: Window,
+        offset: f64,
+    ) -> Result<CameraView, CameraError> {
         let shift = offset * (window.distance / self.zero_parallax);
         let window = Window { left: window.left - shift, right: window.right - shift, ..window };
         window.check_perspective()?;
@@ -125,7 +130,7 @@ impl StereoRig {
 ///
 /// # Errors
 /// A window that is empty, not finite or not in front of the eye; an eye too far out.
-pub fn apex_moved(camera: Camera, window: Window) -> Result<CameraView, CameraError> {
+pub fn apex_moved_view(camera: Camera, window: Window) -> Result<CameraView, CameraError> {
     window.check_perspective()?;
     let Window { left, right, bottom, top, distance } = window;
     let (half_width, half_height) = ((right - left) / 2.0, (top - bottom) / 2.0);

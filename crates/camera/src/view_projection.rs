@@ -35,7 +35,7 @@ impl ViewProjection {
 
     /// Whether the picture shows the world as in a mirror: a window with left and right (or bottom and top) exchanged.
     #[must_use]
-    pub fn mirrors(&self) -> bool {
+    pub fn is_mirrored(&self) -> bool {
         self.blind_point().dot(self.viewer().raw()) > 0.0
     }
 
@@ -91,12 +91,12 @@ mod tests {
         let towards = Vector::<World>::from_raw(viewer.raw().truncate());
         let unit = towards.normalized().expect("a direction");
         assert!((unit - camera().w()).length() < 1e-12);
-        assert!(!view_projection.mirrors());
+        assert!(!view_projection.is_mirrored());
     }
 
     #[test]
     fn only_a_window_with_exchanged_sides_mirrors() {
-        assert!(!perspective(-0.5, 3.0).mirrors());
-        assert!(perspective(3.0, -0.5).mirrors());
+        assert!(!perspective(-0.5, 3.0).is_mirrored());
+        assert!(perspective(3.0, -0.5).is_mirrored());
     }
 }

@@ -12,7 +12,7 @@
 use crate::{CameraError, Slopes};
 
 /// The greatest number of a window: rays through pixels far outside of it still are finite.
-const LIMIT: f64 = 1e290;
+const WINDOW_LIMIT: f64 = 1e290;
 
 /// A rectangle on the plane at `distance` in front of an eye, in view space.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -42,7 +42,7 @@ impl Window {
     /// assert_eq!(window.at(1.0)?.right, 1.5);
     /// # Ok::<(), camera::CameraError>(())
     /// ```
-    pub fn at(self, distance: f64) -> Result<Self, CameraError> {
+    pub fn at_distance(self, distance: f64) -> Result<Self, CameraError> {
         self.check_perspective()?;
         let by = distance / self.distance;
         let Self { left, right, bottom, top, .. } = self;
@@ -61,12 +61,12 @@ impl Window {
     /// # Errors
     /// As [`at`](Self::at).
     pub fn slopes(self) -> Result<Slopes, CameraError> {
-        let Self { left, right, bottom, top, .. } = self.at(1.0)?;
+        let Self { left, right, bottom, top, .. } = self.at_distance(1.0)?;
         Ok(Slopes { left, right, bottom, top })
     }
 
     /// Refuses numbers that are not finite or too large, and sides that coincide.
-    pub(crate) fn check(self) -> Result<(), CameraError> {
+    pub(crate) fn check_edges(self) -> Result<(), CameraError> {
         let Self { left, right, bottom, top, distance } = self;
         for (name, value) in [
             ("left side of the window", left),
@@ -76,8 +76,8 @@ impl Window {
             ("distance of the window", distance),
         ] {
             check_finite(name, value)?;
-            if value.abs() > LIMIT {
-                return Err(CameraError::TooLarge { name, value, limit: LIMIT });
+            if value.abs() > WINDOW_LIMIT {
+                return Err(CameraError::TooLarge { name, value, limit: WINDOW_LIMIT });
             }
         }
         if left == right || bottom == top {
@@ -88,7 +88,7 @@ impl Window {
 
     /// As [`check`](Self::check), and the window must be in front of the eye.
     pub(crate) fn check_perspective(self) -> Result<(), CameraError> {
-        self.check()?;
+        self.check_edges()?;
         check_positive("distance of the window", self.distance)
     }
 }
@@ -98,9 +98,9 @@ impl Slopes {
     ///
     /// # Errors
     /// A distance that is not positive and finite; slopes that are not finite or coincide.
-    pub fn at(self, distance: f64) -> Result<Window, CameraError> {
+    pub fn at_distance(self, distance: f64) -> Result<Window, CameraError> {
         let Self { left, right, bottom, top } = self;
-        Window { left, right, bottom, top, distance: 1.0 }.at(distance)
+        Window { left, right, bottom, top, distance: 1.0 }.at_distance(distance)
     }
 }
 

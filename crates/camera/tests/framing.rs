@@ -1,6 +1,9 @@
 //! Framing is tight: the image touches the padded frame, nothing is cropped, the rest is centred.
 
-use camera::{Basis, Fit, FramingError, Slopes, frame_oblique, frame_parallel, frame_perspective};
+use camera::{
+    Basis, FramingConstraint, FramingError, Slopes, frame_oblique, frame_parallel,
+    frame_perspective,
+};
 use homog::{Point, Vector, View, World};
 use proptest::prelude::*;
 
@@ -37,9 +40,9 @@ fn reach(numbers: impl Iterator<Item = f64>, low: f64, high: f64) -> [f64; 2] {
 }
 
 /// The frame is touched at ±(1 − 2 padding) in the direction of `fit`, and nowhere left.
-fn assert_tight(x: [f64; 2], y: [f64; 2], fit: Fit, padding: f64) {
+fn assert_tight(x: [f64; 2], y: [f64; 2], fit: FramingConstraint, padding: f64) {
     let rim = 1.0 - 2.0 * padding;
-    let (tight, other) = if fit == Fit::Width { (x, y) } else { (y, x) };
+    let (tight, other) = if fit == FramingConstraint::Width { (x, y) } else { (y, x) };
     let near = |a: f64, b: f64| (a - b).abs() < 1e-11;
     assert!(near(tight[0], -rim) && near(tight[1], rim), "{fit:?}: {tight:?} is not ±{rim}");
     assert!(other[1] <= rim + 1e-11, "{fit:?}: {other:?} is cropped at {rim}");
@@ -55,14 +58,14 @@ proptest! {
     ) {
         let framing = frame_perspective(points.clone(), basis, slopes, padding).expect("valid");
         let world_to_view = framing.camera.world_to_view();
-        let seen: Vec<Point<View>> = points.iter().map(|&p| world_to_view.point(p)).collect();
+        let seen: Vec<Point<View>> = points.iter().map(|&p| world_to_view.transform_point(p)).collect();
         let (near, far) = (framing.near, framing.far);
         prop_assert!(seen.iter().all(|p| -p.z() > near - 1e-12 * far && -p.z() < far * (1.0 + 1e-12)));
         prop_assert!(near > 0.0);
-        if framing.fit != Fit::Loose {
+        if framing.constraint != FramingConstraint::Loose {
             let x = reach(seen.iter().map(|p| -p.x() / p.z()), slopes.left, slopes.right);
             let y = reach(seen.iter().map(|p| -p.y() / p.z()), slopes.bottom, slopes.top);
-            assert_tight(x, y, framing.fit, padding);
+            assert_tight(x, y, framing.constraint, padding);
         }
     }
 
@@ -74,10 +77,10 @@ proptest! {
         let projectors = Vector::new(a, b, -1.0);
         let framing = frame_oblique(points.clone(), basis, projectors, aspect, padding).expect("valid");
         let world_to_view = framing.camera.world_to_view();
-        let seen: Vec<Point<View>> = points.iter().map(|&p| world_to_view.point(p)).collect();
+        let seen: Vec<Point<View>> = points.iter().map(|&p| world_to_view.transform_point(p)).collect();
         let x = reach(seen.iter().map(|p| p.x() + p.z() * a), framing.left, framing.right);
         let y = reach(seen.iter().map(|p| p.y() + p.z() * b), framing.bottom, framing.top);
-        assert_tight(x, y, framing.fit, padding);
+        assert_tight(x, y, framing.constraint, padding);
         let width_to_height = (framing.right - framing.left) / (framing.top - framing.bottom);
         prop_assert!((width_to_height / aspect - 1.0).abs() < 1e-14);
         prop_assert!(seen.iter().all(|p| -p.z() > 0.0 && -p.z() > framing.near - 1e-12));
@@ -99,10 +102,13 @@ fn a_lone_point_is_framed_as_a_unit_cube() {
     for place in [[0.0; 3], [3.0, -4.0, 5.0]] {
         let framing = perspective(&[place]).expect("one point will do");
         assert_eq!(framing.camera.eye(), Point::from(place) + Vector::new(0.0, 0.0, 1.5));
-        assert_eq!((framing.near, framing.far, framing.fit), (1.0, 2.0, Fit::Loose));
+        assert_eq!(
+            (framing.near, framing.far, framing.constraint),
+            (1.0, 2.0, FramingConstraint::Loose)
+        );
         assert_eq!(perspective(&[place, place]), Ok(framing), "twice the same is one point");
         let flat = parallel(&[place]).expect("one point will do");
-        assert_eq!((flat.top, flat.right, flat.fit), (0.5, 1.0, Fit::Loose));
+        assert_eq!((flat.top, flat.right, flat.constraint), (0.5, 1.0, FramingConstraint::Loose));
     }
     let far = perspective(&[[1e20, 0.0, 0.0]]).expect("far out, but a place");
     assert!(far.near > 0.0 && far.camera.eye().z() > 0.0);
@@ -113,18 +119,21 @@ fn flat_and_straight_things_are_framed() {
     let wall = perspective(&[[-2.0, -1.0, 0.0], [2.0, 1.0, 0.0]]).expect("a wall across the gaze");
     assert_eq!((wall.near, wall.far), (2.0, 2.0));
     let line = perspective(&[[0.0, 0.0, 0.0], [0.0, 0.0, 64.0]]).expect("a line along the gaze");
-    assert_eq!((line.near, line.far, line.fit), (1.0, 65.0, Fit::Loose));
+    assert_eq!((line.near, line.far, line.constraint), (1.0, 65.0, FramingConstraint::Loose));
     let line = parallel(&[[0.0, 0.0, 0.0], [0.0, 0.0, 8.0]]).expect("a line along the gaze");
-    assert_eq!((line.top, line.near, line.far, line.fit), (4.0, 8.0, 16.0, Fit::Loose));
+    assert_eq!(
+        (line.top, line.near, line.far, line.constraint),
+        (4.0, 8.0, 16.0, FramingConstraint::Loose)
+    );
     let level = parallel(&[[0.0, 0.0, 0.0], [8.0, 0.0, 0.0]]).expect("a level line");
-    assert_eq!((level.right, level.top, level.fit), (4.0, 2.0, Fit::Width));
+    assert_eq!((level.right, level.top, level.constraint), (4.0, 2.0, FramingConstraint::Width));
 }
 
 #[test]
 fn a_needle_towards_the_viewer_keeps_its_clearance() {
     let needle = [[0.01, 0.0, 0.0], [-0.01, 0.0, 0.0], [0.0, 0.0, 6.4]];
     let framing = perspective(&needle).expect("thin, but a thing");
-    assert_eq!(framing.fit, Fit::Loose);
+    assert_eq!(framing.constraint, FramingConstraint::Loose);
     assert!((framing.near - 0.1).abs() < 1e-5, "near is {}", framing.near);
 }
 

@@ -36,10 +36,10 @@ proptest! {
         camera in camera(), p in triple(),
     ) {
         let p = Point::<World>::from(p);
-        let back = camera.view_to_world().point(camera.world_to_view().point(p));
+        let back = camera.view_to_world().transform_point(camera.world_to_view().transform_point(p));
         prop_assert!((back - p).length() < 1e-12, "{p} comes back as {back}");
-        prop_assert!((camera.world_to_view().point(camera.eye()) - Point::ORIGIN).length() < 1e-13);
-        let ahead = camera.world_to_view().point(camera.eye() + camera.gaze() * 2.0);
+        prop_assert!((camera.world_to_view().transform_point(camera.eye()) - Point::ORIGIN).length() < 1e-13);
+        let ahead = camera.world_to_view().transform_point(camera.eye() + camera.gaze() * 2.0);
         prop_assert!((ahead - Point::new(0.0, 0.0, -2.0)).length() < 1e-12);
     }
 
@@ -75,7 +75,7 @@ fn misprint_m11_a_translation_without_its_one_is_singular() {
     let printed = Affine::<World, World>::from_raw(printed).expect("still affine");
     assert_eq!(printed.determinant(), 0.0, "the printed matrix has no inverse");
     let depth = |map: Affine<World, World>, z: f64| {
-        map.then(camera.rotation()).point(Point::new(0.0, 0.0, z)).z()
+        map.then(camera.rotation()).transform_point(Point::new(0.0, 0.0, z)).z()
     };
     assert_eq!((depth(printed, 0.0), depth(printed, -7.0)), (-3.0, -3.0), "all at one depth");
     assert_eq!(
@@ -92,8 +92,8 @@ fn misprint_m11b_the_camera_looks_along_minus_z_and_does_not_stand_there() {
     let (eye, target) = (Point::new(4.0, -1.0, 2.0), Point::new(1.0, 3.0, 2.0));
     let camera = Camera::look_at(eye, target, Vector::Z).expect("a gaze");
     let view = camera.world_to_view();
-    assert!((view.point(target) - Point::new(0.0, 0.0, -5.0)).length() < 1e-14);
-    assert!((view.point(eye) - Point::ORIGIN).length() < 1e-15);
+    assert!((view.transform_point(target) - Point::new(0.0, 0.0, -5.0)).length() < 1e-14);
+    assert!((view.transform_point(eye) - Point::ORIGIN).length() < 1e-15);
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! Orbits, attitudes, stereo rigs, screens in the world and viewing rays, against their formulas.
 
 use camera::{
-    Attitude, Basis, Camera, CameraError, CameraView, NamedView, Orbit, PixelCenters, PixelGrid,
-    Rays, ScreenCorners, StereoRig, VerticalAxis, Window, apex_moved,
+    Basis, Camera, CameraError, CameraView, NamedView, Orbit, Orientation, PixelCenters, PixelGrid,
+    Rays, ScreenCorners, StereoRig, VerticalAxis, Window, apex_moved_view,
 };
 use core::f64::consts::{FRAC_PI_2, PI};
 use homog::{Affine, Model, Point, Vector, View, World};
@@ -34,7 +34,7 @@ fn window() -> impl Strategy<Value = Window> {
 
 /// Where a view sees a point, as parts of its window from the lower left corner.
 fn seen(view: CameraView, point: Point<World>) -> [f64; 2] {
-    let p = view.camera.world_to_view().point(point);
+    let p = view.camera.world_to_view().transform_point(point);
     let w = view.window;
     let (x, y) = (p.x() * w.distance / -p.z(), p.y() * w.distance / -p.z());
     [(x - w.left) / (w.right - w.left), (y - w.bottom) / (w.top - w.bottom)]
@@ -47,8 +47,8 @@ fn close(a: Basis, b: Basis) -> bool {
 proptest! {
     #[test]
     fn attitudes_are_read_back(yaw in -3.1..3.1, pitch in -1.5..1.5, roll in -3.1..3.1) {
-        let attitude = Attitude { yaw, pitch, roll };
-        let back = Attitude::of(attitude.basis().expect("finite"));
+        let attitude = Orientation { yaw, pitch, roll };
+        let back = Orientation::from_basis(attitude.basis().expect("finite"));
         for (got, want) in [(back.yaw, yaw), (back.pitch, pitch), (back.roll, roll)] {
             prop_assert!((got - want).abs() < 1e-12, "{back:?} is not {attitude:?}");
         }
@@ -58,18 +58,18 @@ proptest! {
     fn an_attitude_is_the_product_of_three_rotations(
         yaw in -9.0..9.0, pitch in -9.0..9.0, roll in -9.0..9.0,
     ) {
-        let basis = Attitude { yaw, pitch, roll }.basis().expect("finite");
+        let basis = Orientation { yaw, pitch, roll }.basis().expect("finite");
         let turn = Affine::<Model, World>::rotation_z(roll)
             .then(Affine::<World, World>::rotation_x(pitch))
             .then(Affine::<World, World>::rotation_y(yaw));
         for (axis, image) in [(basis.u(), Vector::X), (basis.v(), Vector::Y), (basis.w(), Vector::Z)] {
-            prop_assert!((axis - turn.vector(image)).length() < 1e-14);
+            prop_assert!((axis - turn.transform_vector(image)).length() < 1e-14);
         }
     }
 
     #[test]
     fn every_basis_has_an_attitude(camera in camera()) {
-        let again = Attitude::of(camera.basis()).basis().expect("finite");
+        let again = Orientation::from_basis(camera.basis()).basis().expect("finite");
         prop_assert!(close(again, camera.basis()));
     }
 
@@ -79,14 +79,14 @@ proptest! {
     ) {
         let orbit = Orbit { target: target.into(), azimuth, elevation, distance };
         let camera = orbit.camera().expect("valid");
-        let middle = camera.world_to_view().point(orbit.target);
+        let middle = camera.world_to_view().transform_point(orbit.target);
         prop_assert!((middle - Point::new(0.0, 0.0, -distance)).length() < 1e-12);
-        let back = Orbit::of(camera, orbit.target).expect("it looks at it, level");
+        let back = Orbit::from_camera(camera, orbit.target).expect("it looks at it, level");
         prop_assert!((back.azimuth - azimuth).abs() < 1e-9);
         prop_assert!((back.elevation - elevation).abs() < 1e-9);
         prop_assert!((back.distance - distance).abs() < 1e-12);
         let tilted = Camera::new(camera.eye(), camera.basis().rolled(0.1).expect("finite"));
-        prop_assert_eq!(Orbit::of(tilted.expect("valid"), orbit.target), None);
+        prop_assert_eq!(Orbit::from_camera(tilted.expect("valid"), orbit.target), None);
     }
 
     #[test]
@@ -95,7 +95,7 @@ proptest! {
         interocular in 0.01..1.0, zero_parallax in 0.5..20.0, distance in 0.5..40.0,
     ) {
         let rig = StereoRig { interocular, zero_parallax };
-        let pair = rig.pair(middle, window).expect("valid");
+        let pair = rig.off_axis_pair(middle, window).expect("valid");
         let rays = Rays::perspective(middle, window, PixelGrid { nx: 1, ny: 1, ..UNIT }).expect("valid");
         let ray = rays.at(at[0], at[1]).expect("finite");
         let ahead = |d: f64| ray.at(d / ray.direction.dot(middle.gaze()));
@@ -118,7 +118,7 @@ proptest! {
         camera in camera(), window in window(), at in [0.0..1.0, 0.0..1.0],
     ) {
         let whole = CameraView { camera, window };
-        let moved = apex_moved(camera, window).expect("valid");
+        let moved = apex_moved_view(camera, window).expect("valid");
         prop_assert!((moved.window.left + moved.window.right).abs() < 1e-15);
         let rays = Rays::perspective(camera, window, PixelGrid { nx: 1, ny: 1, ..UNIT }).expect("valid");
         let ray = rays.at(at[0], at[1]).expect("finite");
@@ -169,7 +169,7 @@ proptest! {
             let down = grid.y == VerticalAxis::Down;
             [part[0] * nx + shift, if down { 1.0 - part[1] } else { part[1] } * ny + shift]
         };
-        let view = |p: Point<World>| -> Point<View> { camera.world_to_view().point(p) };
+        let view = |p: Point<World>| -> Point<View> { camera.world_to_view().transform_point(p) };
         let check = |got: [f64; 2]| (got[0] - x).abs() + (got[1] - y).abs() < 1e-9;
 
         let rays = Rays::perspective(camera, window, grid).expect("valid");
@@ -220,7 +220,10 @@ fn orbits_pass_through_the_named_views_poles_included() {
 fn too_far_away_to_measure_is_no_orbit() {
     let orbit = |size: f64| {
         let target = Point::new(-size, 0.0, -size);
-        Orbit::of(Camera::look_at(Point::ORIGIN, target, Vector::Y).expect("a gaze"), target)
+        Orbit::from_camera(
+            Camera::look_at(Point::ORIGIN, target, Vector::Y).expect("a gaze"),
+            target,
+        )
     };
     assert!(orbit(1e308).is_some());
     assert_eq!(orbit(1.5e308), None, "√2 times that is no number");
@@ -237,14 +240,15 @@ fn a_turntable_closes_without_repeating_its_first_frame() {
 
 #[test]
 fn attitudes_turn_the_way_they_say() {
-    let gaze =
-        |yaw: f64, pitch: f64| Attitude { yaw, pitch, roll: 0.0 }.basis().expect("finite").gaze();
+    let gaze = |yaw: f64, pitch: f64| {
+        Orientation { yaw, pitch, roll: 0.0 }.basis().expect("finite").gaze()
+    };
     assert!(gaze(0.1, 0.0).x() < 0.0, "positive yaw looks left");
     assert!(gaze(0.0, 0.1).y() > 0.0, "positive pitch looks up");
     let tipped = Basis::WORLD.rolled(0.1).expect("finite");
     assert!(tipped.v().x() < 0.0, "positive roll tips the head to the left");
-    let up = Attitude { yaw: 0.5, pitch: FRAC_PI_2, roll: 0.25 }.basis().expect("finite");
-    let read = Attitude::of(up);
+    let up = Orientation { yaw: 0.5, pitch: FRAC_PI_2, roll: 0.25 }.basis().expect("finite");
+    let read = Orientation::from_basis(up);
     assert_eq!(read.roll, 0.0);
     assert!(close(read.basis().expect("finite"), up), "straight up, yaw takes all");
 }
@@ -256,7 +260,7 @@ fn a_pair_with_moved_apexes_does_not_meet_where_it_was_told_to() {
     let meeting = Point::new(0.0, 0.0, -8.0);
     let across =
         |pair: camera::StereoPair| seen(pair.right, meeting)[0] - seen(pair.left, meeting)[0];
-    assert!(across(rig.pair(middle, WINDOW).expect("valid")).abs() < 1e-15);
+    assert!(across(rig.off_axis_pair(middle, WINDOW).expect("valid")).abs() < 1e-15);
     let wrong = rig.pair_apex_moved(middle, WINDOW).expect("valid");
     assert!(across(wrong).abs() > 0.01);
     let apart = wrong.right.camera.eye().x() - wrong.left.camera.eye().x();
@@ -296,19 +300,23 @@ fn rigs_refuse_what_has_no_meaning() {
     let rig = StereoRig { interocular: 0.06, zero_parallax: 2.0 };
     let is_not_positive =
         |got: Result<_, CameraError>| matches!(got, Err(CameraError::NotPositive { .. }));
-    assert!(is_not_positive(StereoRig { interocular: 0.0, ..rig }.pair(camera, WINDOW).map(drop)));
     assert!(is_not_positive(
-        StereoRig { zero_parallax: -1.0, ..rig }.pair(camera, WINDOW).map(drop)
+        StereoRig { interocular: 0.0, ..rig }.off_axis_pair(camera, WINDOW).map(drop)
     ));
-    assert!(is_not_positive(rig.pair(camera, Window { distance: 0.0, ..WINDOW }).map(drop)));
+    assert!(is_not_positive(
+        StereoRig { zero_parallax: -1.0, ..rig }.off_axis_pair(camera, WINDOW).map(drop)
+    ));
+    assert!(is_not_positive(
+        rig.off_axis_pair(camera, Window { distance: 0.0, ..WINDOW }).map(drop)
+    ));
     assert!(is_not_positive(rig.parallax(0.0).map(drop)));
-    assert!(is_not_positive(WINDOW.at(-1.0).map(drop)));
-    let nan = StereoRig { interocular: f64::NAN, ..rig }.pair(camera, WINDOW);
+    assert!(is_not_positive(WINDOW.at_distance(-1.0).map(drop)));
+    let nan = StereoRig { interocular: f64::NAN, ..rig }.off_axis_pair(camera, WINDOW);
     assert!(matches!(nan, Err(CameraError::NumberNotFinite { .. })));
     let empty = Window { left: 3.0, ..WINDOW };
-    assert!(matches!(apex_moved(camera, empty), Err(CameraError::EmptyWindow { .. })));
+    assert!(matches!(apex_moved_view(camera, empty), Err(CameraError::EmptyWindow { .. })));
     let huge = Window { right: 1e300, ..WINDOW };
-    assert!(matches!(apex_moved(camera, huge), Err(CameraError::TooLarge { .. })));
+    assert!(matches!(apex_moved_view(camera, huge), Err(CameraError::TooLarge { .. })));
 
     let grid = PixelGrid::image(0, 4);
     let none = Rays::perspective(camera, WINDOW, grid);

@@ -20,8 +20,8 @@ fn main() {
         [0.0, 0.0, -1.0, 0.0],
     ]);
 
-    let ahead = view_to_clip.point(Point::new(-1.0, -0.8, -6.0));
-    let behind = view_to_clip.point(Point::new(-1.0, -0.8, 3.0));
+    let ahead = view_to_clip.transform_point(Point::new(-1.0, -0.8, -6.0));
+    let behind = view_to_clip.transform_point(Point::new(-1.0, -0.8, 3.0));
     println!("the rail in clip space   {}", show(ahead));
     println!("                      to {}\n", show(behind));
 

@@ -32,11 +32,11 @@ impl<S: Space> Outline<S> {
     /// assert_eq!(cap.into_iter().map(area).sum::<f64>(), 16.0 - 4.0);
     /// ```
     #[must_use]
-    pub fn cap(&self, plane: Plane<S>) -> Vec<[Point<S>; 3]> {
-        let chart = Chart::of(&self.loops, plane);
+    pub fn triangulate_cap(&self, plane: Plane<S>) -> Vec<[Point<S>; 3]> {
+        let chart = PlanarPoints::project_loops(&self.loops, plane);
         let mut triangles = Vec::new();
-        for ring in chart.rings(&self.loops) {
-            chart.cut_ears(ring, &mut triangles);
+        for ring in chart.outer_rings(&self.loops) {
+            chart.clip_ears(ring, &mut triangles);
         }
         let points: Vec<Point<S>> = self.loops.iter().flatten().copied().collect();
         triangles.into_iter().map(|corners| corners.map(|i| points[i])).collect()
@@ -45,78 +45,78 @@ impl<S: Space> Outline<S> {
 
 /// All points of the outline in two coordinates of the plane, turned so that they are seen from the side that was cut
 /// away.
-struct Chart {
-    places: Vec<[f64; 2]>,
+struct PlanarPoints {
+    points: Vec<[f64; 2]>,
 }
 
 /// Numbers of points.
-type Ring = Vec<usize>;
+type VertexRing = Vec<usize>;
 
-impl Chart {
+impl PlanarPoints {
     /// Leaves out the axis nearest to the normal, and swaps the others if the view would be from the wrong side.
-    fn of<S: Space>(loops: &[Vec<Point<S>>], plane: Plane<S>) -> Self {
+    fn project_loops<S: Space>(loops: &[Vec<Point<S>>], plane: Plane<S>) -> Self {
         let normal = plane.normal().raw().to_array();
         let size = normal.map(f64::abs);
         let left_out = (0..3).fold(0, |best, i| if size[i] > size[best] { i } else { best });
         let (u, v) = ((left_out + 1) % 3, (left_out + 2) % 3);
         let (u, v) = if normal[left_out] > 0.0 { (v, u) } else { (u, v) };
         let place = |point: &Point<S>| [point.raw()[u], point.raw()[v]];
-        Self { places: loops.iter().flatten().map(place).collect() }
+        Self { points: loops.iter().flatten().map(place).collect() }
     }
 
     /// Twice the signed area of a triangle: positive if its corners run counter-clockwise.
-    fn turn(&self, [a, b, c]: [usize; 3]) -> f64 {
-        let [a, b, c] = [a, b, c].map(|i| self.places[i]);
+    fn signed_area(&self, [a, b, c]: [usize; 3]) -> f64 {
+        let [a, b, c] = [a, b, c].map(|i| self.points[i]);
         (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
     }
 
-    fn area(&self, ring: &[usize]) -> f64 {
+    fn ring_area(&self, ring: &[usize]) -> f64 {
         let Some(&first) = ring.first() else { return 0.0 };
-        ring.windows(2).map(|edge| self.turn([first, edge[0], edge[1]])).sum()
+        ring.windows(2).map(|edge| self.signed_area([first, edge[0], edge[1]])).sum()
     }
 
     /// True if a ray from the point to the right meets the ring an odd number of times.
-    fn encloses(&self, ring: &[usize], point: usize) -> bool {
-        let [x, y] = self.places[point];
-        edges(ring).fold(false, |inside, (i, j)| {
-            let ([x0, y0], [x1, y1]) = (self.places[i], self.places[j]);
+    fn ring_contains(&self, ring: &[usize], point: usize) -> bool {
+        let [x, y] = self.points[point];
+        ring_edges(ring).fold(false, |inside, (i, j)| {
+            let ([x0, y0], [x1, y1]) = (self.points[i], self.points[j]);
             let crosses = (y0 > y) != (y1 > y);
             inside ^ (crosses && x < x0 + (y - y0) / (y1 - y0) * (x1 - x0))
         })
     }
 
     /// One ring for each outline that is not a hole, counter-clockwise, with its holes joined to it.
-    fn rings<S: Space>(&self, loops: &[Vec<Point<S>>]) -> Vec<Ring> {
+    fn outer_rings<S: Space>(&self, loops: &[Vec<Point<S>>]) -> Vec<VertexRing> {
         let mut start = 0;
         let numbered = loops.iter().map(|points| {
             start += points.len();
-            (start - points.len()..start).collect::<Ring>()
+            (start - points.len()..start).collect::<VertexRing>()
         });
-        let loops: Vec<Ring> = numbered.filter(|ring| ring.len() >= 3).collect();
+        let loops: Vec<VertexRing> = numbered.filter(|ring| ring.len() >= 3).collect();
         // Loops of a solid do not touch, so that one point of a loop speaks for all of it.
-        let encloses = |i: usize, j: usize| i != j && self.encloses(&loops[i], loops[j][0]);
+        let encloses = |i: usize, j: usize| i != j && self.ring_contains(&loops[i], loops[j][0]);
         let all = 0..loops.len();
         let depth = |j: usize| all.clone().filter(|&i| encloses(i, j)).count();
         let depths: Vec<usize> = all.clone().map(depth).collect();
         let joined = all.clone().filter(|&i| depths[i].is_multiple_of(2)).map(|i| {
             let holes = all.clone().filter(|&j| depths[j] == depths[i] + 1 && encloses(i, j));
-            let holes = holes.map(|j| self.directed(&loops[j], -1.0)).collect();
-            self.join(self.directed(&loops[i], 1.0), holes)
+            let holes = holes.map(|j| self.orient_ring(&loops[j], -1.0)).collect();
+            self.join_holes(self.orient_ring(&loops[i], 1.0), holes)
         });
         joined.collect()
     }
 
-    fn directed(&self, ring: &[usize], sign: f64) -> Ring {
+    fn orient_ring(&self, ring: &[usize], sign: f64) -> VertexRing {
         let mut ring = ring.to_vec();
-        if self.area(&ring) * sign < 0.0 {
+        if self.ring_area(&ring) * sign < 0.0 {
             ring.reverse();
         }
         ring
     }
 
     /// Joins holes to their outline, the rightmost first, so that no bridge crosses a hole that is still to come.
-    fn join(&self, mut outline: Ring, mut holes: Vec<Ring>) -> Ring {
-        let x = |&i: &usize| self.places[i][0];
+    fn join_holes(&self, mut outline: VertexRing, mut holes: Vec<VertexRing>) -> VertexRing {
+        let x = |&i: &usize| self.points[i][0];
         for hole in &mut holes {
             let by_x = |&a: &usize, &b: &usize| x(&hole[a]).total_cmp(&x(&hole[b]));
             let rightmost = (0..hole.len()).max_by(by_x).unwrap_or(0);
@@ -124,9 +124,9 @@ impl Chart {
         }
         holes.sort_by(|a, b| x(&b[0]).total_cmp(&x(&a[0])));
         for hole in holes {
-            let Some(at) = self.bridge(&outline, hole[0]) else { continue };
+            let Some(at) = self.find_bridge(&outline, hole[0]) else { continue };
             let back = [hole[0], outline[at]];
-            let bridged: Ring = outline[..=at]
+            let bridged: VertexRing = outline[..=at]
                 .iter()
                 .chain(&hole)
                 .chain(&back)
@@ -140,11 +140,11 @@ impl Chart {
 
     /// The place in the outline of a corner that can be seen from a point inside: going right from the point, the
     /// nearer end of the first edge that is met, or a corner that stands in the way of seeing it.
-    fn bridge(&self, outline: &[usize], point: usize) -> Option<usize> {
-        let [x, y] = self.places[point];
+    fn find_bridge(&self, outline: &[usize], point: usize) -> Option<usize> {
+        let [x, y] = self.points[point];
         let mut nearest: Option<(f64, usize)> = None;
-        for (at, (i, j)) in edges(outline).enumerate() {
-            let ([x0, y0], [x1, y1]) = (self.places[i], self.places[j]);
+        for (at, (i, j)) in ring_edges(outline).enumerate() {
+            let ([x0, y0], [x1, y1]) = (self.points[i], self.points[j]);
             // The outline runs counter-clockwise, so that the edges to the right run upwards.
             if !(y0 <= y && y < y1) {
                 continue;
@@ -156,13 +156,19 @@ impl Chart {
             }
         }
         let (meets, end) = nearest?;
-        Some(self.in_the_way(outline, point, meets, end).unwrap_or(end))
+        Some(self.blocking_vertex(outline, point, meets, end).unwrap_or(end))
     }
 
     /// Of the corners within the triangle from the point to the edge met and to the edge's end, the one seen at the
     /// smallest angle from straight right.
-    fn in_the_way(&self, outline: &[usize], point: usize, meets: f64, end: usize) -> Option<usize> {
-        let ([x, y], [ex, ey]) = (self.places[point], self.places[outline[end]]);
+    fn blocking_vertex(
+        &self,
+        outline: &[usize],
+        point: usize,
+        meets: f64,
+        end: usize,
+    ) -> Option<usize> {
+        let ([x, y], [ex, ey]) = (self.points[point], self.points[outline[end]]);
         let inside = |[px, py]: [f64; 2]| {
             let side = |a: [f64; 2], b: [f64; 2]| {
                 (b[0] - a[0]) * (py - a[1]) - (b[1] - a[1]) * (px - a[0])
@@ -172,24 +178,24 @@ impl Chart {
             px > x && (sides.iter().all(|&s| s >= 0.0) || sides.iter().all(|&s| s <= 0.0))
         };
         let slope = |at: usize| {
-            let [px, py] = self.places[outline[at]];
+            let [px, py] = self.points[outline[at]];
             (py - y).abs() / (px - x)
         };
-        let others = (0..outline.len()).filter(|&at| at != end && inside(self.places[outline[at]]));
-        let reflex = others.filter(|&at| self.turn(corner(outline, at)) < 0.0);
+        let others = (0..outline.len()).filter(|&at| at != end && inside(self.points[outline[at]]));
+        let reflex = others.filter(|&at| self.signed_area(ring_corner(outline, at)) < 0.0);
         reflex.min_by(|&a, &b| slope(a).total_cmp(&slope(b)))
     }
 
     /// Cuts ears until nothing is left.
-    fn cut_ears(&self, mut ring: Ring, triangles: &mut Vec<[usize; 3]>) {
+    fn clip_ears(&self, mut ring: VertexRing, triangles: &mut Vec<[usize; 3]>) {
         let (mut at, mut refused) = (0, 0);
         while ring.len() > 2 {
             at %= ring.len();
             // After a whole round without an ear only flat corners are left, or the loops crossed each other.
             let stuck = refused > ring.len();
-            let ear = corner(&ring, at);
+            let ear = ring_corner(&ring, at);
             if stuck || self.is_ear(&ring, ear) {
-                if self.turn(ear) > 0.0 {
+                if self.signed_area(ear) > 0.0 {
                     triangles.push(ear);
                 }
                 ring.remove(at);
@@ -204,22 +210,22 @@ impl Chart {
     }
 
     fn is_ear(&self, ring: &[usize], ear: [usize; 3]) -> bool {
-        let is_corner = |i: usize| ear.iter().any(|&corner| self.places[corner] == self.places[i]);
+        let is_corner = |i: usize| ear.iter().any(|&corner| self.points[corner] == self.points[i]);
         let within = |i: usize| {
             let [a, b, c] = ear;
-            [[a, b, i], [b, c, i], [c, a, i]].into_iter().all(|side| self.turn(side) >= 0.0)
+            [[a, b, i], [b, c, i], [c, a, i]].into_iter().all(|side| self.signed_area(side) >= 0.0)
         };
-        self.turn(ear) > 0.0 && !ring.iter().any(|&i| !is_corner(i) && within(i))
+        self.signed_area(ear) > 0.0 && !ring.iter().any(|&i| !is_corner(i) && within(i))
     }
 }
 
 /// The edges of a ring, by the numbers of their points.
-fn edges(ring: &[usize]) -> impl Iterator<Item = (usize, usize)> {
+fn ring_edges(ring: &[usize]) -> impl Iterator<Item = (usize, usize)> {
     ring.iter().copied().zip(ring.iter().copied().cycle().skip(1))
 }
 
 /// A corner with the points before and after it.
-fn corner(ring: &[usize], at: usize) -> [usize; 3] {
+fn ring_corner(ring: &[usize], at: usize) -> [usize; 3] {
     let count = ring.len();
     [ring[(at + count - 1) % count], ring[at], ring[(at + 1) % count]]
 }

@@ -71,28 +71,28 @@ extern crate alloc;
 #[cfg(test)]
 extern crate std;
 
-mod bulk;
+mod bulk_outcodes;
 mod cap;
-mod fate;
 mod outcode;
 mod outline;
+mod plane_outcome;
 mod point;
 mod polygon;
 mod polyline;
-mod section;
 mod segment;
+mod sutherland_hodgman;
 mod triangle;
+mod triangle_section;
 mod volume;
-mod walk;
 
-pub use bulk::Extent;
-pub use fate::{Fate, Fates};
+pub use bulk_outcodes::OutcodeSummary;
 pub use outcode::{MAX_PLANES, Outcode, PlaneIndex};
 pub use outline::Outline;
+pub use plane_outcome::{PlaneOutcome, PlaneOutcomes};
 pub use point::clip_point;
 pub use polygon::{ClippedConvex, clip_convex};
 pub use polyline::{PolylinePoint, clip_polyline};
-pub use section::{CutTriangle, SectionVertex, cut_triangle};
-pub use segment::{ClippedSegment, clip_segment, segment_fates};
+pub use segment::{ClippedSegment, clip_segment, segment_outcomes};
 pub use triangle::{ClipVertex, ClippedPolygon, clip_triangle};
+pub use triangle_section::{CutTriangle, SectionVertex, cut_triangle};
 pub use volume::{Volume, VolumeError};

@@ -74,7 +74,7 @@ impl Outcode {
     /// No plane: the point is inside.
     pub const INSIDE: Self = Self(0);
     /// Every plane.
-    pub const EVERY: Self = Self(u16::MAX);
+    pub const ALL: Self = Self(u16::MAX);
 
     /// The set with these bits, bit i for the plane with number i.
     #[must_use]
@@ -102,26 +102,26 @@ impl Outcode {
 
     /// The set with `plane` in it.
     #[must_use]
-    pub const fn with(self, plane: PlaneIndex) -> Self {
+    pub const fn with_plane(self, plane: PlaneIndex) -> Self {
         Self(self.0 | 1 << plane.0)
     }
 
     /// The set with `plane` not in it.
     #[must_use]
-    pub const fn without(self, plane: PlaneIndex) -> Self {
+    pub const fn without_plane(self, plane: PlaneIndex) -> Self {
         Self(self.0 & !(1 << plane.0))
     }
 
     /// True if points with these outcodes, and all that lies between them, are inside: `a | b | … = 0`.
     #[must_use]
-    pub fn accepts(outcodes: &[Self]) -> bool {
+    pub fn trivially_accepts(outcodes: &[Self]) -> bool {
         outcodes.iter().all(|code| code.is_inside())
     }
 
     /// The planes that all of these points are outside of, `a & b & …`: if there is one, nothing between the
     /// points is inside.
     #[must_use]
-    pub fn rejects(outcodes: &[Self]) -> Self {
+    pub fn trivially_rejects(outcodes: &[Self]) -> Self {
         let all = outcodes.iter().copied().reduce(|a, b| a & b);
         all.unwrap_or_default()
     }
@@ -179,25 +179,25 @@ mod tests {
 
     #[test]
     fn sets_hold_what_was_put_in_and_print_their_names() {
-        let code = Outcode::INSIDE.with(PlaneIndex::LEFT).with(PlaneIndex::FAR);
+        let code = Outcode::INSIDE.with_plane(PlaneIndex::LEFT).with_plane(PlaneIndex::FAR);
         assert_eq!(code.bits(), 0b10_0001);
         assert_eq!(code.to_string(), "left+far");
-        assert_eq!(code.without(PlaneIndex::FAR).to_string(), "left");
+        assert_eq!(code.without_plane(PlaneIndex::FAR).to_string(), "left");
         assert_eq!(Outcode::INSIDE.to_string(), "inside");
         let added = PlaneIndex::added(9).expect("the last plane");
         assert_eq!(added.to_string(), "plane 9");
         assert_eq!(PlaneIndex::added(10), None);
         assert_eq!(PlaneIndex::added(usize::MAX), None);
-        assert_eq!(Outcode::EVERY.planes().count(), MAX_PLANES);
+        assert_eq!(Outcode::ALL.planes().count(), MAX_PLANES);
     }
 
     #[test]
     fn acceptance_and_rejection() {
         let [a, b] = [0b01, 0b11].map(Outcode::from_bits);
-        assert_eq!(Outcode::rejects(&[a, b]), a);
-        assert!(Outcode::rejects(&[a, Outcode::INSIDE]).is_inside());
-        assert!(!Outcode::accepts(&[a, Outcode::INSIDE]));
-        assert!(Outcode::accepts(&[Outcode::INSIDE; 3]));
-        assert!(Outcode::rejects(&[]).is_inside());
+        assert_eq!(Outcode::trivially_rejects(&[a, b]), a);
+        assert!(Outcode::trivially_rejects(&[a, Outcode::INSIDE]).is_inside());
+        assert!(!Outcode::trivially_accepts(&[a, Outcode::INSIDE]));
+        assert!(Outcode::trivially_accepts(&[Outcode::INSIDE; 3]));
+        assert!(Outcode::trivially_rejects(&[]).is_inside());
     }
 }

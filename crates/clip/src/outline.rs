@@ -31,14 +31,14 @@ impl<S: Space> Outline<S> {
     /// assert_eq!((outline.loops.len(), outline.loops[0].len(), outline.open.len()), (1, 4, 0));
     /// ```
     #[must_use]
-    pub fn of_edges(edges: &[[Point<S>; 2]]) -> Self {
-        let mut chains = Chains::new(edges);
+    pub fn from_edges(edges: &[[Point<S>; 2]]) -> Self {
+        let mut chains = EdgeChains::new(edges);
         let mut outline = Self { loops: Vec::new(), open: Vec::new() };
         for first in 0..edges.len() {
             if chains.used[first] {
                 continue;
             }
-            let chain = chains.take_from(first);
+            let chain = chains.take_chain(first);
             match chain.as_slice() {
                 [start, .., end] if start == end => {
                     if chain.len() > 3 {
@@ -59,56 +59,56 @@ impl<S: Space> Outline<S> {
 }
 
 /// The exact coordinates of a point, with one zero only.
-type Key = [u64; 3];
+type PointKey = [u64; 3];
 
-fn key<S: Space>(point: Point<S>) -> Key {
+fn point_key<S: Space>(point: Point<S>) -> PointKey {
     point.raw().to_array().map(|x| (x + 0.0).to_bits())
 }
 
-struct Chains<'a, S: Space> {
+struct EdgeChains<'a, S: Space> {
     edges: &'a [[Point<S>; 2]],
     /// The edges at a point, those that start there first.
-    at: BTreeMap<Key, Vec<usize>>,
+    at: BTreeMap<PointKey, Vec<usize>>,
     used: Vec<bool>,
 }
 
-impl<'a, S: Space> Chains<'a, S> {
+impl<'a, S: Space> EdgeChains<'a, S> {
     fn new(edges: &'a [[Point<S>; 2]]) -> Self {
-        let mut at: BTreeMap<Key, Vec<usize>> = BTreeMap::new();
+        let mut at: BTreeMap<PointKey, Vec<usize>> = BTreeMap::new();
         for end in 0..2 {
             for (i, edge) in edges.iter().enumerate() {
-                at.entry(key(edge[end])).or_default().push(i);
+                at.entry(point_key(edge[end])).or_default().push(i);
             }
         }
         Self { edges, at, used: edges.iter().map(|[a, b]| a == b).collect() }
     }
 
     /// The longest chain with this edge in it, up to where it closes.
-    fn take_from(&mut self, first: usize) -> Vec<Point<S>> {
+    fn take_chain(&mut self, first: usize) -> Vec<Point<S>> {
         self.used[first] = true;
         let mut chain = self.edges[first].to_vec();
-        self.extend(&mut chain);
+        self.extend_chain(&mut chain);
         if chain.first() != chain.last() {
             // It did not close, so it may go on at its other end.
             chain.reverse();
-            self.extend(&mut chain);
+            self.extend_chain(&mut chain);
             chain.reverse();
         }
         chain
     }
 
-    fn extend(&mut self, chain: &mut Vec<Point<S>>) {
+    fn extend_chain(&mut self, chain: &mut Vec<Point<S>>) {
         while let [start, .., end] = chain.as_slice()
             && start != end
-            && let Some(next) = self.take_next(*end)
+            && let Some(next) = self.take_next_edge(*end)
         {
             chain.push(next);
         }
     }
 
     /// The other end of an unused edge at this point.
-    fn take_next(&mut self, point: Point<S>) -> Option<Point<S>> {
-        let edges = self.at.get(&key(point))?;
+    fn take_next_edge(&mut self, point: Point<S>) -> Option<Point<S>> {
+        let edges = self.at.get(&point_key(point))?;
         let next = *edges.iter().find(|&&edge| !self.used[edge])?;
         self.used[next] = true;
         let [start, end] = self.edges[next];
@@ -130,29 +130,29 @@ mod tests {
     fn scattered_edges_find_together() {
         let two_squares =
             edges(&[(0, 1), (10, 14), (5, 4), (14, 15), (1, 5), (11, 10), (4, 0), (15, 11)]);
-        let outline = Outline::of_edges(&two_squares);
+        let outline = Outline::from_edges(&two_squares);
         assert!(outline.is_closed());
         assert_eq!(outline.loops.iter().map(Vec::len).collect::<Vec<_>>(), [4, 4]);
     }
 
     #[test]
     fn edges_that_run_the_wrong_way_are_turned() {
-        let outline = Outline::of_edges(&edges(&[(0, 1), (5, 1), (4, 5), (0, 4)]));
+        let outline = Outline::from_edges(&edges(&[(0, 1), (5, 1), (4, 5), (0, 4)]));
         assert_eq!((outline.loops.len(), outline.open.len()), (1, 0));
     }
 
     #[test]
     fn open_surfaces_have_open_outlines() {
-        let outline = Outline::of_edges(&edges(&[(1, 2), (0, 1), (2, 6), (8, 8)]));
+        let outline = Outline::from_edges(&edges(&[(1, 2), (0, 1), (2, 6), (8, 8)]));
         assert!(outline.loops.is_empty() && !outline.is_closed());
         assert_eq!(outline.open[0].len(), 4);
         assert_eq!(outline.open[0][0], Point::ORIGIN);
-        assert!(Outline::<World>::of_edges(&[]).is_closed());
+        assert!(Outline::<World>::from_edges(&[]).is_closed());
     }
 
     #[test]
     fn there_and_back_again_is_no_loop() {
-        let outline = Outline::of_edges(&edges(&[(0, 1), (1, 0)]));
+        let outline = Outline::from_edges(&edges(&[(0, 1), (1, 0)]));
         assert_eq!(outline, Outline { loops: Vec::new(), open: Vec::new() });
     }
 }

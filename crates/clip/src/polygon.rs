@@ -1,7 +1,7 @@
 //! Convex polygons of any size (CL-3).
 
-use crate::walk::{Step, safe_scale, unscaled, walk};
-use crate::{Fates, Outcode, Volume};
+use crate::sutherland_hodgman::{RingStep, clip_ring, safe_scale, unscaled};
+use crate::{Outcode, PlaneOutcomes, Volume};
 use alloc::vec::Vec;
 use glam::DVec4;
 use homog::{Clip, HPoint};
@@ -16,7 +16,7 @@ pub struct ClippedConvex {
     weights: Vec<f64>,
     sources: usize,
     /// What each plane did.
-    pub fates: Fates,
+    pub outcomes: PlaneOutcomes,
 }
 
 impl ClippedConvex {
@@ -43,8 +43,8 @@ impl ClippedConvex {
         (2..self.points.len()).map(|i| [0, i - 1, i])
     }
 
-    fn nothing(fates: Fates) -> Self {
-        Self { points: Vec::new(), weights: Vec::new(), sources: 0, fates }
+    fn empty(outcomes: PlaneOutcomes) -> Self {
+        Self { points: Vec::new(), weights: Vec::new(), sources: 0, outcomes }
     }
 }
 
@@ -68,70 +68,84 @@ pub fn clip_convex(polygon: &[HPoint<Clip>], volume: &Volume) -> ClippedConvex {
     let rejected = codes.reduce(|a, b| a & b).unwrap_or_default();
     let usable = polygon.len() >= 3 && polygon.iter().all(|point| point.is_finite());
     if !usable || !rejected.is_inside() {
-        return ClippedConvex::nothing(Fates::rejected(rejected));
+        return ClippedConvex::empty(PlaneOutcomes::from_rejected(rejected));
     }
     let raw: Vec<DVec4> = polygon.iter().map(|point| point.raw()).collect();
     let scale = safe_scale(&raw);
-    let mut ring = corners(&raw, scale);
-    let mut fates = Fates::default();
-    for index in volume.present().planes() {
-        let distance = |vertex: &Vertex| volume.distance(index, vertex.point);
+    let mut ring = source_vertices(&raw, scale);
+    let mut fates = PlaneOutcomes::default();
+    for index in volume.active_planes().planes() {
+        let distance = |vertex: &PolygonVertex| volume.plane_distance(index, vertex.point);
         let distances: Vec<f64> = ring.iter().map(distance).collect();
         if distances.iter().all(|&distance| distance >= 0.0) {
             continue;
         }
-        ring = cut_by(&ring, &distances, |crossing| volume.land(index, crossing));
+        ring = clip_by_plane(&ring, &distances, |crossing| volume.snap_to_plane(index, crossing));
         if ring.len() < 3 {
-            fates.rejected = Outcode::INSIDE.with(index);
-            return ClippedConvex::nothing(fates);
+            fates.rejected = Outcode::INSIDE.with_plane(index);
+            return ClippedConvex::empty(fates);
         }
-        fates.cut = fates.cut.with(index);
+        fates.clipped = fates.clipped.with_plane(index);
     }
-    finish(ring, volume, scale, fates)
+    finish_polygon(ring, volume, scale, fates)
 }
 
-struct Vertex {
+struct PolygonVertex {
     point: DVec4,
     weights: Vec<f64>,
 }
 
-impl Vertex {
+impl PolygonVertex {
     fn lerp(&self, end: &Self, t: f64) -> Self {
         let weights = self.weights.iter().zip(&end.weights).map(|(a, b)| a + (b - a) * t).collect();
         Self { point: self.point + (end.point - self.point) * t, weights }
     }
 }
 
-fn corners(raw: &[DVec4], scale: f64) -> Vec<Vertex> {
+fn source_vertices(raw: &[DVec4], scale: f64) -> Vec<PolygonVertex> {
     let count = raw.len();
     let unit = |i: usize| (0..count).map(|j| if i == j { 1.0 } else { 0.0 }).collect();
-    let corner = |(i, &point): (usize, &DVec4)| Vertex { point: point * scale, weights: unit(i) };
+    let corner =
+        |(i, &point): (usize, &DVec4)| PolygonVertex { point: point * scale, weights: unit(i) };
     raw.iter().enumerate().map(corner).collect()
 }
 
-fn cut_by(ring: &[Vertex], distances: &[f64], land: impl Fn(DVec4) -> DVec4) -> Vec<Vertex> {
+fn clip_by_plane(
+    ring: &[PolygonVertex],
+    distances: &[f64],
+    land: impl Fn(DVec4) -> DVec4,
+) -> Vec<PolygonVertex> {
     let mut rest = Vec::with_capacity(ring.len() + 1);
-    walk(distances, |step| {
+    clip_ring(distances, |step| {
         rest.push(match step {
-            Step::Keep(i) => Vertex { point: ring[i].point, weights: ring[i].weights.clone() },
-            Step::Cross { from, to, t } => {
+            RingStep::Keep(i) => {
+                PolygonVertex { point: ring[i].point, weights: ring[i].weights.clone() }
+            }
+            RingStep::Cross { from, to, t } => {
                 let crossing = ring[from].lerp(&ring[to], t);
-                Vertex { point: land(crossing.point), ..crossing }
+                PolygonVertex { point: land(crossing.point), ..crossing }
             }
         });
     });
     rest
 }
 
-fn finish(ring: Vec<Vertex>, volume: &Volume, scale: f64, fates: Fates) -> ClippedConvex {
+fn finish_polygon(
+    ring: Vec<PolygonVertex>,
+    volume: &Volume,
+    scale: f64,
+    fates: PlaneOutcomes,
+) -> ClippedConvex {
     let sources = ring.first().map_or(0, |vertex| vertex.weights.len());
-    let settled = |vertex: &Vertex| HPoint::from_raw(volume.settle(unscaled(vertex.point, scale)));
+    let settled = |vertex: &PolygonVertex| {
+        HPoint::from_raw(volume.clamp_to_box(unscaled(vertex.point, scale)))
+    };
     let points: Vec<HPoint<Clip>> = ring.iter().map(settled).collect();
     if points.iter().any(|point| point.w() <= 0.0) {
-        return ClippedConvex::nothing(fates);
+        return ClippedConvex::empty(fates);
     }
     let weights = ring.into_iter().flat_map(|vertex| vertex.weights).collect();
-    ClippedConvex { points, weights, sources, fates }
+    ClippedConvex { points, weights, sources, outcomes: fates }
 }
 
 #[cfg(test)]
@@ -146,7 +160,7 @@ mod tests {
         let (general, special) =
             (clip_convex(&corners, &Volume::CHAPTER), clip_triangle(corners, &Volume::CHAPTER));
         assert!(!general.is_empty());
-        assert_eq!(general.fates, special.fates);
+        assert_eq!(general.outcomes, special.outcomes);
         for (i, vertex) in special.vertices().iter().enumerate() {
             assert_eq!(general.points()[i], vertex.point);
             assert_eq!(general.weights(i), Some(&vertex.weights[..]));
@@ -167,7 +181,7 @@ mod tests {
             square.points().iter().all(|p| p.x().abs() == 1.0 && p.y().abs() == 1.0),
             "{square:?}"
         );
-        assert_eq!(square.fates.cut, Outcode::from_bits(0b1111));
+        assert_eq!(square.outcomes.clipped, Outcode::from_bits(0b1111));
     }
 
     #[test]
@@ -180,6 +194,6 @@ mod tests {
         }
         let outside = [2.0, 3.0, 4.0].map(|x| HPoint::new(x, x * x, 0.0, 1.0));
         let nothing = clip_convex(&outside, &Volume::CHAPTER);
-        assert!(nothing.fates.rejected.contains(PlaneIndex::RIGHT));
+        assert!(nothing.outcomes.rejected.contains(PlaneIndex::RIGHT));
     }
 }

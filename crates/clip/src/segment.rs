@@ -7,8 +7,8 @@
 //!            └─────────┘
 //! ```
 
-use crate::walk::{Blend, blend, safe_scale, unscaled};
-use crate::{Fates, Outcode, PlaneIndex, Volume};
+use crate::sutherland_hodgman::{EdgeFraction, crossing_fraction, safe_scale, unscaled};
+use crate::{Outcode, PlaneIndex, PlaneOutcomes, Volume};
 use core::cmp::Ordering;
 use glam::DVec4;
 use homog::{Clip, HPoint};
@@ -72,10 +72,10 @@ impl ClippedSegment {
 #[must_use]
 pub fn clip_segment(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Option<ClippedSegment> {
     // One of the two directions is computed, whichever was asked for: so both get the same bits.
-    if order(p.raw(), q.raw()) == Ordering::Greater {
-        return Some(Span::of(q, p, volume).ok()?.points(q, p, volume)?.reversed());
+    if compare_points(p.raw(), q.raw()) == Ordering::Greater {
+        return Some(VisibleSpan::new(q, p, volume).ok()?.end_points(q, p, volume)?.reversed());
     }
-    Span::of(p, q, volume).ok()?.points(p, q, volume)
+    VisibleSpan::new(p, q, volume).ok()?.end_points(p, q, volume)
 }
 
 /// What each plane does to the segment from `p` to `q`, for people who ask why it is cut or gone.
@@ -83,50 +83,57 @@ pub fn clip_segment(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Option
 /// A segment that passes by a corner of the volume is rejected by two planes: it leaves through the one before it has
 /// entered through the other.
 #[must_use]
-pub fn segment_fates(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Fates {
-    match Span::of(p, q, volume) {
-        Ok(span) => Fates { cut: span.planes(), rejected: Outcode::INSIDE },
-        Err(rejected) => Fates::rejected(rejected),
+pub fn segment_outcomes(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> PlaneOutcomes {
+    match VisibleSpan::new(p, q, volume) {
+        Ok(span) => PlaneOutcomes { clipped: span.planes(), rejected: Outcode::INSIDE },
+        Err(rejected) => PlaneOutcomes::from_rejected(rejected),
     }
 }
 
 /// A total order of finite points.
-fn order(p: DVec4, q: DVec4) -> Ordering {
+fn compare_points(p: DVec4, q: DVec4) -> Ordering {
     let mut pairs = p.to_array().into_iter().zip(q.to_array());
     pairs.find_map(|(a, b)| Some(a.total_cmp(&b)).filter(|o| o.is_ne())).unwrap_or(Ordering::Equal)
 }
 
 /// A crossing with a plane at the fraction `t` of the way from p to q.
 #[derive(Clone, Copy)]
-struct Crossing {
+struct PlaneCrossing {
     t: f64,
-    blend: Blend,
+    blend: EdgeFraction,
     plane: PlaneIndex,
 }
 
-impl Crossing {
+impl PlaneCrossing {
     /// The point, given the end on the plane's inner side and the one on its outer side.
-    fn point(self, inner: HPoint<Clip>, outer: HPoint<Clip>, volume: &Volume) -> HPoint<Clip> {
+    fn crossing_point(
+        self,
+        inner: HPoint<Clip>,
+        outer: HPoint<Clip>,
+        volume: &Volume,
+    ) -> HPoint<Clip> {
         let scale = safe_scale(&[inner.raw(), outer.raw()]);
         let (inner, outer) = (inner.raw() * scale, outer.raw() * scale);
         let point = match self.blend {
-            Blend::FromInner(t) => inner + (outer - inner) * t,
-            Blend::FromOuter(t) => outer + (inner - outer) * t,
+            EdgeFraction::FromInner(t) => inner + (outer - inner) * t,
+            EdgeFraction::FromOuter(t) => outer + (inner - outer) * t,
         };
-        HPoint::from_raw(volume.settle(unscaled(volume.land(self.plane, point), scale)))
+        HPoint::from_raw(
+            volume.clamp_to_box(unscaled(volume.snap_to_plane(self.plane, point), scale)),
+        )
     }
 }
 
 /// The last of the enterings and the first of the leavings.
 #[derive(Clone, Copy, Default)]
-struct Span {
-    enter: Option<Crossing>,
-    exit: Option<Crossing>,
+struct VisibleSpan {
+    enter: Option<PlaneCrossing>,
+    exit: Option<PlaneCrossing>,
 }
 
-impl Span {
+impl VisibleSpan {
     /// The span inside the volume, or the planes that reject it.
-    fn of(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Result<Self, Outcode> {
+    fn new(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Result<Self, Outcode> {
         let (p_outside, q_outside) = (volume.outcode(p), volume.outcode(q));
         let rejected = p_outside & q_outside;
         if !rejected.is_inside() || !p.is_finite() || !q.is_finite() {
@@ -136,26 +143,34 @@ impl Span {
         let (p, q) = (p.raw() * scale, q.raw() * scale);
         let mut span = Self::default();
         for plane in (p_outside | q_outside).planes() {
-            let (a, b) = (volume.distance(plane, p), volume.distance(plane, q));
+            let (a, b) = (volume.plane_distance(plane, p), volume.plane_distance(plane, q));
             // What is a hair outside may come out at distance 0 when huge points are scaled down.
             if p_outside.contains(plane) {
                 let (a, b) = (a.min(-f64::MIN_POSITIVE), b.max(0.0));
-                span.enter_by(Crossing { t: a / (a - b), blend: blend(b, a), plane });
+                span.enter_by(PlaneCrossing {
+                    t: a / (a - b),
+                    blend: crossing_fraction(b, a),
+                    plane,
+                });
             } else {
                 let (a, b) = (a.max(0.0), b.min(-f64::MIN_POSITIVE));
-                span.exit_by(Crossing { t: a / (a - b), blend: blend(a, b), plane });
+                span.exit_by(PlaneCrossing {
+                    t: a / (a - b),
+                    blend: crossing_fraction(a, b),
+                    plane,
+                });
             }
         }
         if span.t0() > span.t1() { Err(span.planes()) } else { Ok(span) }
     }
 
-    fn enter_by(&mut self, crossing: Crossing) {
+    fn enter_by(&mut self, crossing: PlaneCrossing) {
         if self.enter.is_none_or(|enter| enter.t < crossing.t) {
             self.enter = Some(crossing);
         }
     }
 
-    fn exit_by(&mut self, crossing: Crossing) {
+    fn exit_by(&mut self, crossing: PlaneCrossing) {
         if self.exit.is_none_or(|exit| exit.t > crossing.t) {
             self.exit = Some(crossing);
         }
@@ -171,12 +186,17 @@ impl Span {
 
     fn planes(self) -> Outcode {
         let crossings = [self.enter, self.exit].into_iter().flatten();
-        crossings.fold(Outcode::INSIDE, |planes, crossing| planes.with(crossing.plane))
+        crossings.fold(Outcode::INSIDE, |planes, crossing| planes.with_plane(crossing.plane))
     }
 
-    fn points(self, p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Option<ClippedSegment> {
-        let start = self.enter.map_or(p, |enter| enter.point(q, p, volume));
-        let end = self.exit.map_or(q, |exit| exit.point(p, q, volume));
+    fn end_points(
+        self,
+        p: HPoint<Clip>,
+        q: HPoint<Clip>,
+        volume: &Volume,
+    ) -> Option<ClippedSegment> {
+        let start = self.enter.map_or(p, |enter| enter.crossing_point(q, p, volume));
+        let end = self.exit.map_or(q, |exit| exit.crossing_point(p, q, volume));
         // The zero vector is in every closed volume but is no point. A segment that ends there runs straight at the
         // eye: all of it has the image of its other end.
         let (start, end) = match (start.w() > 0.0, end.w() > 0.0) {

@@ -8,8 +8,8 @@
 //!       └╱────────╲┘  ► 4 vertices
 //! ```
 
-use crate::walk::{Step, safe_scale, unscaled, walk};
-use crate::{Fates, MAX_PLANES, Outcode, PlaneIndex, Volume};
+use crate::sutherland_hodgman::{RingStep, clip_ring, safe_scale, unscaled};
+use crate::{MAX_PLANES, Outcode, PlaneIndex, PlaneOutcomes, Volume};
 use core::fmt;
 use homog::{Clip, HPoint};
 
@@ -27,7 +27,7 @@ pub struct ClipVertex {
 }
 
 impl ClipVertex {
-    const NOTHING: Self = Self { point: HPoint::new(0.0, 0.0, 0.0, 0.0), weights: [0.0; 3] };
+    const ZERO: Self = Self { point: HPoint::new(0.0, 0.0, 0.0, 0.0), weights: [0.0; 3] };
 
     fn lerp(&self, end: &Self, t: f64) -> Self {
         let ([a, b, c], [p, q, r]) = (self.weights, end.weights);
@@ -47,18 +47,18 @@ impl ClipVertex {
 ///   at the same bits in both, whichever way it runs.
 #[derive(Clone, Copy, Debug)]
 pub struct ClippedPolygon {
-    ring: Ring,
+    ring: PolygonVertices,
     /// What each plane did.
-    pub fates: Fates,
+    pub outcomes: PlaneOutcomes,
 }
 
 /// Most triangles are kept whole; a copy of those need not carry room for the cut ones.
 #[derive(Clone, Copy, Debug)]
 #[expect(clippy::large_enum_variant, reason = "on the stack, and no allocation is the point")]
-enum Ring {
-    Nothing,
-    Whole([ClipVertex; 3]),
-    Cut(Room),
+enum PolygonVertices {
+    Empty,
+    Unclipped([ClipVertex; 3]),
+    Clipped(VertexBuffer),
 }
 
 impl ClippedPolygon {
@@ -66,22 +66,22 @@ impl ClippedPolygon {
     #[must_use]
     pub fn vertices(&self) -> &[ClipVertex] {
         match &self.ring {
-            Ring::Nothing => &[],
-            Ring::Whole(vertices) => vertices,
-            Ring::Cut(room) => room.vertices(),
+            PolygonVertices::Empty => &[],
+            PolygonVertices::Unclipped(vertices) => vertices,
+            PolygonVertices::Clipped(room) => room.vertices(),
         }
     }
 
     /// True if nothing is left.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
-        matches!(self.ring, Ring::Nothing)
+        matches!(self.ring, PolygonVertices::Empty)
     }
 
     /// True if the triangle is left as it was.
     #[must_use]
-    pub const fn is_whole(&self) -> bool {
-        matches!(self.ring, Ring::Whole(_))
+    pub const fn is_unclipped(&self) -> bool {
+        matches!(self.ring, PolygonVertices::Unclipped(_))
     }
 
     /// The polygon as a fan of triangles around its first vertex.
@@ -90,8 +90,8 @@ impl ClippedPolygon {
         vertices.windows(2).skip(1).map(|edge| [vertices[0], edge[0], edge[1]])
     }
 
-    fn nothing(rejected: Outcode) -> Self {
-        Self { ring: Ring::Nothing, fates: Fates::rejected(rejected) }
+    fn rejected(rejected: Outcode) -> Self {
+        Self { ring: PolygonVertices::Empty, outcomes: PlaneOutcomes::from_rejected(rejected) }
     }
 }
 
@@ -115,24 +115,27 @@ impl ClippedPolygon {
 #[must_use]
 pub fn clip_triangle(triangle: [HPoint<Clip>; 3], volume: &Volume) -> ClippedPolygon {
     let codes = triangle.map(|point| volume.outcode(point));
-    let rejected = Outcode::rejects(&codes);
+    let rejected = Outcode::trivially_rejects(&codes);
     if !rejected.is_inside() || !triangle.iter().all(|point| point.is_finite()) {
-        return ClippedPolygon::nothing(rejected);
+        return ClippedPolygon::rejected(rejected);
     }
-    if Outcode::accepts(&codes) {
-        return keep(triangle);
+    if Outcode::trivially_accepts(&codes) {
+        return accept_triangle(triangle);
     }
-    cut(triangle, volume)
+    clip_by_planes(triangle, volume)
 }
 
-fn keep(triangle: [HPoint<Clip>; 3]) -> ClippedPolygon {
+fn accept_triangle(triangle: [HPoint<Clip>; 3]) -> ClippedPolygon {
     if triangle.iter().any(|point| point.w() <= 0.0) {
-        return ClippedPolygon::nothing(Outcode::INSIDE);
+        return ClippedPolygon::rejected(Outcode::INSIDE);
     }
-    ClippedPolygon { ring: Ring::Whole(corners(triangle)), fates: Fates::default() }
+    ClippedPolygon {
+        ring: PolygonVertices::Unclipped(source_vertices(triangle)),
+        outcomes: PlaneOutcomes::default(),
+    }
 }
 
-fn corners([a, b, c]: [HPoint<Clip>; 3]) -> [ClipVertex; 3] {
+fn source_vertices([a, b, c]: [HPoint<Clip>; 3]) -> [ClipVertex; 3] {
     [
         ClipVertex { point: a, weights: [1.0, 0.0, 0.0] },
         ClipVertex { point: b, weights: [0.0, 1.0, 0.0] },
@@ -142,50 +145,60 @@ fn corners([a, b, c]: [HPoint<Clip>; 3]) -> [ClipVertex; 3] {
 
 /// Every plane looks at every vertex, also where the outcodes of this triangle would allow to leave it out: so the
 /// fate of an edge depends on the edge alone, and a neighbour decides alike.
-fn cut(triangle: [HPoint<Clip>; 3], volume: &Volume) -> ClippedPolygon {
-    let (mut one, mut other) = (Room::default(), Room::default());
+fn clip_by_planes(triangle: [HPoint<Clip>; 3], volume: &Volume) -> ClippedPolygon {
+    let (mut one, mut other) = (VertexBuffer::default(), VertexBuffer::default());
     let (mut ring, mut rest) = (&mut one, &mut other);
     let scale = safe_scale(&triangle.map(HPoint::raw));
     let scaled = triangle.map(|point| HPoint::from_raw(point.raw() * scale));
-    corners(scaled).into_iter().for_each(|corner| ring.push(corner));
-    let mut fates = Fates::default();
-    for index in volume.present().planes() {
-        if !cut_by(volume, index, ring.vertices(), rest) {
+    source_vertices(scaled).into_iter().for_each(|corner| ring.push(corner));
+    let mut fates = PlaneOutcomes::default();
+    for index in volume.active_planes().planes() {
+        if !clip_by_plane(volume, index, ring.vertices(), rest) {
             continue;
         }
         if rest.count < 3 {
-            fates.rejected = fates.rejected.with(index);
-            return ClippedPolygon { ring: Ring::Nothing, fates };
+            fates.rejected = fates.rejected.with_plane(index);
+            return ClippedPolygon { ring: PolygonVertices::Empty, outcomes: fates };
         }
-        fates.cut = fates.cut.with(index);
+        fates.clipped = fates.clipped.with_plane(index);
         core::mem::swap(&mut ring, &mut rest);
     }
     for vertex in ring.vertices_mut() {
-        vertex.point = HPoint::from_raw(volume.settle(unscaled(vertex.point.raw(), scale)));
+        vertex.point = HPoint::from_raw(volume.clamp_to_box(unscaled(vertex.point.raw(), scale)));
     }
     // The zero vector is in every closed volume but is no point. Only triangles without an area in the image reach it.
     let is_point = |vertex: &ClipVertex| vertex.point.w() > 0.0;
-    let ring = if ring.vertices().iter().all(is_point) { Ring::Cut(*ring) } else { Ring::Nothing };
-    ClippedPolygon { ring, fates }
+    let ring = if ring.vertices().iter().all(is_point) {
+        PolygonVertices::Clipped(*ring)
+    } else {
+        PolygonVertices::Empty
+    };
+    ClippedPolygon { ring, outcomes: fates }
 }
 
 /// Puts the ring behind a plane into `rest`; false if it is the same.
-fn cut_by(volume: &Volume, index: PlaneIndex, ring: &[ClipVertex], rest: &mut Room) -> bool {
+fn clip_by_plane(
+    volume: &Volume,
+    index: PlaneIndex,
+    ring: &[ClipVertex],
+    rest: &mut VertexBuffer,
+) -> bool {
     let mut distances = [0.0; MAX_VERTICES];
     let distances = &mut distances[..ring.len()];
     for (distance, vertex) in distances.iter_mut().zip(ring) {
-        *distance = volume.distance(index, vertex.point.raw());
+        *distance = volume.plane_distance(index, vertex.point.raw());
     }
     if distances.iter().all(|&distance| distance >= 0.0) {
         return false;
     }
     rest.count = 0;
-    walk(distances, |step| {
+    clip_ring(distances, |step| {
         rest.push(match step {
-            Step::Keep(i) => ring[i],
-            Step::Cross { from, to, t } => {
+            RingStep::Keep(i) => ring[i],
+            RingStep::Cross { from, to, t } => {
                 let mut crossing = ring[from].lerp(&ring[to], t);
-                crossing.point = HPoint::from_raw(volume.land(index, crossing.point.raw()));
+                crossing.point =
+                    HPoint::from_raw(volume.snap_to_plane(index, crossing.point.raw()));
                 crossing
             }
         });
@@ -195,24 +208,24 @@ fn cut_by(volume: &Volume, index: PlaneIndex, ring: &[ClipVertex], rest: &mut Ro
 
 /// Room for the vertices, on the stack.
 #[derive(Clone, Copy)]
-struct Room {
+struct VertexBuffer {
     vertices: [ClipVertex; MAX_VERTICES],
     count: usize,
 }
 
-impl Default for Room {
+impl Default for VertexBuffer {
     fn default() -> Self {
-        Self { vertices: [ClipVertex::NOTHING; MAX_VERTICES], count: 0 }
+        Self { vertices: [ClipVertex::ZERO; MAX_VERTICES], count: 0 }
     }
 }
 
-impl fmt::Debug for Room {
+impl fmt::Debug for VertexBuffer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_list().entries(self.vertices()).finish()
     }
 }
 
-impl Room {
+impl VertexBuffer {
     fn vertices(&self) -> &[ClipVertex] {
         &self.vertices[..self.count]
     }

@@ -10,7 +10,7 @@
 //! | [`Volume::ZERO_ONE`] | z ≥ 0 | w − z ≥ 0 | 0 … 1 |
 //! | [`Volume::ZERO_ONE_REVERSED`] | w − z ≥ 0 | z ≥ 0 | 1 … 0 |
 
-use crate::walk::safe_scale;
+use crate::sutherland_hodgman::safe_scale;
 use crate::{MAX_PLANES, Outcode, PlaneIndex};
 use core::fmt;
 use glam::DVec4;
@@ -57,7 +57,7 @@ pub enum VolumeError {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Volume {
     planes: [DVec4; MAX_PLANES],
-    present: Outcode,
+    active_planes: Outcode,
 }
 
 impl Volume {
@@ -80,21 +80,21 @@ impl Volume {
         planes[3] = DVec4::new(0.0, -1.0, 0.0, 1.0);
         planes[4] = near;
         planes[5] = far;
-        Self { planes, present: Outcode::from_bits(BOX) }
+        Self { planes, active_planes: Outcode::from_bits(BOX_BITS) }
     }
 
     /// The same volume without its near plane: for what may begin anywhere before the eye. The planes of the sides keep w from going
     /// below 0; what is cut off by them has w > 0 but where it passes through the eye itself.
     #[must_use]
     pub fn without_near(mut self) -> Self {
-        self.present = self.present.without(PlaneIndex::NEAR);
+        self.active_planes = self.active_planes.without_plane(PlaneIndex::NEAR);
         self
     }
 
     /// The volume without its far plane, for projections that see to infinity (IF-1 to IF-3).
     #[must_use]
     pub fn without_far(mut self) -> Self {
-        self.present = self.present.without(PlaneIndex::FAR);
+        self.active_planes = self.active_planes.without_plane(PlaneIndex::FAR);
         self
     }
 
@@ -129,24 +129,24 @@ impl Volume {
             return Err(VolumeError::NoPlane { coefficients: plane.raw().to_array() });
         }
         let free = (PlaneIndex::BOX.len()..MAX_PLANES).filter_map(PlaneIndex::new);
-        let free = free.clone().find(|&place| !self.present.contains(place));
+        let free = free.clone().find(|&place| !self.active_planes.contains(place));
         let place = free.ok_or(VolumeError::TooManyPlanes)?;
         self.planes[place.index()] = plane.raw() / largest;
-        self.present = self.present.with(place);
+        self.active_planes = self.active_planes.with_plane(place);
         Ok(self)
     }
 
     /// The planes the volume has.
     #[must_use]
-    pub const fn present(&self) -> Outcode {
-        self.present
+    pub const fn active_planes(&self) -> Outcode {
+        self.active_planes
     }
 
     /// The plane with this index, scaled so that its largest coefficient is 1 (or the guard band's factor);
     /// `None` if the volume has no such plane.
     #[must_use]
     pub fn plane(&self, index: PlaneIndex) -> Option<Plane<Clip>> {
-        let present = self.present.contains(index);
+        let present = self.active_planes.contains(index);
         present.then(|| Plane::from_raw(self.planes[index.index()]))
     }
 
@@ -156,10 +156,10 @@ impl Volume {
     pub fn outcode(&self, point: HPoint<Clip>) -> Outcode {
         let raw = point.raw();
         // Most points of most pictures are inside, which is the quickest to tell.
-        if self.present.bits() & !BOX == 0 && self.is_in_box(raw) {
+        if self.active_planes.bits() & !BOX_BITS == 0 && self.is_in_box(raw) {
             return Outcode::INSIDE;
         }
-        if raw.is_finite() { self.outcode_of(raw) } else { self.present }
+        if raw.is_finite() { self.full_outcode(raw) } else { self.active_planes }
     }
 
     /// Whether a point is for certain inside of the six planes of the box, present or not, and finite.
@@ -179,7 +179,7 @@ impl Volume {
     /// The outcode of a finite point. The sums of the box are those of [`Self::distance`] without the coefficients that
     /// are 0; they have the right sign even where they overflow.
     #[inline]
-    fn outcode_of(&self, point: DVec4) -> Outcode {
+    fn full_outcode(&self, point: DVec4) -> Outcode {
         let [kx, ky] = [self.planes[0].w * point.w, self.planes[2].w * point.w];
         let along_z = |plane: DVec4| plane.z * point.z + plane.w * point.w;
         let distances = [
@@ -194,15 +194,19 @@ impl Volume {
         for (i, distance) in distances.into_iter().enumerate() {
             bits |= u16::from(distance < 0.0) << i;
         }
-        let boxed = Outcode::from_bits(bits & self.present.bits());
-        if self.present.bits() & !BOX == 0 { boxed } else { boxed | self.outcode_of_added(point) }
+        let boxed = Outcode::from_bits(bits & self.active_planes.bits());
+        if self.active_planes.bits() & !BOX_BITS == 0 {
+            boxed
+        } else {
+            boxed | self.added_outcode(point)
+        }
     }
 
-    fn outcode_of_added(&self, point: DVec4) -> Outcode {
-        let added = Outcode::from_bits(self.present.bits() & !BOX);
+    fn added_outcode(&self, point: DVec4) -> Outcode {
+        let added = Outcode::from_bits(self.active_planes.bits() & !BOX_BITS);
         let scaled = point * safe_scale(&[point]);
-        let outside = |&plane: &PlaneIndex| self.distance(plane, scaled) < 0.0;
-        added.planes().filter(outside).fold(Outcode::INSIDE, Outcode::with)
+        let outside = |&plane: &PlaneIndex| self.plane_distance(plane, scaled) < 0.0;
+        added.planes().filter(outside).fold(Outcode::INSIDE, Outcode::with_plane)
     }
 
     /// True if the point is inside or on the border, finite, and not the zero vector, which is no point.
@@ -212,13 +216,13 @@ impl Volume {
     }
 
     /// How far inside of a plane a point is, in the plane's own measure; negative outside.
-    pub(crate) fn distance(&self, index: PlaneIndex, point: DVec4) -> f64 {
+    pub(crate) fn plane_distance(&self, index: PlaneIndex, point: DVec4) -> f64 {
         self.planes[index.index()].dot(point)
     }
 
     /// Puts a computed crossing with a plane onto it exactly, if the plane is one of the box. Planes added by hand are
     /// oblique as a rule, and have no coordinate that could be set.
-    pub(crate) fn land(&self, index: PlaneIndex, mut point: DVec4) -> DVec4 {
+    pub(crate) fn snap_to_plane(&self, index: PlaneIndex, mut point: DVec4) -> DVec4 {
         if index <= PlaneIndex::FAR {
             let (axis, plane) = (index.index() / 2, self.planes[index.index()]);
             point[axis] = 0.0 - plane[axis] * (plane.w * point.w);
@@ -227,16 +231,16 @@ impl Volume {
     }
 
     /// Puts a point that rounding left a hair outside of the box back onto it, so that clipping is idempotent.
-    pub(crate) fn settle(&self, point: DVec4) -> DVec4 {
-        let outside = self.outcode_of(point).planes();
-        outside.fold(point, |point, index| self.land(index, point))
+    pub(crate) fn clamp_to_box(&self, point: DVec4) -> DVec4 {
+        let outside = self.full_outcode(point).planes();
+        outside.fold(point, |point, index| self.snap_to_plane(index, point))
     }
 }
 
 impl fmt::Display for Volume {
     /// One line per plane: its name and its coefficients.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.present.planes().try_for_each(|index| {
+        self.active_planes.planes().try_for_each(|index| {
             let row = self.planes[index.index()];
             writeln!(f, "{index:>8}  {:6} {:6} {:6} {:6}", row.x, row.y, row.z, row.w)
         })
@@ -244,7 +248,7 @@ impl fmt::Display for Volume {
 }
 
 /// The bits of the six planes of the box.
-const BOX: u16 = 0b11_1111;
+const BOX_BITS: u16 = 0b11_1111;
 
 const W_PLUS_Z: DVec4 = DVec4::new(0.0, 0.0, 1.0, 1.0);
 const W_MINUS_Z: DVec4 = DVec4::new(0.0, 0.0, -1.0, 1.0);

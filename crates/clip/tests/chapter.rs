@@ -17,7 +17,7 @@ fn view_to_clip() -> Projective<View, Clip> {
 }
 
 fn seen(x: f64, y: f64, z: f64) -> HPoint<Clip> {
-    view_to_clip().point(Point::new(x, y, z))
+    view_to_clip().transform_point(Point::new(x, y, z))
 }
 
 /// M28, C54: clipping is against −w ≤ x, y, z ≤ w, before the division. In a cube after it a point behind the eye
@@ -78,12 +78,13 @@ fn boxes_and_frusta_go_through_the_same_clipper() {
     ));
     let corners = [[-3.0, 0.0, -2.0], [3.0, 0.0, -2.0], [0.0, 0.5, -2.0]].map(Point::from);
     for (map, half_width) in [(parallel, 1.0), (view_to_clip(), 2.0)] {
-        let left = clip_triangle(corners.map(|corner| map.point(corner)), &Volume::CHAPTER);
+        let left =
+            clip_triangle(corners.map(|corner| map.transform_point(corner)), &Volume::CHAPTER);
         let back = map.inverse().expect("regular");
-        let rightmost = left.vertices().iter().map(|vertex| back.hpoint(vertex.point));
+        let rightmost = left.vertices().iter().map(|vertex| back.transform_hpoint(vertex.point));
         let rightmost = rightmost.filter_map(HPoint::divide).map(Point::x);
         assert!((rightmost.fold(0.0, f64::max) - half_width).abs() < 1e-15);
-        assert_eq!(left.fates.cut.to_string(), "left+right");
+        assert_eq!(left.outcomes.clipped.to_string(), "left+right");
     }
 }
 
@@ -91,7 +92,7 @@ fn boxes_and_frusta_go_through_the_same_clipper() {
 #[test]
 fn planes_can_be_added_from_any_space() {
     let here = Plane::<View>::through(Point::new(0.25, 0.0, 0.0), Normal::new(-1.0, 0.0, 0.0));
-    let there = view_to_clip().plane(here).expect("regular");
+    let there = view_to_clip().transform_plane(here).expect("regular");
     let volume = Volume::CHAPTER.with_plane(there).expect("there is room");
     let left = clip_segment(seen(-0.5, 0.0, -2.0), seen(1.5, 0.0, -2.0), &volume).expect("in view");
     assert_eq!(left.exit, PlaneIndex::added(0));
@@ -110,7 +111,7 @@ fn the_raw_sign_of_m_per_must_be_turned_first() {
 /// or all the way if there is none.
 #[test]
 fn lines_to_infinity_end_at_the_far_plane_or_their_vanishing_point() {
-    let ahead = view_to_clip().direction(-homog::Vector::Z);
+    let ahead = view_to_clip().transform_direction(-homog::Vector::Z);
     let start = seen(0.0, 0.0, -2.0);
     let far = clip_segment(start, ahead, &Volume::CHAPTER).expect("it starts in view");
     assert_eq!(far.end.divide().map(Point::z), Some(-1.0));

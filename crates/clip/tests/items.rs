@@ -23,10 +23,10 @@ fn at(p: [f64; 3], w: f64) -> HPoint<Clip> {
 #[test]
 fn the_canonical_volume_has_six_named_planes() {
     let volume = Volume::CHAPTER;
-    assert_eq!(volume.present().planes().count(), 6);
+    assert_eq!(volume.active_planes().planes().count(), 6);
     for w in [1e-3, 1.0, 7.0] {
         for (p, plane, name) in BEYOND {
-            assert_eq!(volume.outcode(at(p, w)), Outcode::INSIDE.with(plane), "{name}");
+            assert_eq!(volume.outcode(at(p, w)), Outcode::INSIDE.with_plane(plane), "{name}");
             assert_eq!(plane.to_string(), name);
             assert!(volume.plane(plane).expect("present").evaluate(at(p, w)) < 0.0);
         }
@@ -75,7 +75,7 @@ fn clipping_in_the_canonical_frustum_cuts_at_the_same_places() {
                 if t < first.0 { (t, Some(plane)) } else { first }
             },
         );
-        let [p, q] = [inside, end].map(|place| depth.point(Point::<View>::from(place)));
+        let [p, q] = [inside, end].map(|place| depth.transform_point(Point::<View>::from(place)));
         let cut = clip_segment(p, q, &Volume::CHAPTER).expect("it starts inside");
         assert!((cut.t1 - due.0).abs() < 1e-15 && cut.exit == due.1, "{end:?}: {cut:?}");
     }

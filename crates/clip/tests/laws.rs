@@ -4,8 +4,8 @@
 //! integers as often as from a range, so that ties and degenerate shapes are common.
 
 use clip::{
-    ClipVertex, Fate, PlaneIndex, Volume, clip_convex, clip_point, clip_polyline, clip_segment,
-    clip_triangle, segment_fates,
+    ClipVertex, PlaneIndex, PlaneOutcome, Volume, clip_convex, clip_point, clip_polyline,
+    clip_segment, clip_triangle, segment_outcomes,
 };
 use glam::DVec4;
 use homog::{Clip, HPoint, Plane};
@@ -121,8 +121,8 @@ proptest! {
         let once = clip_triangle(corners, &volume);
         for piece in once.triangles() {
             let again = clip_triangle(piece.map(|vertex| vertex.point), &volume);
-            prop_assert!(again.is_whole());
-            prop_assert_eq!(again.fates, clip::Fates::default());
+            prop_assert!(again.is_unclipped());
+            prop_assert_eq!(again.outcomes, clip::PlaneOutcomes::default());
         }
     }
 
@@ -212,12 +212,12 @@ proptest! {
 
     #[test]
     fn fates_name_the_planes_that_acted(p in place(), q in place()) {
-        let fates = segment_fates(p, q, &Volume::CHAPTER);
+        let fates = segment_outcomes(p, q, &Volume::CHAPTER);
         match clip_segment(p, q, &Volume::CHAPTER) {
             Some(left) => {
                 let acted = [left.enter, left.exit];
                 for plane in PlaneIndex::BOX {
-                    prop_assert_eq!(fates.of(plane) == Fate::Cut, acted.contains(&Some(plane)));
+                    prop_assert_eq!(fates.outcome_of(plane) == PlaneOutcome::Clipped, acted.contains(&Some(plane)));
                 }
             }
             None => prop_assert!(!fates.rejected.is_inside()),
@@ -239,7 +239,7 @@ proptest! {
         let index = PlaneIndex::new(2 * axis + usize::from(!low)).expect("one of the box");
         let left = clip_triangle(moved, &Volume::OPENGL);
         prop_assert!(left.is_empty());
-        prop_assert_eq!(left.fates.of(index), Fate::Rejected);
+        prop_assert_eq!(left.outcomes.outcome_of(index), PlaneOutcome::Rejected);
     }
 
     #[test]

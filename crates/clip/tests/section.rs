@@ -86,7 +86,7 @@ fn cut(solid: &[Triangle], plane: Plane<World>) -> (Vec<Triangle>, Outline<World
     let left = pieces.iter().flat_map(CutTriangle::triangles);
     let left = left.map(|triangle| triangle.map(|vertex| vertex.point)).collect();
     let edges: Vec<_> = pieces.iter().filter_map(CutTriangle::edge).collect();
-    (left, Outline::of_edges(&edges))
+    (left, Outline::from_edges(&edges))
 }
 
 fn check(solid: &[Triangle], through: Point<World>, normal: DVec3) -> Result<(), TestCaseError> {
@@ -96,7 +96,7 @@ fn check(solid: &[Triangle], through: Point<World>, normal: DVec3) -> Result<(),
         let plane = Plane::through(through, Normal::from_raw(normal));
         let (left, outline) = cut(solid, plane);
         prop_assert!(outline.is_closed(), "open: {:?}", outline.open);
-        let cap = outline.cap(plane);
+        let cap = outline.triangulate_cap(plane);
         prop_assert!(
             cap.iter().all(|&t| area(&[t], -normal) > -1e-12),
             "a triangle is turned over"
@@ -156,7 +156,7 @@ fn a_ring_cut_flat_has_a_hole_and_cut_upright_two_pieces() {
     let pieces = |normal| {
         let plane = Plane::through(Point::new(0.0, 0.1, 0.05), normal);
         let (_, outline) = cut(&ring, plane);
-        let cap = area(&outline.cap(plane), -plane.normal().raw());
+        let cap = area(&outline.triangulate_cap(plane), -plane.normal().raw());
         (outline.loops.len(), cap)
     };
     let (loops, flat) = pieces(Normal::new(0.0, 1.0, 0.0));
@@ -171,7 +171,9 @@ fn a_ring_cut_flat_has_a_hole_and_cut_upright_two_pieces() {
 fn a_plane_that_misses_takes_all_or_nothing() {
     let above = Plane::through(Point::new(0.0, 5.0, 0.0), Normal::new(0.0, 1.0, 0.0));
     let (left, outline) = cut(&cube(), above);
-    assert!(left.is_empty() && outline.loops.is_empty() && outline.cap(above).is_empty());
+    assert!(
+        left.is_empty() && outline.loops.is_empty() && outline.triangulate_cap(above).is_empty()
+    );
     let below = Plane::through(Point::new(0.0, -5.0, 0.0), Normal::new(0.0, 1.0, 0.0));
     assert_eq!(cut(&cube(), below).0, cube());
     let nan = Plane::through(Point::new(f64::NAN, 0.0, 0.0), Normal::new(0.0, 1.0, 0.0));

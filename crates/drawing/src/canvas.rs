@@ -4,7 +4,7 @@
 //! through their seams, and tiny-skia breaks ties the other way round (RA-3).
 
 use crate::{
-    Cap, Ink, Join, Layer, MILLIMETRES_PER_PIXEL, Page, Pasted, Pen, Polyline, millimetres,
+    Cap, Ink, Join, Layer, MILLIMETERS_PER_PIXEL, Page, Pen, PlacedImage, Polyline, to_millimeters,
 };
 use homog::PixelRect;
 use shade::{Channel, Picture};
@@ -14,11 +14,11 @@ use tiny_skia::{
 };
 
 /// How many points a path may have before another is begun: long ones are slow to fill, and short ones cost a call each.
-const POINTS: usize = 256;
+const MAX_PATH_POINTS: usize = 256;
 
 /// The largest piece of a picture that is drawn on at once. Coordinates are rounded from its corner on, so pixels depend on which piece
 /// they are in; as pieces are counted from the corner of the whole picture, they do not depend on the region that is wanted.
-const PIECE: [u32; 2] = [4096, 2048];
+const TILE_SIZE: [u32; 2] = [4096, 2048];
 
 impl Page {
     /// The page as a picture of this size in pixels, stretched to fill it; transparent where there is no paper. `None` if it
@@ -29,22 +29,22 @@ impl Page {
         if !(1..=raster::MAX_SIDE).contains(&width) || !(1..=raster::MAX_SIDE).contains(&height) {
             return None;
         }
-        Some(self.to_region([width, height], whole))
+        Some(self.to_picture_region([width, height], whole))
     }
 
     /// A region of the picture of this size in pixels.
     #[must_use]
-    pub fn to_region<C: Channel>(&self, size: [u32; 2], region: PixelRect) -> Picture<C> {
+    pub fn to_picture_region<C: Channel>(&self, size: [u32; 2], region: PixelRect) -> Picture<C> {
         let [width, height] = size.map(f64::from);
         let mut picture = Picture::default();
         picture.resize(region.width, region.height);
         let [r, g, b] = self.paper.unwrap_or_default();
         let alpha = if self.paper.is_some() { 255 } else { 0 };
-        picture.pixels.fill([r, g, b, alpha].map(C::of_byte));
+        picture.pixels.fill([r, g, b, alpha].map(C::from_byte));
         let scale = [width / self.size.x, height / self.size.y];
-        RegionCanvas { picture: &mut picture, region }.draw(
+        RegionCanvas { picture: &mut picture, region }.draw_tiles(
             size,
-            &self.pictures,
+            &self.images,
             &self.layers,
             scale,
         );
@@ -53,13 +53,18 @@ impl Page {
 }
 
 /// Draws layers of a page of 96 pixels to the inch over what is a region of a picture of this size.
-pub fn draw_over<C: Channel>(
+pub fn draw_layers_over<C: Channel>(
     picture: &mut Picture<C>,
     size: [u32; 2],
     region: PixelRect,
     layers: &[Layer],
 ) {
-    RegionCanvas { picture, region }.draw(size, &[], layers, [1.0 / MILLIMETRES_PER_PIXEL; 2]);
+    RegionCanvas { picture, region }.draw_tiles(
+        size,
+        &[],
+        layers,
+        [1.0 / MILLIMETERS_PER_PIXEL; 2],
+    );
 }
 
 /// The pixels of a region of a picture, to be drawn over.
@@ -70,23 +75,29 @@ struct RegionCanvas<'a, C> {
 
 impl<C: Channel> RegionCanvas<'_, C> {
     /// Draws layers over the region, with this many pixels for a millimetre.
-    fn draw(&mut self, size: [u32; 2], pictures: &[Pasted], layers: &[Layer], scale: [f64; 2]) {
+    fn draw_tiles(
+        &mut self,
+        size: [u32; 2],
+        pictures: &[PlacedImage],
+        layers: &[Layer],
+        scale: [f64; 2],
+    ) {
         if layers.is_empty() && pictures.is_empty() {
             return;
         }
         let region = self.region;
-        let first = [region.x / PIECE[0], region.y / PIECE[1]];
+        let first = [region.x / TILE_SIZE[0], region.y / TILE_SIZE[1]];
         let last = [region.x + region.width - 1, region.y + region.height - 1];
-        let last = [last[0] / PIECE[0], last[1] / PIECE[1]];
+        let last = [last[0] / TILE_SIZE[0], last[1] / TILE_SIZE[1]];
         for row in first[1]..=last[1] {
             for column in first[0]..=last[0] {
-                let (x, y) = (column * PIECE[0], row * PIECE[1]);
-                let width = PIECE[0].min(size[0] - x);
-                let height = PIECE[1].min(size[1] - y);
+                let (x, y) = (column * TILE_SIZE[0], row * TILE_SIZE[1]);
+                let width = TILE_SIZE[0].min(size[0] - x);
+                let height = TILE_SIZE[1].min(size[1] - y);
                 let piece = PixelRect { x, y, width, height };
-                self.draw_piece(piece, |canvas| {
-                    pictures.iter().for_each(|pasted| canvas.paste(pasted, scale));
-                    layers.iter().for_each(|layer| canvas.layer(layer, scale));
+                self.draw_tile(piece, |canvas| {
+                    pictures.iter().for_each(|pasted| canvas.draw_image(pasted, scale));
+                    layers.iter().for_each(|layer| canvas.draw_layer(layer, scale));
                 });
             }
         }
@@ -94,19 +105,21 @@ impl<C: Channel> RegionCanvas<'_, C> {
 
     /// Draws layers over what a region has of a piece. Also what is not wanted of the piece is drawn: lines are cut at its borders, and
     /// cut elsewhere they could be rounded to other pixels.
-    fn draw_piece(&mut self, piece: PixelRect, draw: impl FnOnce(&mut Canvas)) {
+    fn draw_tile(&mut self, piece: PixelRect, draw: impl FnOnce(&mut Canvas)) {
         let Some(shown) = piece.intersection(self.region) else { return };
         let Some(pixmap) = Pixmap::new(piece.width, piece.height) else { return };
         let mut canvas = Canvas { pixmap, corner: [piece.x, piece.y] };
-        self.copy(shown, &mut canvas, |pixel, place| *place = C::laid_down(*pixel));
+        self.for_each_shared_pixel(shown, &mut canvas, |pixel, place| {
+            *place = C::to_canvas(*pixel)
+        });
         draw(&mut canvas);
-        self.copy(shown, &mut canvas, |pixel, place| {
-            *pixel = C::taken_up(*pixel, *place);
+        self.for_each_shared_pixel(shown, &mut canvas, |pixel, place| {
+            *pixel = C::from_canvas(*pixel, *place);
         });
     }
 
     /// Goes through the pixels of a region that are on a canvas.
-    fn copy(
+    fn for_each_shared_pixel(
         &mut self,
         shown: PixelRect,
         canvas: &mut Canvas,
@@ -130,13 +143,13 @@ impl<C: Channel> RegionCanvas<'_, C> {
 
 /// How pixels come onto a canvas and off it. Those of 8 bits are drawn on; those of 16 stay where they are, and the drawing is laid
 /// over them.
-trait OnCanvas: Channel {
-    fn laid_down(pixel: [Self; 4]) -> PremultipliedColorU8;
-    fn taken_up(pixel: [Self; 4], place: PremultipliedColorU8) -> [Self; 4];
+trait CanvasChannel: Channel {
+    fn to_canvas(pixel: [Self; 4]) -> PremultipliedColorU8;
+    fn from_canvas(pixel: [Self; 4], place: PremultipliedColorU8) -> [Self; 4];
 }
 
-impl<C: Channel> OnCanvas for C {
-    fn laid_down(pixel: [C; 4]) -> PremultipliedColorU8 {
+impl<C: Channel> CanvasChannel for C {
+    fn to_canvas(pixel: [C; 4]) -> PremultipliedColorU8 {
         if C::BITS > 8 {
             return PremultipliedColorU8::TRANSPARENT;
         }
@@ -144,13 +157,13 @@ impl<C: Channel> OnCanvas for C {
         ColorU8::from_rgba(r, g, b, alpha).premultiply()
     }
 
-    fn taken_up(pixel: [C; 4], place: PremultipliedColorU8) -> [C; 4] {
+    fn from_canvas(pixel: [C; 4], place: PremultipliedColorU8) -> [C; 4] {
         if C::BITS > 8 {
             let over = [place.red(), place.green(), place.blue(), place.alpha()];
-            return C::under(pixel, over);
+            return C::composite_under(pixel, over);
         }
         let straight = place.demultiply();
-        [straight.red(), straight.green(), straight.blue(), straight.alpha()].map(C::of_byte)
+        [straight.red(), straight.green(), straight.blue(), straight.alpha()].map(C::from_byte)
     }
 }
 
@@ -163,11 +176,11 @@ struct Canvas {
 
 impl Canvas {
     /// Draws a layer over what is there, with this many pixels for a millimetre.
-    fn layer(&mut self, layer: &Layer, scale: [f64; 2]) {
+    fn draw_layer(&mut self, layer: &Layer, scale: [f64; 2]) {
         let mut paint = Paint { anti_alias: true, ..Paint::default() };
-        paint.set_color(color(layer.pen.ink));
+        paint.set_color(skia_color(layer.pen.ink));
         let pixels = 0.5 * (scale[0] + scale[1]);
-        let whole = stroke(&layer.pen, &[], pixels);
+        let whole = skia_stroke(&layer.pen, &[], pixels);
         for group in &layer.groups {
             let (dashed, lines): (Vec<_>, Vec<_>) = group
                 .strokes
@@ -175,17 +188,17 @@ impl Canvas {
                 .map(|line| (line, layer.pen.fitted_dashes(line)))
                 .partition(|(_, dashes)| !dashes.is_empty());
             let (corner, lines) = (self.corner, lines.into_iter().map(|(line, _)| line));
-            for path in paths(lines, scale, corner, POINTS) {
+            for path in skia_paths(lines, scale, corner, MAX_PATH_POINTS) {
                 self.pixmap.stroke_path(&path, &paint, &whole, Transform::identity(), None);
             }
             for (line, dashes) in dashed {
-                let stroke = stroke(&layer.pen, &dashes, pixels);
-                for path in paths([line], scale, corner, POINTS) {
+                let stroke = skia_stroke(&layer.pen, &dashes, pixels);
+                for path in skia_paths([line], scale, corner, MAX_PATH_POINTS) {
                     self.pixmap.stroke_path(&path, &paint, &stroke, Transform::identity(), None);
                 }
             }
             // Holes must be in the path of what they are holes of.
-            for path in paths(&group.fills, scale, self.corner, usize::MAX) {
+            for path in skia_paths(&group.fills, scale, self.corner, usize::MAX) {
                 let rule = FillRule::EvenOdd;
                 self.pixmap.fill_path(&path, &paint, rule, Transform::identity(), None);
             }
@@ -193,8 +206,8 @@ impl Canvas {
     }
 
     /// Puts a picture under all lines: each pixel is the mean of what it covers.
-    fn paste(&mut self, pasted: &Pasted, scale: [f64; 2]) {
-        let Pasted { corner, size, picture, .. } = pasted;
+    fn draw_image(&mut self, pasted: &PlacedImage, scale: [f64; 2]) {
+        let PlacedImage { corner, size, picture, .. } = pasted;
         let (width, height) = (self.pixmap.width(), self.pixmap.height());
         let first = self.corner;
         let span = |axis: usize, side: u32, sides: u32| {
@@ -213,18 +226,18 @@ impl Canvas {
             for (column, place) in columns.iter().zip(places) {
                 let below = place.demultiply();
                 let below = [below.red(), below.green(), below.blue(), below.alpha()];
-                let [r, g, b, alpha] = over(mean(picture, *column, row), below);
+                let [r, g, b, alpha] = composite_over(area_mean(picture, *column, row), below);
                 *place = ColorU8::from_rgba(r, g, b, alpha).premultiply();
             }
         }
     }
 }
 
-fn color([r, g, b]: Ink) -> Color {
+fn skia_color([r, g, b]: Ink) -> Color {
     Color::from_rgba8(r, g, b, 255)
 }
 
-fn stroke(pen: &Pen, dashes: &[f64], scale: f64) -> Stroke {
+fn skia_stroke(pen: &Pen, dashes: &[f64], scale: f64) -> Stroke {
     let dashes = dashes.iter().map(|dash| (dash * scale) as f32).collect::<Vec<_>>();
     Stroke {
         width: (pen.width * scale) as f32,
@@ -245,7 +258,7 @@ fn stroke(pen: &Pen, dashes: &[f64], scale: f64) -> Stroke {
 }
 
 /// The mean of an area of a picture: red, green and blue times alpha, and alpha, from 0 to 255; nothing beside the picture.
-fn mean(picture: &Picture, columns: [f64; 2], rows: [f64; 2]) -> [f64; 4] {
+fn area_mean(picture: &Picture, columns: [f64; 2], rows: [f64; 2]) -> [f64; 4] {
     let cells = |[from, to]: [f64; 2]| {
         let first = from as u32;
         (first..libm::ceil(to) as u32)
@@ -259,8 +272,8 @@ fn mean(picture: &Picture, columns: [f64; 2], rows: [f64; 2]) -> [f64; 4] {
     for (y, height) in cells(rows) {
         for (x, width) in cells(columns) {
             let Some([r, g, b, alpha]) = picture.pixel(x, y) else { continue };
-            let share = width * height / area;
-            let alpha = f64::from(alpha) * share;
+            let weight = width * height / area;
+            let alpha = f64::from(alpha) * weight;
             let color = [r, g, b].map(|channel| f64::from(channel) * alpha / 255.0);
             let part = [color[0], color[1], color[2], alpha];
             sum.iter_mut().zip(part).for_each(|(sum, part)| *sum += part);
@@ -270,7 +283,7 @@ fn mean(picture: &Picture, columns: [f64; 2], rows: [f64; 2]) -> [f64; 4] {
 }
 
 /// A colour times its alpha over a straight one, as a straight one.
-fn over([r, g, b, alpha]: [f64; 4], below: [u8; 4]) -> [u8; 4] {
+fn composite_over([r, g, b, alpha]: [f64; 4], below: [u8; 4]) -> [u8; 4] {
     let rest = f64::from(below[3]) * (1.0 - alpha / 255.0);
     let whole = alpha + rest;
     if whole <= 0.0 {
@@ -283,7 +296,7 @@ fn over([r, g, b, alpha]: [f64; 4], below: [u8; 4]) -> [u8; 4] {
 }
 
 /// The lines as paths of about so many points, in pixels.
-fn paths<'a>(
+fn skia_paths<'a>(
     lines: impl IntoIterator<Item = &'a Polyline>,
     scale: [f64; 2],
     corner: [u32; 2],
@@ -297,7 +310,7 @@ fn paths<'a>(
         }
         for (at, point) in line.points.iter().enumerate() {
             let [x, y] = [0, 1].map(|axis| {
-                (millimetres(*point)[axis] * scale[axis] - f64::from(corner[axis])) as f32
+                (to_millimeters(*point)[axis] * scale[axis] - f64::from(corner[axis])) as f32
             });
             if at == 0 { path.move_to(x, y) } else { path.line_to(x, y) }
         }

@@ -12,25 +12,25 @@ mod axis;
 
 pub use axis::{Axis, Spacing};
 
-use super::label::{Align, Label};
-use super::linetype::LineType;
+use super::label::{Label, TextAlign};
+use super::line_type::LineType;
 use super::page::{Cap, Group, Ink, Join, Layer, Pen, Polyline};
-use axis::tick_text;
+use axis::format_tick;
 use glam::DVec2;
 
 const INK: Ink = [26, 31, 38];
 const GRID: Ink = [222, 225, 229];
 
 /// The height of letters and the length of a tick, in millimetres.
-const LETTERS: f64 = 2.2;
-const TICK: f64 = 1.0;
+const LETTER_HEIGHT: f64 = 2.2;
+const TICK_LENGTH: f64 = 1.0;
 
 /// The width of curves, and of axes and grid, in millimetres.
-const WIDE: f64 = 0.35;
-const NARROW: f64 = 0.13;
+const CURVE_WIDTH: f64 = 0.35;
+const AXIS_WIDTH: f64 = 0.13;
 
 /// How long the sample of a curve is beside its name.
-const SAMPLE: f64 = 9.0;
+const LEGEND_SAMPLE: f64 = 9.0;
 
 /// A chart.
 #[derive(Clone, PartialEq, Debug)]
@@ -44,7 +44,7 @@ pub struct Chart {
     /// The curves.
     pub curves: Vec<Curve>,
     /// Places of the x axis that something is to be said of.
-    pub marks: Vec<Mark>,
+    pub marks: Vec<AxisMark>,
 }
 
 /// A curve of a chart.
@@ -59,14 +59,14 @@ pub struct Curve {
     /// Whether it is dashed, so that another one shows below it.
     pub dashed: bool,
     /// The places it runs through, in units of the axes. What is beside the axes is brought to their ends.
-    pub places: Vec<[f64; 2]>,
+    pub points: Vec<[f64; 2]>,
 }
 
 /// A place of the x axis that something is to be said of.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Mark {
+pub struct AxisMark {
     /// Where.
-    pub at: f64,
+    pub value: f64,
     /// What.
     pub text: String,
 }
@@ -84,130 +84,147 @@ impl Chart {
     /// The layers of the chart; its axes take the rectangle of this upper left corner and size, in millimetres, and their
     /// numbers and titles stand outside of it.
     #[must_use]
-    pub fn layers(&self, corner: DVec2, size: DVec2) -> Vec<Layer> {
+    pub fn to_layers(&self, corner: DVec2, size: DVec2) -> Vec<Layer> {
         let plot = Plot { chart: self, corner, size };
-        let mut layers = vec![plot.grid(), plot.axes(), plot.marks(), plot.text()];
-        layers.extend(self.curves.iter().enumerate().map(|(at, curve)| plot.curve(at, curve)));
+        let mut layers =
+            vec![plot.grid_layer(), plot.axes_layer(), plot.marks_layer(), plot.text_layer()];
+        layers
+            .extend(self.curves.iter().enumerate().map(|(at, curve)| plot.curve_layer(at, curve)));
         layers.retain(|layer| layer.groups.iter().any(|group| !group.strokes.is_empty()));
         layers
     }
 }
 
 impl Plot<'_> {
-    fn layer(&self, id: &str, title: &str, pen: Pen, strokes: Vec<Polyline>) -> Layer {
+    fn plot_layer(&self, id: &str, title: &str, pen: Pen, strokes: Vec<Polyline>) -> Layer {
         let mut layer = Layer::new(format!("{}-{id}", self.chart.id), title, pen);
         layer.groups.push(Group { strokes, ..Group::default() });
         layer
     }
 
-    fn x(&self, value: f64) -> f64 {
-        self.corner.x + self.chart.x.part(value) * self.size.x
+    fn page_x(&self, value: f64) -> f64 {
+        self.corner.x + self.chart.x.fraction_at(value) * self.size.x
     }
 
-    fn y(&self, value: f64) -> f64 {
-        self.corner.y + (1.0 - self.chart.y.part(value)) * self.size.y
+    fn page_y(&self, value: f64) -> f64 {
+        self.corner.y + (1.0 - self.chart.y.fraction_at(value)) * self.size.y
     }
 
-    fn right(&self) -> f64 {
+    fn right_edge(&self) -> f64 {
         self.corner.x + self.size.x
     }
 
-    fn bottom(&self) -> f64 {
+    fn bottom_edge(&self) -> f64 {
         self.corner.y + self.size.y
     }
 
-    fn upright(&self, x: f64) -> Option<Polyline> {
-        Polyline::through(&[DVec2::new(x, self.corner.y), DVec2::new(x, self.bottom())], false)
+    fn vertical_line(&self, x: f64) -> Option<Polyline> {
+        Polyline::through_points(
+            &[DVec2::new(x, self.corner.y), DVec2::new(x, self.bottom_edge())],
+            false,
+        )
     }
 
-    fn grid(&self) -> Layer {
-        let uprights = self.chart.x.ticks().into_iter().filter_map(|x| self.upright(self.x(x)));
+    fn grid_layer(&self) -> Layer {
+        let uprights =
+            self.chart.x.ticks().into_iter().filter_map(|x| self.vertical_line(self.page_x(x)));
         let levels = self.chart.y.ticks().into_iter().filter_map(|y| {
-            let y = self.y(y);
-            let ends = [DVec2::new(self.corner.x, y), DVec2::new(self.right(), y)];
-            Polyline::through(&ends, false)
+            let y = self.page_y(y);
+            let ends = [DVec2::new(self.corner.x, y), DVec2::new(self.right_edge(), y)];
+            Polyline::through_points(&ends, false)
         });
         let strokes = uprights.chain(levels).collect();
-        self.layer("grid", "grid", Pen::of_width(NARROW, GRID), strokes)
+        self.plot_layer("grid", "grid", Pen::solid(AXIS_WIDTH, GRID), strokes)
     }
 
-    fn axes(&self) -> Layer {
-        let (low, far) = (DVec2::new(self.corner.x, self.bottom()), self.right());
+    fn axes_layer(&self) -> Layer {
+        let (low, far) = (DVec2::new(self.corner.x, self.bottom_edge()), self.right_edge());
         let cross = [self.corner, low, DVec2::new(far, low.y)];
         let ticks_x = self.chart.x.ticks().into_iter().filter_map(|x| {
-            let at = DVec2::new(self.x(x), low.y);
-            Polyline::through(&[at, at + DVec2::new(0.0, TICK)], false)
+            let at = DVec2::new(self.page_x(x), low.y);
+            Polyline::through_points(&[at, at + DVec2::new(0.0, TICK_LENGTH)], false)
         });
         let ticks_y = self.chart.y.ticks().into_iter().filter_map(|y| {
-            let at = DVec2::new(low.x, self.y(y));
-            Polyline::through(&[at, at - DVec2::new(TICK, 0.0)], false)
+            let at = DVec2::new(low.x, self.page_y(y));
+            Polyline::through_points(&[at, at - DVec2::new(TICK_LENGTH, 0.0)], false)
         });
-        let strokes = Polyline::through(&cross, false).into_iter().chain(ticks_x).chain(ticks_y);
-        self.layer("axes", "axes", Pen::of_width(NARROW, INK), strokes.collect())
+        let strokes =
+            Polyline::through_points(&cross, false).into_iter().chain(ticks_x).chain(ticks_y);
+        self.plot_layer("axes", "axes", Pen::solid(AXIS_WIDTH, INK), strokes.collect())
     }
 
-    fn marks(&self) -> Layer {
-        let lines = self.chart.marks.iter().filter_map(|mark| self.upright(self.x(mark.at)));
-        let pen = LineType::Dashed.pen(NARROW, INK, Cap::Butt, Join::Round);
-        self.layer("marks", "what is marked", pen, lines.collect())
+    fn marks_layer(&self) -> Layer {
+        let lines =
+            self.chart.marks.iter().filter_map(|mark| self.vertical_line(self.page_x(mark.value)));
+        let pen = LineType::Dashed.to_pen(AXIS_WIDTH, INK, Cap::Butt, Join::Round);
+        self.plot_layer("marks", "what is marked", pen, lines.collect())
     }
 
-    fn text(&self) -> Layer {
+    fn text_layer(&self) -> Layer {
         let mut strokes = Vec::new();
-        let mut write = |text: &str, at: DVec2, align: Align| {
-            strokes.extend(Label::new(text, at, LETTERS).aligned(align).strokes());
+        let mut write = |text: &str, at: DVec2, align: TextAlign| {
+            strokes.extend(Label::new(text, at, LETTER_HEIGHT).with_align(align).strokes());
         };
-        let below = self.bottom() + TICK + LETTERS * 1.6;
+        let below = self.bottom_edge() + TICK_LENGTH + LETTER_HEIGHT * 1.6;
         for x in self.chart.x.ticks() {
-            write(&tick_text(x), DVec2::new(self.x(x), below), Align::Middle);
+            write(&format_tick(x), DVec2::new(self.page_x(x), below), TextAlign::Middle);
         }
         for y in self.chart.y.ticks() {
-            let at = DVec2::new(self.corner.x - TICK - 1.0, self.y(y) + LETTERS * 0.5);
-            write(&tick_text(y), at, Align::End);
+            let at =
+                DVec2::new(self.corner.x - TICK_LENGTH - 1.0, self.page_y(y) + LETTER_HEIGHT * 0.5);
+            write(&format_tick(y), at, TextAlign::End);
         }
-        let title = DVec2::new(self.right(), below + LETTERS * 1.7);
-        write(&self.chart.x.title, title, Align::End);
-        let above = self.corner.y - LETTERS;
-        write(&self.chart.y.title, DVec2::new(self.corner.x, above), Align::Start);
+        let title = DVec2::new(self.right_edge(), below + LETTER_HEIGHT * 1.7);
+        write(&self.chart.x.title, title, TextAlign::End);
+        let above = self.corner.y - LETTER_HEIGHT;
+        write(&self.chart.y.title, DVec2::new(self.corner.x, above), TextAlign::Start);
         for mark in &self.chart.marks {
-            let is_left = self.chart.x.part(mark.at) < 0.5;
-            let (by, align) = if is_left { (1.5, Align::Start) } else { (-1.5, Align::End) };
-            let at = DVec2::new(self.x(mark.at) + by, self.corner.y + LETTERS * 1.8);
+            let is_left = self.chart.x.fraction_at(mark.value) < 0.5;
+            let (by, align) =
+                if is_left { (1.5, TextAlign::Start) } else { (-1.5, TextAlign::End) };
+            let at = DVec2::new(self.page_x(mark.value) + by, self.corner.y + LETTER_HEIGHT * 1.8);
             write(&mark.text, at, align);
         }
         for (place, curve) in self.chart.curves.iter().enumerate() {
-            write(&curve.title, self.legend(place) + DVec2::new(SAMPLE + 1.5, 0.0), Align::Start);
+            write(
+                &curve.title,
+                self.legend_point(place) + DVec2::new(LEGEND_SAMPLE + 1.5, 0.0),
+                TextAlign::Start,
+            );
         }
-        self.layer("text", "numbers and names", Pen::of_width(LETTERS * 0.1, INK), strokes)
+        self.plot_layer("text", "numbers and names", Pen::solid(LETTER_HEIGHT * 0.1, INK), strokes)
     }
 
     /// Where a curve is named: its sample begins there, on the baseline. The names are flush right above the plot.
-    fn legend(&self, place: usize) -> DVec2 {
+    fn legend_point(&self, place: usize) -> DVec2 {
         let names = self.chart.curves.iter().skip(place);
         let width = |curve: &Curve| {
-            let name = Label::new(&curve.title, DVec2::ZERO, LETTERS);
-            SAMPLE + 1.5 + name.width() + 5.0
+            let name = Label::new(&curve.title, DVec2::ZERO, LETTER_HEIGHT);
+            LEGEND_SAMPLE + 1.5 + name.width() + 5.0
         };
-        DVec2::new(self.right() + 5.0 - names.map(width).sum::<f64>(), self.corner.y - LETTERS)
+        DVec2::new(
+            self.right_edge() + 5.0 - names.map(width).sum::<f64>(),
+            self.corner.y - LETTER_HEIGHT,
+        )
     }
 
-    fn curve(&self, place: usize, curve: &Curve) -> Layer {
-        let on_page = |&[x, y]: &[f64; 2]| DVec2::new(self.x(x), self.y(y));
-        let places: Vec<DVec2> = curve.places.iter().map(on_page).collect();
-        let sample = self.legend(place) - DVec2::new(0.0, LETTERS * 0.5);
-        let sample = [sample, sample + DVec2::new(SAMPLE, 0.0)];
-        let line = Polyline::through(&places, false);
-        let strokes = line.into_iter().chain(Polyline::through(&sample, false)).collect();
+    fn curve_layer(&self, place: usize, curve: &Curve) -> Layer {
+        let on_page = |&[x, y]: &[f64; 2]| DVec2::new(self.page_x(x), self.page_y(y));
+        let places: Vec<DVec2> = curve.points.iter().map(on_page).collect();
+        let sample = self.legend_point(place) - DVec2::new(0.0, LETTER_HEIGHT * 0.5);
+        let sample = [sample, sample + DVec2::new(LEGEND_SAMPLE, 0.0)];
+        let line = Polyline::through_points(&places, false);
+        let strokes = line.into_iter().chain(Polyline::through_points(&sample, false)).collect();
         let line_type = if curve.dashed { LineType::Dashed } else { LineType::Continuous };
-        let pen = line_type.pen(WIDE, curve.ink, Cap::Butt, Join::Round);
-        self.layer(&curve.id, &curve.title, pen, strokes)
+        let pen = line_type.to_pen(CURVE_WIDTH, curve.ink, Cap::Butt, Join::Round);
+        self.plot_layer(&curve.id, &curve.title, pen, strokes)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::millimetres;
+    use crate::to_millimeters;
 
     #[test]
     fn a_curve_goes_where_the_axes_say() {
@@ -221,16 +238,16 @@ mod tests {
                 title: "k".to_owned(),
                 ink: [0; 3],
                 dashed: false,
-                places: vec![[1.0, -1.0], [10.0, 0.5], [100.0, 1.0]],
+                points: vec![[1.0, -1.0], [10.0, 0.5], [100.0, 1.0]],
             }],
-            marks: vec![Mark { at: 10.0, text: "ten".to_owned() }],
+            marks: vec![AxisMark { value: 10.0, text: "ten".to_owned() }],
         };
-        let layers = chart.layers(DVec2::new(20.0, 30.0), DVec2::new(100.0, 40.0));
+        let layers = chart.to_layers(DVec2::new(20.0, 30.0), DVec2::new(100.0, 40.0));
         let of = |id: &str| layers.iter().find(|layer| layer.id == id).expect(id);
         let points = &of("c-k").groups[0].strokes[0].points;
-        let places: Vec<[f64; 2]> = points.iter().map(|p| millimetres(*p).to_array()).collect();
+        let places: Vec<[f64; 2]> = points.iter().map(|p| to_millimeters(*p).to_array()).collect();
         assert_eq!(places, [[20.0, 70.0], [70.0, 40.0], [120.0, 30.0]]);
-        let mark = millimetres(of("c-marks").groups[0].strokes[0].points[0]);
+        let mark = to_millimeters(of("c-marks").groups[0].strokes[0].points[0]);
         assert_eq!(mark, DVec2::new(70.0, 30.0));
     }
 }

@@ -1,13 +1,13 @@
 //! From a scene to its line drawing.
 
-use super::edges::{Candidate, Surface};
-use super::hatch::Hatching;
-use super::in_order::in_order;
-use super::options::{Hidden, Options};
-use super::sight::Sight;
-use super::tone::{Lamp, painted};
-use super::visibility::{Obstacles, Scratch, Trace};
-use super::{EdgeClass, Line, LineDrawing, Tone, Warning};
+use super::edges::{CandidateEdge, WeldedSurface};
+use super::face_fill::{KeyLight, rasterize_flat_fill};
+use super::hatching::Hatching;
+use super::hidden_line::{Occluders, OcclusionScratch, ProjectedEdge};
+use super::options::{DrawOptions, HiddenEdges};
+use super::parallel::map_in_order;
+use super::projector::Projector;
+use super::{EdgeClass, EdgeSegment, FaceFill, LineDrawing, Warning};
 use crate::{DrawError, Subject};
 use glam::DVec2;
 
@@ -17,96 +17,109 @@ use glam::DVec2;
 /// If the picture has no pixels.
 pub fn draw(
     subject: &Subject<'_>,
-    options: &Options,
+    options: &DrawOptions,
     threads: usize,
 ) -> Result<LineDrawing, DrawError> {
     let [width, height] = subject.size;
-    let sight = Sight::new(&subject.view_projection, &subject.viewport()?);
-    let mut surface = Surface::of(subject);
-    let mut edges = surface.edges(&sight, options, threads);
+    let projector = Projector::new(&subject.view_projection, &subject.viewport()?);
+    let mut surface = WeldedSurface::from_subject(subject);
+    let mut edges = surface.candidate_edges(&projector, options, threads);
     let mut warnings = surface.warnings().to_vec();
-    for hatching in hatchings(&surface, subject, &sight, options) {
-        warnings.extend(hatching.is_cut_off.then_some(Warning::HatchingLeftOut));
+    for hatching in hatch_surface(&surface, subject, &projector, options) {
+        warnings.extend(hatching.is_cut_off.then_some(Warning::HatchingIncomplete));
         let class = EdgeClass::Hatching;
         let lines = hatching.segments.into_iter();
-        edges.extend(lines.map(|(ends, object)| Candidate { ends, class, object }));
+        edges.extend(lines.map(|(ends, object)| CandidateEdge { ends, class, object }));
     }
     edges.sort_by_key(|candidate| candidate.object);
     warnings.sort_unstable();
     warnings.dedup();
-    let tone = match options.tone {
-        Tone::Flat => {
-            let faces = surface.painted().map(|(corners, _, color)| (corners, color));
-            Some(painted(faces, &subject.view_projection, [width, height], options)?)
+    let face_fill = match options.face_fill {
+        FaceFill::Flat => {
+            let faces = surface.colored_faces().map(|(corners, _, color)| (corners, color));
+            Some(rasterize_flat_fill(faces, &subject.view_projection, [width, height], options)?)
         }
         _ => None,
     };
-    let obstacles = match options.hidden {
-        Hidden::Ignored => Obstacles::new([], sight, surface.tolerance()),
-        _ => Obstacles::new(surface.triangles(), sight, surface.tolerance()),
+    let occluders = match options.hidden_edges {
+        HiddenEdges::Ignored => Occluders::new([], projector, surface.touch_tolerance()),
+        _ => Occluders::new(surface.occluder_triangles(), projector, surface.touch_tolerance()),
     };
-    let drawer = Drawer { sight, obstacles, keeps_hidden: options.hidden == Hidden::Kept };
+    let drawer = EdgeDivider {
+        projector,
+        occluders,
+        retains_hidden: options.hidden_edges == HiddenEdges::Retained,
+    };
     Ok(LineDrawing {
         size: DVec2::new(width.into(), height.into()),
-        objects: surface.into_objects(),
-        lines: drawer.lines(&edges, threads),
-        tone,
+        objects: surface.into_object_names(),
+        segments: drawer.divide_edges(&edges, threads),
+        face_fill,
         warnings,
     })
 }
 
 /// The hatching of caps, and that of all other faces if it is wanted.
-fn hatchings(
-    surface: &Surface,
+fn hatch_surface(
+    surface: &WeldedSurface,
     subject: &Subject<'_>,
-    sight: &Sight,
-    options: &Options,
+    sight: &Projector,
+    options: &DrawOptions,
 ) -> Vec<Hatching> {
     if !options.classes.contains(EdgeClass::Hatching) {
         return Vec::new();
     }
-    let touching = surface.tolerance().world;
-    let mut all = vec![Hatching::of_caps(&surface.caps(), sight, options.hatch, touching)];
-    if options.tone == Tone::Hatching {
-        let lamp = Lamp::of(&subject.view_projection, *sight);
+    let touching = surface.touch_tolerance().world;
+    let mut all =
+        vec![Hatching::hatch_caps(&surface.section_caps(), sight, options.hatch_spacing, touching)];
+    if options.face_fill == FaceFill::Hatching {
+        let key_light = KeyLight::new(&subject.view_projection, *sight);
         let toned = surface
-            .toned()
-            .map(|(corners, object, color)| (corners, object, lamp.tone(corners, color)));
-        all.push(Hatching::of_tones(toned, sight, options.hatch));
+            .colored_faces_without_caps()
+            .map(|(corners, object, color)| (corners, object, key_light.face_luma(corners, color)));
+        all.push(Hatching::hatch_faces_by_luma(toned, sight, options.hatch_spacing));
     }
     all
 }
 
-struct Drawer {
-    sight: Sight,
-    obstacles: Obstacles,
-    keeps_hidden: bool,
+struct EdgeDivider {
+    projector: Projector,
+    occluders: Occluders,
+    retains_hidden: bool,
 }
 
-impl Drawer {
+impl EdgeDivider {
     /// The pieces of all edges, in the order of the edges.
-    fn lines(&self, edges: &[Candidate], threads: usize) -> Vec<Line> {
-        in_order(edges.len(), threads, |range, scratch, lines| {
+    fn divide_edges(&self, edges: &[CandidateEdge], threads: usize) -> Vec<EdgeSegment> {
+        map_in_order(edges.len(), threads, |range, scratch, lines| {
             for number in range {
-                self.divide(&edges[number], number as u32, scratch, lines);
+                self.divide_edge(&edges[number], number as u32, scratch, lines);
             }
         })
     }
 
     /// The pieces of an edge.
-    fn divide(&self, edge: &Candidate, number: u32, scratch: &mut Scratch, lines: &mut Vec<Line>) {
-        let Some(trace) = Trace::of(edge.ends, &self.sight) else { return };
-        let hidden = self.obstacles.hidden(&trace, scratch);
+    fn divide_edge(
+        &self,
+        edge: &CandidateEdge,
+        edge_index: u32,
+        scratch: &mut OcclusionScratch,
+        lines: &mut Vec<EdgeSegment>,
+    ) {
+        let Some(projected) = ProjectedEdge::clip_and_project(edge.ends, &self.projector) else {
+            return;
+        };
+        let hidden = self.occluders.hidden_intervals(&projected, scratch);
         // Hatching is never drawn where it is hidden.
-        let keeps_hidden = self.keeps_hidden && edge.class != EdgeClass::Hatching;
-        let pieces = hidden.divide().filter(|(_, hidden)| !hidden || keeps_hidden);
-        lines.extend(pieces.map(|(span, hidden)| Line {
-            ends: span.map(|s| trace.at(s)),
-            depths: span.map(|s| trace.depth_at(s)),
+        let retains_hidden = self.retains_hidden && edge.class != EdgeClass::Hatching;
+        let pieces = hidden.divide_unit_interval().filter(|(_, hidden)| !hidden || retains_hidden);
+        lines.extend(pieces.map(|(span, hidden)| EdgeSegment {
+            ends: span.map(|s| projected.screen_at(s)),
+            depths: span.map(|s| projected.depth_at(s)),
             class: edge.class,
             visible: !hidden,
             object: edge.object,
-            edge: number,
+            edge: edge_index,
         }));
     }
 }

@@ -4,14 +4,14 @@
 //!  primitives ─gather─► points, faces ─weld─► shared points ─sides─► edges with their faces ─classify─► edges to draw
 //! ```
 
-mod caps;
 mod classify;
-mod crossings;
-mod gather;
+mod half_edges;
+mod intersections;
 mod seams;
-mod section;
-mod sides;
-mod surface;
+mod section_caps;
+mod section_cut;
 mod weld;
+mod welded_surface;
+mod world_mesh;
 
-pub(super) use surface::{Candidate, Surface};
+pub(super) use welded_surface::{CandidateEdge, WeldedSurface};

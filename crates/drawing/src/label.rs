@@ -1,12 +1,12 @@
 //! Labels: text on a page, as strokes.
 
-use super::font::{CAPITAL, set};
 use super::page::{Ink, Pen, Polyline};
+use super::stroke_font::{CAP_HEIGHT, typeset_line};
 use glam::DVec2;
 
 /// Where text stands from the place it is put at.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub enum Align {
+pub enum TextAlign {
     /// It begins there.
     #[default]
     Start,
@@ -22,37 +22,37 @@ pub struct Label<'a> {
     /// The text; characters the font has not are boxes.
     pub text: &'a str,
     /// The place on the baseline, in millimetres.
-    pub at: DVec2,
+    pub anchor: DVec2,
     /// The height of capitals in millimetres.
     pub height: f64,
     /// The direction of the baseline, a unit vector: (1, 0) to the right, (0, −1) upwards.
-    pub along: DVec2,
+    pub direction: DVec2,
     /// Which part of the text is at that place.
-    pub align: Align,
+    pub align: TextAlign,
 }
 
 impl<'a> Label<'a> {
     /// A label that begins at a place and runs to the right.
     #[must_use]
-    pub const fn new(text: &'a str, at: DVec2, height: f64) -> Self {
-        Self { text, at, height, along: DVec2::X, align: Align::Start }
+    pub const fn new(text: &'a str, anchor: DVec2, height: f64) -> Self {
+        Self { text, anchor, height, direction: DVec2::X, align: TextAlign::Start }
     }
 
     /// The same with another part of the text at its place.
     #[must_use]
-    pub const fn aligned(self, align: Align) -> Self {
+    pub const fn with_align(self, align: TextAlign) -> Self {
         Self { align, ..self }
     }
 
     /// The same in another direction.
     #[must_use]
-    pub const fn along(self, along: DVec2) -> Self {
-        Self { along, ..self }
+    pub const fn with_direction(self, along: DVec2) -> Self {
+        Self { direction: along, ..self }
     }
 
     /// The same, made smaller where it would be wider than this, in millimetres.
     #[must_use]
-    pub fn no_wider_than(self, width: f64) -> Self {
+    pub fn fit_to_width(self, width: f64) -> Self {
         let own = self.width();
         if own > width { Self { height: self.height * width / own, ..self } } else { self }
     }
@@ -60,31 +60,31 @@ impl<'a> Label<'a> {
     /// The width of the text in millimetres, from the middle of the first stroke to that of the last.
     #[must_use]
     pub fn width(&self) -> f64 {
-        set(self.text).width * self.height / CAPITAL
+        typeset_line(self.text).width * self.height / CAP_HEIGHT
     }
 
     /// The pen that goes with its height: a tenth of it.
     #[must_use]
     pub fn pen(&self, ink: Ink) -> Pen {
-        Pen::of_width(self.height / CAPITAL, ink)
+        Pen::solid(self.height / CAP_HEIGHT, ink)
     }
 
     /// The strokes of the text.
     #[must_use]
     pub fn strokes(&self) -> Vec<Polyline> {
-        let set = set(self.text);
-        let scale = self.height / CAPITAL;
+        let set = typeset_line(self.text);
+        let scale = self.height / CAP_HEIGHT;
         let part = match self.align {
-            Align::Start => 0.0,
-            Align::Middle => 0.5,
-            Align::End => 1.0,
+            TextAlign::Start => 0.0,
+            TextAlign::Middle => 0.5,
+            TextAlign::End => 1.0,
         };
-        let up = DVec2::new(self.along.y, -self.along.x);
-        let start = self.at - self.along * (set.width * scale * part);
-        let on_page = |point: &DVec2| start + (self.along * point.x + up * point.y) * scale;
+        let up = DVec2::new(self.direction.y, -self.direction.x);
+        let start = self.anchor - self.direction * (set.width * scale * part);
+        let on_page = |point: &DVec2| start + (self.direction * point.x + up * point.y) * scale;
         let line = |stroke: &Vec<DVec2>| {
             let points: Vec<DVec2> = stroke.iter().map(on_page).collect();
-            Polyline::through(&points, false)
+            Polyline::through_points(&points, false)
         };
         set.strokes.iter().filter_map(line).collect()
     }
@@ -93,10 +93,10 @@ impl<'a> Label<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::millimetres;
+    use crate::to_millimeters;
 
     fn bounds(label: &Label<'_>) -> [DVec2; 2] {
-        let points = label.strokes().into_iter().flat_map(|line| line.points).map(millimetres);
+        let points = label.strokes().into_iter().flat_map(|line| line.points).map(to_millimeters);
         let far = DVec2::splat(1e9);
         points.fold([far, -far], |[low, high], point| [low.min(point), high.max(point)])
     }
@@ -108,10 +108,10 @@ mod tests {
         let [low, high] = bounds(&label);
         assert_eq!((low, high.y), (DVec2::new(100.0, 45.0), 50.0));
         assert!((high.x - low.x - label.width()).abs() < 1e-3);
-        let [low, high] = bounds(&label.aligned(Align::End));
+        let [low, high] = bounds(&label.with_align(TextAlign::End));
         assert!((high.x - 100.0).abs() < 1e-3 && (low.x - 100.0 + label.width()).abs() < 1e-3);
         // Upwards: what was above the baseline is at its left.
-        let [low, high] = bounds(&label.along(-DVec2::Y).aligned(Align::Middle));
+        let [low, high] = bounds(&label.with_direction(-DVec2::Y).with_align(TextAlign::Middle));
         assert!((low.x - 95.0).abs() < 1e-3 && (high.x - 100.0).abs() < 1e-3);
         assert!((low.y + high.y - 100.0).abs() < 2e-3);
     }
@@ -119,7 +119,7 @@ mod tests {
     #[test]
     fn a_label_is_made_to_fit() {
         let label = Label::new("a rather long title", DVec2::ZERO, 5.0);
-        assert!((label.no_wider_than(20.0).width() - 20.0).abs() < 1e-9);
-        assert_eq!(label.no_wider_than(1e3), label);
+        assert!((label.fit_to_width(20.0).width() - 20.0).abs() < 1e-9);
+        assert_eq!(label.fit_to_width(1e3), label);
     }
 }

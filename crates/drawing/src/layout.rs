@@ -1,11 +1,13 @@
 //! From a line drawing to the layers of a page: a layer for each kind of line, a group for each object.
 
-use super::chain::{Chain, chained};
-use super::linetype::LineType;
-use super::look::{HiddenLines, LineLook, Shown};
-use super::overlap::{Piece, once};
-use super::page::{Group, Ink, Layer, MILLIMETRES_PER_PIXEL, Page, Pasted, Pen, micrometres};
-use super::{EdgeClass, Line, LineDrawing};
+use super::line_style::{EdgeSelection, HiddenLines, LineStyle};
+use super::line_type::LineType;
+use super::overlap_removal::{PageSegment, remove_overlaps};
+use super::page::{
+    Group, Ink, Layer, MILLIMETERS_PER_PIXEL, Page, Pen, PlacedImage, to_micrometers,
+};
+use super::polyline_chain::{PolylineChain, join_into_chains};
+use super::{EdgeClass, EdgeSegment, LineDrawing};
 use glam::DVec2;
 
 /// Where a drawing goes on a page: millimetres = pixels × `scale` + `corner`.
@@ -20,19 +22,19 @@ pub struct Placement {
 impl Placement {
     /// At the upper left corner of the page, 96 pixels to the inch.
     pub const PICTURE: Self =
-        Self { corner: DVec2::ZERO, scale: DVec2::splat(MILLIMETRES_PER_PIXEL) };
+        Self { corner: DVec2::ZERO, scale: DVec2::splat(MILLIMETERS_PER_PIXEL) };
 
-    fn place(&self, pixels: DVec2) -> DVec2 {
+    fn to_page(&self, pixels: DVec2) -> DVec2 {
         self.corner + pixels * self.scale
     }
 }
 
 /// The most bands of depth that are told apart.
-const BANDS: u32 = 8;
+const DEPTH_BANDS: u32 = 8;
 
 /// A kind of line: what a layer is made of. The most important kind comes first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-struct Kind {
+struct LineKind {
     hidden: bool,
     /// 0 is nearest; always 0 without depth cue.
     band: u32,
@@ -40,9 +42,9 @@ struct Kind {
 }
 
 /// The kinds of lines of a look, and the numbers the rest of the way knows them by.
-struct Kinds<'a> {
-    look: &'a LineLook,
-    kinds: Vec<Kind>,
+struct LineKinds<'a> {
+    style: &'a LineStyle,
+    kinds: Vec<LineKind>,
     /// The nearest and the farthest depth of all lines.
     depths: [f64; 2],
 }
@@ -50,58 +52,64 @@ struct Kinds<'a> {
 impl LineDrawing {
     /// The drawing as a picture of its own.
     #[must_use]
-    pub fn to_page(&self, look: &LineLook, title: &str, paper: Option<Ink>) -> Page {
-        let mut page = Page::new(self.size * MILLIMETRES_PER_PIXEL, title, paper);
-        page.pictures.extend(self.pasted(Placement::PICTURE, ""));
-        page.layers = self.layers(look, Placement::PICTURE, "", page.ink(look));
+    pub fn to_page(&self, look: &LineStyle, title: &str, paper: Option<Ink>) -> Page {
+        let mut page = Page::new(self.size * MILLIMETERS_PER_PIXEL, title, paper);
+        page.images.extend(self.face_fill_image(Placement::PICTURE, ""));
+        page.layers = self.to_layers(look, Placement::PICTURE, "", page.ink_for_style(look));
         page.warnings.clone_from(&self.warnings);
         page
     }
 
     /// The tones of the faces, to be pasted under the lines, if there are any.
     #[must_use]
-    pub fn pasted(&self, placement: Placement, prefix: &str) -> Option<Pasted> {
-        let picture = self.tone.clone()?;
-        let (corner, end) = (micrometres(placement.corner), placement.place(self.size));
-        let end = micrometres(end);
+    pub fn face_fill_image(&self, placement: Placement, prefix: &str) -> Option<PlacedImage> {
+        let picture = self.face_fill.clone()?;
+        let (corner, end) = (to_micrometers(placement.corner), placement.to_page(self.size));
+        let end = to_micrometers(end);
         let size = [0, 1].map(|axis| (end[axis] - corner[axis]).max(1));
-        Some(Pasted { id: format!("{prefix}tone"), corner, size, picture })
+        Some(PlacedImage { id: format!("{prefix}tone"), corner, size, picture })
     }
 
     /// The layers of the drawing, the lowest first. `prefix` begins their names, so that several drawings go on one page.
     #[must_use]
-    pub fn layers(
+    pub fn to_layers(
         &self,
-        look: &LineLook,
+        look: &LineStyle,
         placement: Placement,
         prefix: &str,
         ink: Ink,
     ) -> Vec<Layer> {
-        let kinds = Kinds::of(self, look);
+        let kinds = LineKinds::new(self, look);
         let mut pieces = Vec::new();
-        for line in &self.lines {
-            kinds.pieces(line, |kind, ends, object| {
-                pieces.push(Piece {
-                    ends: ends.map(|end| placement.place(end)),
+        for line in &self.segments {
+            kinds.for_each_segment(line, |kind, ends, object| {
+                pieces.push(PageSegment {
+                    ends: ends.map(|end| placement.to_page(end)),
                     layer: kind,
                     object,
                 });
             });
         }
-        let chains = chained(&once(&pieces));
+        let chains = join_into_chains(&remove_overlaps(&pieces));
         let layers = chains.chunk_by(|a, b| a.layer == b.layer);
-        let layer = |chains: &[Chain]| self.layer(&kinds, chains, prefix, ink);
+        let layer = |chains: &[PolylineChain]| self.layer_of_kind(&kinds, chains, prefix, ink);
         layers.rev().map(layer).collect()
     }
 
-    fn layer(&self, kinds: &Kinds<'_>, chains: &[Chain], prefix: &str, ink: Ink) -> Layer {
+    fn layer_of_kind(
+        &self,
+        kinds: &LineKinds<'_>,
+        chains: &[PolylineChain],
+        prefix: &str,
+        ink: Ink,
+    ) -> Layer {
         let kind = kinds.kinds[chains[0].layer as usize];
-        let (id, title) = kind.names(kinds.look);
-        let mut layer = Layer::new(format!("{prefix}{id}"), title, kinds.pen(kind, ink));
+        let (id, title) = kind.layer_names(kinds.style);
+        let mut layer = Layer::new(format!("{prefix}{id}"), title, kinds.pen_for_kind(kind, ink));
         for group in chains.chunk_by(|a, b| a.object == b.object) {
             let object = group[0].object;
             let title = self.objects.get(object as usize).cloned().unwrap_or_default();
-            let strokes = group.iter().map(|chain| chain.line.clone()).collect();
+            let strokes = group.iter().map(|chain| chain.polyline.clone()).collect();
             let id = format!("{}", object + 1);
             layer.groups.push(Group { id, title, strokes, fills: Vec::new() });
         }
@@ -112,7 +120,7 @@ impl LineDrawing {
 impl Page {
     /// The ink of a look on this page: its own, or one that stands out from the paper.
     #[must_use]
-    pub fn ink(&self, look: &LineLook) -> Ink {
+    pub fn ink_for_style(&self, look: &LineStyle) -> Ink {
         let is_dark = self.paper.is_some_and(|[r, g, b]| {
             let [r, g, b] = [r, g, b].map(u32::from);
             r * 299 + g * 587 + b * 114 < 118_000
@@ -121,98 +129,98 @@ impl Page {
     }
 }
 
-impl<'a> Kinds<'a> {
-    fn of(drawing: &LineDrawing, look: &'a LineLook) -> Self {
-        let depths = drawing.lines.iter().flat_map(|line| line.depths);
+impl<'a> LineKinds<'a> {
+    fn new(drawing: &LineDrawing, style: &'a LineStyle) -> Self {
+        let depths = drawing.segments.iter().flat_map(|line| line.depths);
         let nearest = depths.clone().fold(0.0, f64::max);
         let farthest = depths.fold(nearest, f64::min);
-        let bands = if look.depth_cue > 0.0 { BANDS } else { 1 };
+        let bands = if style.depth_cue > 0.0 { DEPTH_BANDS } else { 1 };
         let mut kinds = Vec::new();
         for hidden in [false, true] {
             for band in 0..bands {
                 let classes =
-                    EdgeClass::ALL.into_iter().filter(|class| draws(look, *class, hidden));
-                kinds.extend(classes.map(|class| Kind { hidden, band, class }));
+                    EdgeClass::ALL.into_iter().filter(|class| selects_class(style, *class, hidden));
+                kinds.extend(classes.map(|class| LineKind { hidden, band, class }));
             }
         }
         // A line that is only there in thought is less than one that is hidden.
         kinds.sort_by_key(|kind| (kind.class == EdgeClass::Facet, kind.hidden, kind.band));
-        Self { look, kinds, depths: [nearest, farthest] }
+        Self { style, kinds, depths: [nearest, farthest] }
     }
 
     /// Hands on the parts of a line that are drawn, with the number of their kind.
-    fn pieces(&self, line: &Line, mut hand_on: impl FnMut(u32, [DVec2; 2], u32)) {
-        let hidden = !line.visible && self.look.hidden != HiddenLines::Drawn;
-        let number = |band: u32| {
-            let kind = Kind { hidden, band, class: line.class };
+    fn for_each_segment(&self, line: &EdgeSegment, mut hand_on: impl FnMut(u32, [DVec2; 2], u32)) {
+        let hidden = !line.visible && self.style.hidden_lines != HiddenLines::Drawn;
+        let kind_index = |band: u32| {
+            let kind = LineKind { hidden, band, class: line.class };
             self.kinds.iter().position(|other| *other == kind).map(|at| at as u32)
         };
-        if self.look.depth_cue == 0.0 {
-            let number = number(0);
+        if self.style.depth_cue == 0.0 {
+            let number = kind_index(0);
             return number.into_iter().for_each(|kind| hand_on(kind, line.ends, line.object));
         }
-        for (band, ends) in self.bands(line) {
-            number(band).into_iter().for_each(|kind| hand_on(kind, ends, line.object));
+        for (band, ends) in self.split_by_depth(line) {
+            kind_index(band).into_iter().for_each(|kind| hand_on(kind, ends, line.object));
         }
     }
 
     /// The parts of a line in each band of depth. Depth is linear on the screen.
-    fn bands(&self, line: &Line) -> Vec<(u32, [DVec2; 2])> {
+    fn split_by_depth(&self, line: &EdgeSegment) -> Vec<(u32, [DVec2; 2])> {
         let [nearest, farthest] = self.depths;
         let span = nearest - farthest;
         let scaled = |depth: f64| {
             let part = if span > 0.0 { (nearest - depth) / span } else { 0.0 };
-            part.clamp(0.0, 1.0) * f64::from(BANDS)
+            part.clamp(0.0, 1.0) * f64::from(DEPTH_BANDS)
         };
         let [from, to] = line.depths.map(scaled);
         let mut cuts = vec![0.0, 1.0];
         if from != to {
-            let within = (1..BANDS).map(|border| (f64::from(border) - from) / (to - from));
+            let within = (1..DEPTH_BANDS).map(|border| (f64::from(border) - from) / (to - from));
             cuts.extend(within.filter(|t| *t > 0.0 && *t < 1.0));
             cuts.sort_by(f64::total_cmp);
         }
         let at = |t: f64| if t == 1.0 { line.ends[1] } else { line.ends[0].lerp(line.ends[1], t) };
         let part = |pair: &[f64]| {
             let middle = from + (to - from) * (pair[0] + pair[1]) * 0.5;
-            ((middle as u32).min(BANDS - 1), [at(pair[0]), at(pair[1])])
+            ((middle as u32).min(DEPTH_BANDS - 1), [at(pair[0]), at(pair[1])])
         };
         cuts.windows(2).map(part).collect()
     }
 
-    fn pen(&self, kind: Kind, ink: Ink) -> Pen {
-        let look = self.look;
-        let [wide, narrow] = look.widths.wide_and_narrow();
+    fn pen_for_kind(&self, kind: LineKind, ink: Ink) -> Pen {
+        let look = self.style;
+        let [wide, narrow] = look.line_widths.wide_and_narrow();
         let is_narrow =
             kind.hidden || matches!(kind.class, EdgeClass::Tangent | EdgeClass::Hatching);
         let width = if is_narrow { narrow } else { wide };
         let line_type = if kind.hidden { LineType::Dashed } else { LineType::Continuous };
-        let ink = if kind.band == 0 { ink } else { paler(ink, look.depth_cue, kind.band) };
-        line_type.pen(width, ink, look.cap, look.join)
+        let ink = if kind.band == 0 { ink } else { faded_ink(ink, look.depth_cue, kind.band) };
+        line_type.to_pen(width, ink, look.cap, look.join)
     }
 }
 
 /// Ink with some of its contrast to white paper lost, or with dark paper in mind to black.
-fn paler(ink: Ink, most: f64, band: u32) -> Ink {
-    let part = most * f64::from(band) / f64::from(BANDS - 1);
+fn faded_ink(ink: Ink, most: f64, band: u32) -> Ink {
+    let part = most * f64::from(band) / f64::from(DEPTH_BANDS - 1);
     let ground = if ink.iter().map(|c| u32::from(*c)).sum::<u32>() > 384 { 0.0 } else { 255.0 };
     let mixed = |c: u8| f64::from(c) + (ground - f64::from(c)) * part;
     ink.map(|channel| libm::round(mixed(channel)) as u8)
 }
 
 /// Whether a look draws lines of a class.
-fn draws(look: &LineLook, class: EdgeClass, hidden: bool) -> bool {
-    if hidden && look.hidden == HiddenLines::Removed {
+fn selects_class(look: &LineStyle, class: EdgeClass, hidden: bool) -> bool {
+    if hidden && look.hidden_lines == HiddenLines::Removed {
         return false;
     }
     match class {
         EdgeClass::Silhouette | EdgeClass::Boundary => true,
-        EdgeClass::Facet => look.shown == Shown::Facets,
-        EdgeClass::Hatching => !hidden && look.shown != Shown::Silhouette,
+        EdgeClass::Facet => look.edges == EdgeSelection::Facets,
+        EdgeClass::Hatching => !hidden && look.edges != EdgeSelection::Silhouette,
         // What is only there in thought is not drawn where it is hidden.
         EdgeClass::Tangent => {
-            look.shown == Shown::Tangents && !hidden || look.shown == Shown::Facets
+            look.edges == EdgeSelection::Tangents && !hidden || look.edges == EdgeSelection::Facets
         }
-        _ => look.shown != Shown::Silhouette,
+        _ => look.edges != EdgeSelection::Silhouette,
     }
 }
 
@@ -249,11 +257,11 @@ impl EdgeClass {
     }
 }
 
-impl Kind {
+impl LineKind {
     /// The names of the layer, for programs and for people.
-    fn names(self, look: &LineLook) -> (String, String) {
+    fn layer_names(self, look: &LineStyle) -> (String, String) {
         let class = self.class.name();
-        let sight = match (self.hidden, look.hidden) {
+        let sight = match (self.hidden, look.hidden_lines) {
             (true, _) => "hidden",
             (false, HiddenLines::Drawn) => "all",
             (false, _) => "visible",
@@ -261,7 +269,7 @@ impl Kind {
         let (mut id, mut title) = (format!("{sight}-{class}"), format!("{sight}: {class}"));
         if look.depth_cue > 0.0 {
             id += &format!("-{}", self.band + 1);
-            title += &format!(", depth {} of {BANDS}", self.band + 1);
+            title += &format!(", depth {} of {DEPTH_BANDS}", self.band + 1);
         }
         (id, title)
     }

@@ -6,56 +6,56 @@
 //! Everything is computed in f64 from the same stages as the pictures (HL-1); nothing is sampled.
 
 mod canvas;
-mod chain;
 mod chart;
-mod dashes;
+mod dash_pattern;
 mod draw;
 mod edges;
 mod error;
-mod fixed;
-mod font;
-mod hatch;
-mod in_order;
+mod face_fill;
+mod fixed_decimal;
+mod hatching;
+mod hidden_line;
 mod label;
 mod layout;
-mod line;
-mod linetype;
-mod look;
+mod line_drawing;
+mod line_style;
+mod line_type;
 mod options;
-mod overlap;
+mod overlap_removal;
 mod overlay;
 mod page;
 mod panels;
+mod parallel;
 mod pdf;
+mod polyline_chain;
+mod projector;
 mod sheet;
-mod sight;
+mod stroke_font;
 mod subject;
 mod svg;
-mod tone;
-mod verify;
-mod visibility;
 mod warning;
+mod z_buffer_check;
 
-pub use canvas::draw_over;
-pub use chart::{Axis, Chart, Curve, Mark, Spacing};
+pub use canvas::draw_layers_over;
+pub use chart::{Axis, AxisMark, Chart, Curve, Spacing};
 pub use draw::draw;
 pub use error::DrawError;
-pub use label::{Align, Label};
+pub use hidden_line::{EdgeParts, Occluders, Tolerance};
+pub use label::{Label, TextAlign};
 pub use layout::Placement;
-pub use line::{EdgeClass, Line, LineDrawing};
-pub use linetype::{IsoGroup, LineType};
-pub use look::{HiddenLines, LineLook, Shown, Tone, Widths};
-pub use options::{EdgeClasses, Hidden, Options};
-pub use overlay::{Overlay, overlays};
+pub use line_drawing::{EdgeClass, EdgeSegment, LineDrawing};
+pub use line_style::{EdgeSelection, FaceFill, HiddenLines, LineStyle, LineWidths};
+pub use line_type::{IsoLineGroup, LineType};
+pub use options::{DrawOptions, EdgeClasses, HiddenEdges};
+pub use overlay::{Overlay, overlay_layers};
 pub use page::{
-    Cap, Group, Ink, Join, Layer, MILLIMETRES_PER_PIXEL, Page, Pasted, Pen, Place, Polyline,
-    micrometres, millimetres,
+    Cap, Group, Ink, Join, Layer, MILLIMETERS_PER_PIXEL, Page, PagePoint, Pen, PlacedImage,
+    Polyline, to_micrometers, to_millimeters,
 };
 pub use panels::{Panel, Panels};
 pub use pdf::to_pdf;
-pub use sheet::{Sheet, SheetError, Titles};
-pub use sight::Sight;
+pub use projector::Projector;
+pub use sheet::{Sheet, SheetError, TitleBlockText};
 pub use subject::Subject;
-pub use verify::{Agreement, verify};
-pub use visibility::{Obstacles, Parts, Tolerance};
 pub use warning::Warning;
+pub use z_buffer_check::{Agreement, verify_with_z_buffer};

@@ -1,76 +1,80 @@
 //! What a drawing shows.
 
-use super::page::MILLIMETRES_PER_PIXEL;
-use super::{EdgeClass, Tone};
+use super::page::MILLIMETERS_PER_PIXEL;
+use super::{EdgeClass, FaceFill};
 
 /// What a drawing shows.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Options {
+pub struct DrawOptions {
     /// The edges that are drawn.
     pub classes: EdgeClasses,
     /// What becomes of hidden parts.
-    pub hidden: Hidden,
+    pub hidden_edges: HiddenEdges,
     /// Two faces that meet at more than this angle make a crease: in radians, 0 for faces that go on straight.
     /// Default: 30 degrees.
-    pub crease: f64,
+    pub crease_angle: f64,
     /// The distance between lines of hatching in pixels, greater than 0. Default: 2 mm at 96 pixels to the inch.
-    pub hatch: f64,
+    pub hatch_spacing: f64,
     /// What is on the faces under the lines. Default: nothing.
-    pub tone: Tone,
+    pub face_fill: FaceFill,
     /// Pixels of the picture of tones for each pixel of the drawing. Default: 3.
-    pub tone_scale: f64,
+    pub fill_scale: f64,
 }
 
 /// What becomes of the hidden parts of edges.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Hidden {
+pub enum HiddenEdges {
     /// They are left out.
     Removed,
     /// They are kept, and marked as hidden.
-    Kept,
+    Retained,
     /// Nobody asks: all edges are drawn as visible from end to end.
     Ignored,
 }
 
-impl Default for Options {
+impl Default for DrawOptions {
     fn default() -> Self {
-        Self::hidden_removed()
+        Self::hidden_edges_removed()
     }
 }
 
-impl Options {
-    const CREASE: f64 = std::f64::consts::FRAC_PI_6;
+impl DrawOptions {
+    const DEFAULT_CREASE_ANGLE: f64 = std::f64::consts::FRAC_PI_6;
 
     /// The edges one would draw by hand, where they can be seen.
     #[must_use]
-    pub const fn hidden_removed() -> Self {
+    pub const fn hidden_edges_removed() -> Self {
         Self {
             classes: EdgeClasses::FEATURES,
-            hidden: Hidden::Removed,
-            crease: Self::CREASE,
-            hatch: 2.0 / MILLIMETRES_PER_PIXEL,
-            tone: Tone::Blank,
-            tone_scale: 3.0,
+            hidden_edges: HiddenEdges::Removed,
+            crease_angle: Self::DEFAULT_CREASE_ANGLE,
+            hatch_spacing: 2.0 / MILLIMETERS_PER_PIXEL,
+            face_fill: FaceFill::None,
+            fill_scale: 3.0,
         }
     }
 
     /// The same with the hidden parts, to be dashed.
     #[must_use]
-    pub const fn hidden_kept() -> Self {
-        Self { hidden: Hidden::Kept, ..Self::hidden_removed() }
+    pub const fn hidden_edges_retained() -> Self {
+        Self { hidden_edges: HiddenEdges::Retained, ..Self::hidden_edges_removed() }
     }
 
     /// Silhouettes and borders, where they can be seen.
     #[must_use]
     pub const fn silhouettes() -> Self {
         let classes = EdgeClasses::NONE.with(EdgeClass::Silhouette).with(EdgeClass::Boundary);
-        Self { classes, ..Self::hidden_removed() }
+        Self { classes, ..Self::hidden_edges_removed() }
     }
 
     /// Every side of every face, as if surfaces were of wire.
     #[must_use]
     pub const fn wireframe() -> Self {
-        Self { classes: EdgeClasses::ALL, hidden: Hidden::Ignored, ..Self::hidden_removed() }
+        Self {
+            classes: EdgeClasses::ALL,
+            hidden_edges: HiddenEdges::Ignored,
+            ..Self::hidden_edges_removed()
+        }
     }
 }
 

@@ -10,15 +10,15 @@
 //! eye is cut off before the divide; the near and the far plane do not count.
 
 mod perspective;
-mod volume;
+mod view_volume;
 
-use super::edges::Surface;
-use super::label::{Align, Label};
-use super::linetype::LineType;
-use super::look::HiddenLines;
-use super::page::{Cap, Group, Ink, Layer, MILLIMETRES_PER_PIXEL, Pen, Polyline};
-use super::sight::Sight;
-use super::visibility::Obstacles;
+use super::edges::WeldedSurface;
+use super::hidden_line::Occluders;
+use super::label::{Label, TextAlign};
+use super::line_style::HiddenLines;
+use super::line_type::LineType;
+use super::page::{Cap, Group, Ink, Layer, MILLIMETERS_PER_PIXEL, Pen, Polyline};
+use super::projector::Projector;
 use crate::Subject;
 use camera::ViewProjection;
 use glam::{DMat4, DVec2, DVec3, DVec4};
@@ -44,7 +44,7 @@ pub enum Overlay {
 const RED: Ink = [179, 38, 30];
 const GREEN: Ink = [30, 122, 52];
 const BLUE: Ink = [26, 86, 176];
-const GREY: Ink = [150, 156, 163];
+const GRAY: Ink = [150, 156, 163];
 const BROWN: Ink = [140, 90, 20];
 
 /// The axes of the world, their names and their colours.
@@ -52,27 +52,31 @@ const AXES: [(Vector<World>, &str, Ink); 3] =
     [(Vector::X, "x", RED), (Vector::Y, "y", GREEN), (Vector::Z, "z", BLUE)];
 
 /// The width of lines, the height of letters, the length of arrowheads, in millimetres.
-const WIDTH: f64 = 0.25;
-const LETTERS: f64 = 3.0;
-const ARROW: f64 = 2.4;
+const LINE_WIDTH: f64 = 0.25;
+const LETTER_HEIGHT: f64 = 3.0;
+const ARROW_LENGTH: f64 = 2.4;
 
 /// The most lines of a grid in each direction.
-const MOST_LINES: f64 = 200.0;
+const MAX_GRID_LINES: f64 = 200.0;
 
 /// The layers of all overlays, on a page of the picture's size.
 #[must_use]
-pub fn overlays(subject: &Subject<'_>, overlays: &[Overlay], hidden: HiddenLines) -> Vec<Layer> {
+pub fn overlay_layers(
+    subject: &Subject<'_>,
+    overlays: &[Overlay],
+    hidden: HiddenLines,
+) -> Vec<Layer> {
     if overlays.is_empty() {
         return Vec::new();
     }
-    let Some(glass) = Glass::of(subject, hidden) else { return Vec::new() };
+    let Some(glass) = PicturePlane::new(subject, hidden) else { return Vec::new() };
     let layers = overlays.iter().enumerate().flat_map(|(number, overlay)| {
         let layers = match overlay {
-            Overlay::Axes(length) => glass.axes(*length),
-            Overlay::Grid(step) => glass.grid(*step),
-            Overlay::Horizon => glass.horizon(),
-            Overlay::VanishingPoints => glass.vanishing_points(),
-            Overlay::Volume(view_projection) => glass.volume(view_projection),
+            Overlay::Axes(length) => glass.axes_layers(*length),
+            Overlay::Grid(step) => glass.grid_layers(*step),
+            Overlay::Horizon => glass.horizon_layers(),
+            Overlay::VanishingPoints => glass.vanishing_point_layers(),
+            Overlay::Volume(view_projection) => glass.view_volume_layers(view_projection),
             // They are of the surfaces, and are drawn with them.
             Overlay::Edges => Vec::new(),
         };
@@ -84,57 +88,57 @@ pub fn overlays(subject: &Subject<'_>, overlays: &[Overlay], hidden: HiddenLines
 }
 
 /// The picture as a sheet of glass before the eye, on which one draws.
-struct Glass {
+struct PicturePlane {
     world_to_clip: Projective<World, Clip>,
     /// Half the width and height of the page in millimetres.
     half: DVec2,
     /// The box around the models.
     bounds: Bounds<World>,
     /// What hides; `None` if one sees through everything.
-    obstacles: Option<Obstacles>,
+    occluders: Option<Occluders>,
 }
 
 /// The parts of lines that can be seen, and those that cannot.
 #[derive(Default)]
-struct Sighted {
+struct DividedStrokes {
     visible: Vec<Polyline>,
     hidden: Vec<Polyline>,
 }
 
 /// How much farther than the depths of the models one sees, before and behind them.
-const REACH: f64 = 1000.0;
+const DEPTH_RANGE_FACTOR: f64 = 1000.0;
 
-impl Glass {
+impl PicturePlane {
     /// `None` if there are no models to draw over.
-    fn of(subject: &Subject<'_>, hidden: HiddenLines) -> Option<Self> {
-        let bounds = Bounds::of(model::world_points(subject.models))?;
+    fn new(subject: &Subject<'_>, hidden: HiddenLines) -> Option<Self> {
+        let bounds = Bounds::from_points(model::world_points(subject.models))?;
         let size = DVec2::from(subject.size.map(f64::from));
         Some(Self {
             world_to_clip: subject.view_projection.world_to_clip(),
-            half: size * (0.5 * MILLIMETRES_PER_PIXEL),
+            half: size * (0.5 * MILLIMETERS_PER_PIXEL),
             bounds,
-            obstacles: obstacles(subject, hidden),
+            occluders: model_occluders(subject, hidden),
         })
     }
 
     /// The image of a place: x and y before the divide, and w.
-    fn image(&self, place: Point<World>) -> DVec3 {
-        flat(self.world_to_clip.point(place).raw())
+    fn project_point(&self, place: Point<World>) -> DVec3 {
+        drop_depth(self.world_to_clip.transform_point(place).raw())
     }
 
     /// The image of a direction, w not negative.
-    fn far_image(&self, direction: Vector<World>) -> DVec3 {
-        let image = flat(self.world_to_clip.direction(direction).raw());
+    fn project_direction(&self, direction: Vector<World>) -> DVec3 {
+        let image = drop_depth(self.world_to_clip.transform_direction(direction).raw());
         if image.z < 0.0 { -image } else { image }
     }
 
     /// Where a place after the divide is on the page.
-    fn on_page(&self, ndc: DVec2) -> DVec2 {
+    fn ndc_to_page(&self, ndc: DVec2) -> DVec2 {
         self.half + DVec2::new(ndc.x, -ndc.y) * self.half
     }
 
     /// The part of a segment that is in the picture, on the page.
-    fn segment(&self, a: DVec3, b: DVec3) -> Option<[DVec2; 2]> {
+    fn clip_to_picture(&self, a: DVec3, b: DVec3) -> Option<[DVec2; 2]> {
         let (mut from, mut to) = (0.0_f64, 1.0_f64);
         for side in [DVec3::X, -DVec3::X, DVec3::Y, -DVec3::Y] {
             let [start, end] = [a, b].map(|image| image.z + image.dot(side));
@@ -149,49 +153,54 @@ impl Glass {
         }
         let at = |t: f64| {
             let image = a.lerp(b, t);
-            (image.z > 0.0).then(|| self.on_page(image.truncate() / image.z))
+            (image.z > 0.0).then(|| self.ndc_to_page(image.truncate() / image.z))
         };
         if from < to { Some([at(from)?, at(to)?]) } else { None }
     }
 
     /// A line of the world as strokes.
-    fn line(&self, from: Point<World>, to: Point<World>, strokes: &mut Sighted) {
+    fn divide_line(&self, from: Point<World>, to: Point<World>, strokes: &mut DividedStrokes) {
         let stroke = |[a, b]: [f64; 2]| {
-            let [a, b] = [a, b].map(|t| self.image(from.lerp(to, t)));
-            Polyline::through(&self.segment(a, b)?, false)
+            let [a, b] = [a, b].map(|t| self.project_point(from.lerp(to, t)));
+            Polyline::through_points(&self.clip_to_picture(a, b)?, false)
         };
-        let Some(obstacles) = &self.obstacles else {
+        let Some(obstacles) = &self.occluders else {
             return strokes.visible.extend(stroke([0.0, 1.0]));
         };
-        let parts = obstacles.parts([from, to]);
+        let parts = obstacles.edge_parts([from, to]);
         strokes.visible.extend(parts.visible.into_iter().filter_map(stroke));
         strokes.hidden.extend(parts.hidden.into_iter().filter_map(stroke));
     }
 
     /// Where a place is on the page, if it is in the picture.
-    fn seen(&self, image: DVec3) -> Option<DVec2> {
+    fn point_in_picture(&self, image: DVec3) -> Option<DVec2> {
         let inside = image.z > 0.0 && image.x.abs() <= image.z && image.y.abs() <= image.z;
-        inside.then(|| self.on_page(image.truncate() / image.z))
+        inside.then(|| self.ndc_to_page(image.truncate() / image.z))
     }
 
-    fn axes(&self, length: Option<f64>) -> Vec<Layer> {
+    fn axes_layers(&self, length: Option<f64>) -> Vec<Layer> {
         let reach = self.bounds.diagonal();
         let length = length.unwrap_or(if reach > 0.0 { 0.6 * reach } else { 1.0 });
         let axes = AXES.into_iter();
-        axes.flat_map(|(direction, name, ink)| self.axis(direction * length, name, ink)).collect()
+        axes.flat_map(|(direction, name, ink)| self.axis_layers(direction * length, name, ink))
+            .collect()
     }
 
     /// The line in its visible and its hidden parts, and its arrowhead with its name.
-    fn axis(&self, reach: Vector<World>, name: &str, ink: Ink) -> [Layer; 3] {
+    fn axis_layers(&self, reach: Vector<World>, name: &str, ink: Ink) -> [Layer; 3] {
         let tip = Point::ORIGIN + reach;
-        let [visible, hidden] = self.lines(&format!("axis-{name}"), ink, &[[Point::ORIGIN, tip]]);
-        let mut head = layer(&format!("axis-{name}-name"), &format!("axis {name}: name"), ink);
-        let ends = [Point::ORIGIN, tip].map(|place| self.image(place));
-        let ends = self.segment(ends[0], ends[1]).filter(|_| self.seen(ends[1]).is_some());
+        let [visible, hidden] =
+            self.line_layers(&format!("axis-{name}"), ink, &[[Point::ORIGIN, tip]]);
+        let mut head =
+            overlay_layer(&format!("axis-{name}-name"), &format!("axis {name}: name"), ink);
+        let ends = [Point::ORIGIN, tip].map(|place| self.project_point(place));
+        let ends = self
+            .clip_to_picture(ends[0], ends[1])
+            .filter(|_| self.point_in_picture(ends[1]).is_some());
         if let Some([from, tip]) = ends {
             let along = (tip - from).normalize_or_zero();
-            let at = tip + along * (0.9 * LETTERS) + DVec2::new(0.0, 0.35 * LETTERS);
-            let label = Label::new(name, at, LETTERS).aligned(Align::Middle);
+            let at = tip + along * (0.9 * LETTER_HEIGHT) + DVec2::new(0.0, 0.35 * LETTER_HEIGHT);
+            let label = Label::new(name, at, LETTER_HEIGHT).with_align(TextAlign::Middle);
             let fills = arrowhead(tip, along).into_iter().collect();
             head.groups.push(Group { strokes: label.strokes(), fills, ..Group::default() });
         }
@@ -199,34 +208,34 @@ impl Glass {
     }
 
     /// Lines of the world as a layer of their visible parts, and one of their hidden parts, dashed.
-    fn lines(&self, name: &str, ink: Ink, lines: &[[Point<World>; 2]]) -> [Layer; 2] {
-        let mut strokes = Sighted::default();
-        lines.iter().for_each(|[from, to]| self.line(*from, *to, &mut strokes));
-        let mut visible = layer(name, name, ink);
-        let mut hidden = layer(&format!("{name}-hidden"), &format!("{name}: hidden"), ink);
+    fn line_layers(&self, name: &str, ink: Ink, lines: &[[Point<World>; 2]]) -> [Layer; 2] {
+        let mut strokes = DividedStrokes::default();
+        lines.iter().for_each(|[from, to]| self.divide_line(*from, *to, &mut strokes));
+        let mut visible = overlay_layer(name, name, ink);
+        let mut hidden = overlay_layer(&format!("{name}-hidden"), &format!("{name}: hidden"), ink);
         hidden.pen.width *= 0.6;
-        hidden.pen.dashes = LineType::Dashed.dashes(hidden.pen.width * 0.6);
+        hidden.pen.dashes = LineType::Dashed.dash_pattern(hidden.pen.width * 0.6);
         visible.groups.push(Group { strokes: strokes.visible, ..Group::default() });
         hidden.groups.push(Group { strokes: strokes.hidden, ..Group::default() });
         [visible, hidden]
     }
 
-    fn grid(&self, step: Option<f64>) -> Vec<Layer> {
+    fn grid_layers(&self, step: Option<f64>) -> Vec<Layer> {
         let (min, max) = (self.bounds.min(), self.bounds.max());
         let size = (max.x() - min.x()).max(max.z() - min.z()).max(self.bounds.diagonal() * 0.1);
-        let step = step.unwrap_or_else(|| round_step(size / 8.0)).max(size / MOST_LINES);
+        let step = step.unwrap_or_else(|| round_grid_step(size / 8.0)).max(size / MAX_GRID_LINES);
         let range = |low: f64, high: f64| {
             let (low, high) = (libm::floor(low / step) - 1.0, libm::ceil(high / step) + 1.0);
-            (low, ((high - low) as u32).min(2 * MOST_LINES as u32))
+            (low, ((high - low) as u32).min(2 * MAX_GRID_LINES as u32))
         };
         let ((x, columns), (z, rows)) = (range(min.x(), max.x()), range(min.z(), max.z()));
         let at = |column: f64, row: f64| Point::new((x + column) * step, 0.0, (z + row) * step);
         let (width, depth) = (f64::from(columns), f64::from(rows));
         let across = (0..=rows).map(|row| (at(0.0, row.into()), at(width, row.into())));
         let along = (0..=columns).map(|column| (at(column.into(), 0.0), at(column.into(), depth)));
-        let mut strokes = Sighted::default();
-        across.chain(along).for_each(|(from, to)| self.line(from, to, &mut strokes));
-        let mut layer = layer("grid", &format!("grid, {step} apart"), GREY);
+        let mut strokes = DividedStrokes::default();
+        across.chain(along).for_each(|(from, to)| self.divide_line(from, to, &mut strokes));
+        let mut layer = overlay_layer("grid", &format!("grid, {step} apart"), GRAY);
         layer.pen.width = 0.13;
         layer.groups.push(Group { strokes: strokes.visible, ..Group::default() });
         vec![layer]
@@ -234,37 +243,38 @@ impl Glass {
 }
 
 /// The faces of the models, unless the scene is drawn as if they were of glass.
-fn obstacles(subject: &Subject<'_>, hidden: HiddenLines) -> Option<Obstacles> {
+fn model_occluders(subject: &Subject<'_>, hidden: HiddenLines) -> Option<Occluders> {
     if hidden == HiddenLines::Drawn {
         return None;
     }
     let viewport = subject.viewport().ok()?;
     // Depth does not decide what is seen beside the models, only its order counts.
-    let deep = DMat4::from_diagonal(DVec4::new(1.0, 1.0, 1.0 / REACH, 1.0));
+    let deep = DMat4::from_diagonal(DVec4::new(1.0, 1.0, 1.0 / DEPTH_RANGE_FACTOR, 1.0));
     let view_to_clip = Projective::from_raw(deep * subject.view_projection.view_to_clip.raw());
-    let sight = Sight::new(&ViewProjection { view_to_clip, ..subject.view_projection }, &viewport);
-    let surface = Surface::of(subject);
-    Some(Obstacles::new(surface.triangles(), sight, surface.tolerance()))
+    let sight =
+        Projector::new(&ViewProjection { view_to_clip, ..subject.view_projection }, &viewport);
+    let surface = WeldedSurface::from_subject(subject);
+    Some(Occluders::new(surface.occluder_triangles(), sight, surface.touch_tolerance()))
 }
 
 /// x, y and w.
-fn flat(image: DVec4) -> DVec3 {
+fn drop_depth(image: DVec4) -> DVec3 {
     DVec3::new(image.x, image.y, image.w)
 }
 
-fn layer(id: &str, title: &str, ink: Ink) -> Layer {
-    Layer::new(id, title, Pen { cap: Cap::Butt, ..Pen::of_width(WIDTH, ink) })
+fn overlay_layer(id: &str, title: &str, ink: Ink) -> Layer {
+    Layer::new(id, title, Pen { cap: Cap::Butt, ..Pen::solid(LINE_WIDTH, ink) })
 }
 
 /// An arrowhead whose tip is at a place, for a line that comes along a direction.
 fn arrowhead(tip: DVec2, along: DVec2) -> Option<Polyline> {
-    let across = DVec2::new(-along.y, along.x) * (ARROW / 6.0);
-    let base = tip - along * ARROW;
-    Polyline::through(&[tip, base + across, base - across], true)
+    let across = DVec2::new(-along.y, along.x) * (ARROW_LENGTH / 6.0);
+    let base = tip - along * ARROW_LENGTH;
+    Polyline::through_points(&[tip, base + across, base - across], true)
 }
 
 /// The greatest of 1, 2 and 5 times a power of ten that is no longer than this.
-fn round_step(most: f64) -> f64 {
+fn round_grid_step(most: f64) -> f64 {
     if !(most > 0.0 && most.is_finite()) {
         return 1.0;
     }

@@ -8,13 +8,13 @@ use glam::DVec2;
 use shade::Picture;
 
 /// Millimetres of a picture's pixel on paper: 96 of them make an inch, as in CSS.
-pub const MILLIMETRES_PER_PIXEL: f64 = viewport::MILLIMETRES_PER_INCH / 96.0;
+pub const MILLIMETERS_PER_PIXEL: f64 = viewport::MILLIMETERS_PER_INCH / 96.0;
 
 /// A colour of ink: sRGB, opaque.
 pub type Ink = [u8; 3];
 
 /// A place on the page in micrometres.
-pub type Place = [i32; 2];
+pub type PagePoint = [i32; 2];
 
 /// A page with everything on it, in the order in which it is drawn.
 #[derive(Clone, PartialEq, Debug)]
@@ -26,7 +26,7 @@ pub struct Page {
     /// The colour of the paper; `None` for no colour.
     pub paper: Option<Ink>,
     /// Pictures on the paper, under the lines.
-    pub pictures: Vec<Pasted>,
+    pub images: Vec<PlacedImage>,
     /// What is drawn, one layer over the other.
     pub layers: Vec<Layer>,
     /// What could not be drawn as it should, each once.
@@ -35,13 +35,13 @@ pub struct Page {
 
 /// A picture on a page.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Pasted {
+pub struct PlacedImage {
     /// A name for programs: lower case, hyphens, unique on its page.
     pub id: String,
     /// The upper left corner in micrometres.
-    pub corner: Place,
+    pub corner: PagePoint,
     /// Width and height in micrometres, greater than 0.
-    pub size: Place,
+    pub size: PagePoint,
     /// The picture, stretched to this size.
     pub picture: Picture,
 }
@@ -76,7 +76,7 @@ pub struct Group {
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Polyline {
     /// The points, at least two, neighbours different.
-    pub points: Vec<Place>,
+    pub points: Vec<PagePoint>,
     /// Whether the last one is joined to the first, which is not there twice.
     pub closed: bool,
 }
@@ -125,8 +125,8 @@ impl Page {
     /// An empty page.
     #[must_use]
     pub fn new(size: DVec2, title: impl Into<String>, paper: Option<Ink>) -> Self {
-        let (pictures, layers, warnings) = (Vec::new(), Vec::new(), Vec::new());
-        Self { size, title: title.into(), paper, pictures, layers, warnings }
+        let (images, layers, warnings) = (Vec::new(), Vec::new(), Vec::new());
+        Self { size, title: title.into(), paper, images, layers, warnings }
     }
 }
 
@@ -141,7 +141,7 @@ impl Layer {
 impl Pen {
     /// A pen for continuous lines with round ends and corners.
     #[must_use]
-    pub fn of_width(width: f64, ink: Ink) -> Self {
+    pub fn solid(width: f64, ink: Ink) -> Self {
         Self { width, ink, dashes: Vec::new(), cap: Cap::Round, join: Join::Round }
     }
 }
@@ -150,8 +150,8 @@ impl Polyline {
     /// The polyline through points given in millimetres, without those that repeat their neighbour; `None` if fewer than two
     /// are left.
     #[must_use]
-    pub fn through(millimetres: &[DVec2], closed: bool) -> Option<Self> {
-        let mut points: Vec<Place> = millimetres.iter().copied().map(micrometres).collect();
+    pub fn through_points(millimetres: &[DVec2], closed: bool) -> Option<Self> {
+        let mut points: Vec<PagePoint> = millimetres.iter().copied().map(to_micrometers).collect();
         points.dedup();
         if closed && points.first() == points.last() {
             points.pop();
@@ -164,19 +164,19 @@ impl Polyline {
     pub fn length(&self) -> f64 {
         let last = self.closed.then(|| [self.points[self.points.len() - 1], self.points[0]]);
         let sides = self.points.windows(2).map(|pair| [pair[0], pair[1]]).chain(last);
-        sides.map(|[a, b]| (millimetres(a) - millimetres(b)).length()).sum()
+        sides.map(|[a, b]| (to_millimeters(a) - to_millimeters(b)).length()).sum()
     }
 }
 
 /// The nearest place of the grid; what is too far away for it is brought to its border.
 #[must_use]
-pub fn micrometres(millimetres: DVec2) -> Place {
+pub fn to_micrometers(millimetres: DVec2) -> PagePoint {
     // Casting is exact for whole numbers and cuts off at the ends of the range.
     (millimetres * 1000.0).to_array().map(|c| libm::round(c) as i32)
 }
 
 /// A place of the grid in millimetres.
 #[must_use]
-pub fn millimetres([x, y]: Place) -> DVec2 {
+pub fn to_millimeters([x, y]: PagePoint) -> DVec2 {
     DVec2::new(f64::from(x), f64::from(y)) / 1000.0
 }

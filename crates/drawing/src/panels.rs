@@ -12,21 +12,21 @@ mod html;
 
 use super::Warning;
 use super::label::Label;
-use super::page::{Group, Ink, Layer, Page, Pasted, Pen, Polyline};
-use super::page::{Place, micrometres};
+use super::page::{Group, Ink, Layer, Page, Pen, PlacedImage, Polyline};
+use super::page::{PagePoint, to_micrometers};
 use glam::DVec2;
 
 const INK: Ink = [26, 31, 38];
-const GREY: Ink = [150, 156, 163];
+const GRAY: Ink = [150, 156, 163];
 
 /// The room around all panels and between two of them, in millimetres.
 const MARGIN: f64 = 8.0;
-const GAP: f64 = 7.0;
+const PANEL_GAP: f64 = 7.0;
 
 /// Heights of letters in millimetres: of the page's title, of a panel's, and of its notes; and the distance of baselines in them.
-const HEADING: f64 = 4.5;
-const TITLE: f64 = 3.0;
-const NOTE: f64 = 2.0;
+const HEADING_HEIGHT: f64 = 4.5;
+const TITLE_HEIGHT: f64 = 3.0;
+const NOTE_HEIGHT: f64 = 2.0;
 const LEADING: f64 = 1.75;
 
 /// A drawing with its name and what is to be said of it.
@@ -56,18 +56,18 @@ pub struct Panels {
 impl Panel {
     /// The same with lines of text below it.
     #[must_use]
-    pub fn noted(self, notes: Vec<String>) -> Self {
+    pub fn with_notes(self, notes: Vec<String>) -> Self {
         Self { notes, ..self }
     }
 
     /// Width and height with the text, in millimetres.
-    fn size(&self) -> DVec2 {
-        let text = TITLE * LEADING + self.notes.len() as f64 * NOTE * LEADING;
+    fn outer_size(&self) -> DVec2 {
+        let text = TITLE_HEIGHT * LEADING + self.notes.len() as f64 * NOTE_HEIGHT * LEADING;
         self.page.size + DVec2::new(0.0, text)
     }
 
     /// Title and notes, their upper left corner at `at`.
-    fn text(&self, at: DVec2) -> [Group; 2] {
+    fn text_groups(&self, at: DVec2) -> [Group; 2] {
         let group = |strokes: Vec<Polyline>| Group {
             id: self.id.clone(),
             title: self.title.clone(),
@@ -75,11 +75,11 @@ impl Panel {
             fills: Vec::new(),
         };
         let width = self.page.size.x;
-        let first = at + DVec2::new(0.0, TITLE * LEADING * 0.85);
-        let title = Label::new(&self.title, first, TITLE).no_wider_than(width).strokes();
+        let first = at + DVec2::new(0.0, TITLE_HEIGHT * LEADING * 0.85);
+        let title = Label::new(&self.title, first, TITLE_HEIGHT).fit_to_width(width).strokes();
         let notes = self.notes.iter().enumerate().flat_map(|(line, note)| {
-            let below = first + DVec2::new(0.0, (line + 1) as f64 * NOTE * LEADING);
-            Label::new(note, below, NOTE).no_wider_than(width).strokes()
+            let below = first + DVec2::new(0.0, (line + 1) as f64 * NOTE_HEIGHT * LEADING);
+            Label::new(note, below, NOTE_HEIGHT).fit_to_width(width).strokes()
         });
         [group(title), group(notes.collect())]
     }
@@ -107,33 +107,36 @@ impl Panels {
     /// All of them on one white page.
     #[must_use]
     pub fn to_page(&self) -> Page {
-        let sizes: Vec<DVec2> = self.panels.iter().map(Panel::size).collect();
+        let sizes: Vec<DVec2> = self.panels.iter().map(Panel::outer_size).collect();
         let columns = self.columns.max(1);
         let widths: Vec<f64> = (0..columns.min(sizes.len()))
-            .map(|x| most(sizes.iter().skip(x).step_by(columns).map(|size| size.x)))
+            .map(|x| largest_side(sizes.iter().skip(x).step_by(columns).map(|size| size.x)))
             .collect();
         let heights: Vec<f64> =
-            sizes.chunks(columns).map(|row| most(row.iter().map(|size| size.y))).collect();
-        let top = MARGIN + HEADING + GAP;
-        let sum = |sides: &[f64]| sides.iter().map(|side| side + GAP).sum::<f64>();
-        let size =
-            DVec2::new(sum(&widths) - GAP + 2.0 * MARGIN, top + sum(&heights) - GAP + MARGIN);
+            sizes.chunks(columns).map(|row| largest_side(row.iter().map(|size| size.y))).collect();
+        let top = MARGIN + HEADING_HEIGHT + PANEL_GAP;
+        let sum = |sides: &[f64]| sides.iter().map(|side| side + PANEL_GAP).sum::<f64>();
+        let size = DVec2::new(
+            sum(&widths) - PANEL_GAP + 2.0 * MARGIN,
+            top + sum(&heights) - PANEL_GAP + MARGIN,
+        );
         let mut page = Page::new(size, self.title.clone(), Some([255; 3]));
-        let pen = Pen::of_width(0.13, GREY);
+        let pen = Pen::solid(0.13, GRAY);
         let mut frames = Layer::new("frames", "the borders of the pictures", pen);
-        let mut names = Layer::new("names", "names", Pen::of_width(TITLE * 0.1, INK));
-        let mut notes = Layer::new("notes", "notes", Pen::of_width(NOTE * 0.1, INK));
+        let mut names = Layer::new("names", "names", Pen::solid(TITLE_HEIGHT * 0.1, INK));
+        let mut notes = Layer::new("notes", "notes", Pen::solid(NOTE_HEIGHT * 0.1, INK));
         for (number, panel) in self.panels.iter().enumerate() {
             let (x, y) = (number % columns, number / columns);
             let corner = DVec2::new(MARGIN + sum(&widths[..x]), top + sum(&heights[..y]));
-            page.paste(&panel.page, corner, &format!("{}-", panel.id));
-            frames.groups.push(frame(panel, corner));
-            let [name, note] = panel.text(corner + DVec2::new(0.0, panel.page.size.y));
+            page.paste_page(&panel.page, corner, &format!("{}-", panel.id));
+            frames.groups.push(frame_group(panel, corner));
+            let [name, note] = panel.text_groups(corner + DVec2::new(0.0, panel.page.size.y));
             names.groups.push(name);
             notes.groups.push(note);
         }
-        let at = DVec2::new(MARGIN, MARGIN + HEADING);
-        let heading = Label::new(&self.title, at, HEADING).no_wider_than(size.x - 2.0 * MARGIN);
+        let at = DVec2::new(MARGIN, MARGIN + HEADING_HEIGHT);
+        let heading =
+            Label::new(&self.title, at, HEADING_HEIGHT).fit_to_width(size.x - 2.0 * MARGIN);
         let mut layer = Layer::new("heading", "what the page shows", heading.pen(INK));
         layer.groups.push(Group { strokes: heading.strokes(), ..Group::default() });
         page.layers.extend([frames, names, notes, layer]);
@@ -142,23 +145,23 @@ impl Panels {
     }
 }
 
-fn most(sides: impl Iterator<Item = f64>) -> f64 {
+fn largest_side(sides: impl Iterator<Item = f64>) -> f64 {
     sides.fold(0.0, f64::max)
 }
 
-fn frame(panel: &Panel, corner: DVec2) -> Group {
+fn frame_group(panel: &Panel, corner: DVec2) -> Group {
     let [w, h] = panel.page.size.to_array();
     let corners = [[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]].map(|c| corner + DVec2::from(c));
-    let strokes = Polyline::through(&corners, true).into_iter().collect();
+    let strokes = Polyline::through_points(&corners, true).into_iter().collect();
     Group { id: panel.id.clone(), title: panel.title.clone(), strokes, fills: Vec::new() }
 }
 
 impl Page {
     /// Puts what is on another page onto this one, its upper left corner at `corner` in millimetres. `prefix` begins the names.
-    pub fn paste(&mut self, other: &Self, corner: DVec2, prefix: &str) {
-        let by = micrometres(corner);
-        let moved = |place: Place| [place[0] + by[0], place[1] + by[1]];
-        self.pictures.extend(other.pictures.iter().cloned().map(|pasted| Pasted {
+    pub fn paste_page(&mut self, other: &Self, corner: DVec2, prefix: &str) {
+        let by = to_micrometers(corner);
+        let moved = |place: PagePoint| [place[0] + by[0], place[1] + by[1]];
+        self.images.extend(other.images.iter().cloned().map(|pasted| PlacedImage {
             id: format!("{prefix}{}", pasted.id),
             corner: moved(pasted.corner),
             ..pasted
@@ -179,13 +182,13 @@ impl Page {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::millimetres;
+    use crate::to_millimeters;
 
     /// A page of 40 × 30 mm with a diagonal.
     fn panel(id: &str) -> Panel {
         let mut page = Page::new(DVec2::new(40.0, 30.0), id, None);
-        let mut layer = Layer::new("lines", "lines", Pen::of_width(0.2, INK));
-        let diagonal = Polyline::through(&[DVec2::ZERO, DVec2::new(40.0, 30.0)], false);
+        let mut layer = Layer::new("lines", "lines", Pen::solid(0.2, INK));
+        let diagonal = Polyline::through_points(&[DVec2::ZERO, DVec2::new(40.0, 30.0)], false);
         layer.groups.push(Group { strokes: diagonal.into_iter().collect(), ..Group::default() });
         page.layers.push(layer);
         let notes = vec!["a < b".to_owned()];
@@ -199,13 +202,13 @@ mod tests {
         let page = panels.to_page();
         let corner = |id: &str| {
             let layer = page.layers.iter().find(|layer| layer.id == format!("{id}-lines"));
-            layer.map(|layer| millimetres(layer.groups[0].strokes[0].points[0])).expect(id)
+            layer.map(|layer| to_millimeters(layer.groups[0].strokes[0].points[0])).expect(id)
         };
         let [a, b, d] = ["a", "b", "d"].map(corner);
-        assert_eq!(b - a, DVec2::new(40.0 + GAP, 0.0));
-        assert!(d.x == a.x && d.y > a.y + 30.0 + TITLE + NOTE);
-        assert!((page.size.x - (3.0 * 40.0 + 2.0 * GAP + 2.0 * MARGIN)).abs() < 1e-9);
-        assert!(page.size.y > d.y + 30.0 + TITLE + NOTE);
+        assert_eq!(b - a, DVec2::new(40.0 + PANEL_GAP, 0.0));
+        assert!(d.x == a.x && d.y > a.y + 30.0 + TITLE_HEIGHT + NOTE_HEIGHT);
+        assert!((page.size.x - (3.0 * 40.0 + 2.0 * PANEL_GAP + 2.0 * MARGIN)).abs() < 1e-9);
+        assert!(page.size.y > d.y + 30.0 + TITLE_HEIGHT + NOTE_HEIGHT);
     }
 
     #[test]

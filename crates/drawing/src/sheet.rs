@@ -16,28 +16,28 @@
 //! Views of one row have the same heights at the same places, those of one column the same widths (ISO 5456-2); the scale is one of
 //! the standard series (ISO 5455); frame and title block follow ISO 5457 and ISO 7200, dimensions ISO 129-1.
 
-mod arrange;
-mod cut_line;
 mod dimension;
 mod frame;
+mod projection_symbol;
 mod scale_bar;
-mod symbol;
+mod section_line;
+mod sheet_view;
 mod title_block;
-mod view;
+mod view_layout;
 
-use super::label::{Align, Label};
+use super::label::{Label, TextAlign};
 use super::layout::Placement;
-use super::linetype::IsoGroup;
-use super::look::{HiddenLines, LineLook, Widths};
+use super::line_style::{HiddenLines, LineStyle, LineWidths};
+use super::line_type::IsoLineGroup;
 use super::page::{Group, Ink, Layer, Page};
 use crate::DrawError;
-use arrange::{Arrangement, Placed};
 use camera::NamedView;
 use glam::DVec2;
 use homog::{Plane, World};
 use model::{ModelInstance, model_names, world_points};
 use projection::SheetAngle;
-use view::View;
+use sheet_view::SheetView;
+use view_layout::{PlacedView, ViewLayout};
 use viewport::{DrawingScale, Paper, Rectangle};
 
 /// The ink of sheets.
@@ -51,26 +51,26 @@ pub struct Sheet {
     /// Its name, such as A3.
     pub paper_name: String,
     /// Where views lie.
-    pub angle: SheetAngle,
+    pub projection_angle: SheetAngle,
     /// The scale; `None` for the largest of the standard series that fits.
     pub scale: Option<DrawingScale>,
     /// Millimetres in a unit of the scene.
-    pub unit: f64,
+    pub millimeters_per_unit: f64,
     /// Which side stands beside the front view.
-    pub side: NamedView,
+    pub side_view: NamedView,
     /// From where the axonometric view is; `None` for no such view.
-    pub axonometric: Option<NamedView>,
+    pub axonometric_view: Option<NamedView>,
     /// How the lines of the views look.
-    pub look: LineLook,
+    pub style: LineStyle,
     /// Whether overall dimensions are drawn.
     pub dimensions: bool,
     /// What the title block says.
-    pub titles: Titles,
+    pub title_block: TitleBlockText,
 }
 
 /// What the title block says.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct Titles {
+pub struct TitleBlockText {
     /// What the drawing shows; empty for the names of the models.
     pub title: String,
     /// Who made it.
@@ -122,23 +122,23 @@ impl Sheet {
     /// Technical drawing on paper of this size: first angle, the view from the left, an isometric view, dimensions; lines wider
     /// on larger paper.
     #[must_use]
-    pub fn on(paper: Paper, paper_name: impl Into<String>) -> Self {
+    pub fn for_paper(paper: Paper, paper_name: impl Into<String>) -> Self {
         let group = match paper.width().max(paper.height()) {
-            side if side > 650.0 => IsoGroup::SEVENTH,
-            side if side < 250.0 => IsoGroup::THIRD,
-            _ => IsoGroup::HALF,
+            side if side > 650.0 => IsoLineGroup::MM_0_7,
+            side if side < 250.0 => IsoLineGroup::MM_0_35,
+            _ => IsoLineGroup::MM_0_5,
         };
         Self {
             paper,
             paper_name: paper_name.into(),
-            angle: SheetAngle::First,
+            projection_angle: SheetAngle::First,
             scale: None,
-            unit: 1000.0,
-            side: NamedView::Left,
-            axonometric: Some(NamedView::Isometric),
-            look: LineLook { widths: Widths::Iso(group), ..LineLook::TECHNICAL },
+            millimeters_per_unit: 1000.0,
+            side_view: NamedView::Left,
+            axonometric_view: Some(NamedView::Isometric),
+            style: LineStyle { line_widths: LineWidths::Iso(group), ..LineStyle::TECHNICAL },
             dimensions: true,
-            titles: Titles::default(),
+            title_block: TitleBlockText::default(),
         }
     }
 
@@ -153,23 +153,26 @@ impl Sheet {
         threads: usize,
     ) -> Result<Page, SheetError> {
         let points = world_points(models);
-        let view = |name: NamedView| View::of(&points, name, self.unit);
-        let [front, top, side] = [view(NamedView::Front)?, view(NamedView::Top)?, view(self.side)?];
-        let axonometric = self.axonometric.map(view).transpose()?;
-        let arrangement = Arrangement::of(self, [&front, &top, &side], axonometric.as_ref())?;
-        let title = if self.titles.title.is_empty() {
+        let view =
+            |name: NamedView| SheetView::frame_points(&points, name, self.millimeters_per_unit);
+        let [front, top, side] =
+            [view(NamedView::Front)?, view(NamedView::Top)?, view(self.side_view)?];
+        let axonometric = self.axonometric_view.map(view).transpose()?;
+        let arrangement =
+            ViewLayout::arrange_views(self, [&front, &top, &side], axonometric.as_ref())?;
+        let title = if self.title_block.title.is_empty() {
             model_names(models)
         } else {
-            self.titles.title.clone()
+            self.title_block.title.clone()
         };
         let size = DVec2::new(self.paper.width(), self.paper.height());
         let mut page = Page::new(size, title, Some([255; 3]));
-        let ink = self.look.ink.unwrap_or(INK);
-        for placed in &arrangement.placed {
+        let ink = self.style.ink.unwrap_or(INK);
+        for placed in &arrangement.views {
             self.draw_view(&mut page, placed, (models, sections), threads)?;
         }
-        page.layers.extend(cut_line::layers(self, sections, &arrangement, ink));
-        self.draw_apparatus(&mut page, &arrangement, ink);
+        page.layers.extend(section_line::section_line_layers(self, sections, &arrangement, ink));
+        self.draw_annotations(&mut page, &arrangement, ink);
         Ok(page)
     }
 
@@ -177,21 +180,21 @@ impl Sheet {
     fn draw_view(
         &self,
         page: &mut Page,
-        placed: &Placed<'_>,
+        placed: &PlacedView<'_>,
         (models, sections): (&[ModelInstance], &[Plane<World>]),
         threads: usize,
     ) -> Result<(), SheetError> {
         let view = placed.view;
         let mut sections = sections.to_vec();
-        sections.retain(|plane| placed.shows(*plane));
+        sections.retain(|plane| placed.shows_section(*plane));
         let is_outside = NamedView::PRINCIPAL.contains(&view.name) && sections.is_empty();
-        let hidden = if is_outside { self.look.hidden } else { HiddenLines::Removed };
-        let look = LineLook { hidden, ..self.look };
+        let hidden = if is_outside { self.style.hidden_lines } else { HiddenLines::Removed };
+        let look = LineStyle { hidden_lines: hidden, ..self.style };
         let drawing = view.draw((models, &sections), &look, placed.scale, threads)?;
-        let placement = view.placement(&drawing, placed.scale, placed.centre);
-        let (prefix, ink) = (format!("{}-", view.name), self.look.ink.unwrap_or(INK));
-        page.pictures.extend(drawing.pasted(placement, &prefix));
-        page.layers.extend(drawing.layers(&look, placement, &prefix, ink));
+        let placement = view.placement(&drawing, placed.scale, placed.center);
+        let (prefix, ink) = (format!("{}-", view.name), self.style.ink.unwrap_or(INK));
+        page.images.extend(drawing.face_fill_image(placement, &prefix));
+        page.layers.extend(drawing.to_layers(&look, placement, &prefix, ink));
         page.warnings.extend(drawing.warnings);
         page.warnings.sort_unstable();
         page.warnings.dedup();
@@ -199,41 +202,47 @@ impl Sheet {
     }
 
     /// What says that a view has another scale than the sheet, below it.
-    fn other_scales(&self, arrangement: &Arrangement<'_>, ink: Ink) -> Option<Layer> {
-        let other = arrangement.placed.iter().find(|placed| placed.scale != arrangement.scale)?;
-        let (area, height) = (other.area(), self.lettering());
-        let at = DVec2::new(other.centre.x, area.y() + area.height() + 1.8 * height);
+    fn scale_note_layer(&self, arrangement: &ViewLayout<'_>, ink: Ink) -> Option<Layer> {
+        let other = arrangement.views.iter().find(|placed| placed.scale != arrangement.scale)?;
+        let (area, height) = (other.object_area(), self.lettering_height());
+        let at = DVec2::new(other.center.x, area.y() + area.height() + 1.8 * height);
         let text = other.scale.to_string();
-        let label = Label::new(&text, at, height).aligned(Align::Middle);
+        let label = Label::new(&text, at, height).with_align(TextAlign::Middle);
         let mut layer = Layer::new("other-scale", "scale of the last view", label.pen(ink));
         layer.groups.push(Group { strokes: label.strokes(), ..Group::default() });
         Some(layer)
     }
 
     /// Dimensions, scale bar, frame and title block.
-    fn draw_apparatus(&self, page: &mut Page, arrangement: &Arrangement<'_>, ink: Ink) {
+    fn draw_annotations(&self, page: &mut Page, arrangement: &ViewLayout<'_>, ink: Ink) {
         if self.dimensions {
-            page.layers.extend(dimension::overall(self, arrangement, ink));
+            page.layers.extend(dimension::overall_dimension_layers(self, arrangement, ink));
         }
-        page.layers.extend(self.other_scales(arrangement, ink));
-        page.layers.push(scale_bar::layer(self, arrangement.scale, ink));
+        page.layers.extend(self.scale_note_layer(arrangement, ink));
+        page.layers.push(scale_bar::scale_bar_layer(self, arrangement.scale, ink));
         let block = self.title_block_area();
-        page.layers.push(frame::layer(self.paper, block, ink));
+        page.layers.push(frame::frame_layer(self.paper, block, ink));
         let title = page.title.clone();
-        page.layers.extend(title_block::layers(self, &title, arrangement.scale, block, ink));
+        page.layers.extend(title_block::title_block_layers(
+            self,
+            &title,
+            arrangement.scale,
+            block,
+            ink,
+        ));
     }
 
     /// The group of line widths.
-    fn line_group(&self) -> IsoGroup {
-        match self.look.widths {
-            Widths::Iso(group) => group,
-            _ => IsoGroup::HALF,
+    fn line_width_group(&self) -> IsoLineGroup {
+        match self.style.line_widths {
+            LineWidths::Iso(group) => group,
+            _ => IsoLineGroup::MM_0_5,
         }
     }
 
     /// The height of letters: a standard size (ISO 3098) that goes with the paper.
-    fn lettering(&self) -> f64 {
-        match self.line_group().wide() {
+    fn lettering_height(&self) -> f64 {
+        match self.line_width_group().wide_width() {
             wide if wide < 0.4 => 2.5,
             wide if wide < 0.6 => 3.5,
             _ => 5.0,
@@ -242,23 +251,23 @@ impl Sheet {
 
     /// The area within the frame.
     fn drawing_area(&self) -> Rectangle {
-        frame::inside(self.paper)
+        frame::area_within_frame(self.paper)
     }
 
     /// Where the scale bar is: in the lower left corner of the frame, or above the title block where that takes the whole width.
     fn scale_bar_area(&self) -> Rectangle {
-        scale_bar::area(self)
+        scale_bar::scale_bar_area(self)
     }
 
     /// Where the title block is: in the lower right corner of the frame.
     fn title_block_area(&self) -> Rectangle {
-        title_block::area(self.drawing_area())
+        title_block::title_block_area(self.drawing_area())
     }
 }
 
 /// A rectangle by numbers that are known to be right.
-fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Rectangle {
-    let fallback = || Rectangle::of_size(1.0, 1.0);
+fn rectangle_from_size(x: f64, y: f64, width: f64, height: f64) -> Rectangle {
+    let fallback = || Rectangle::from_size(1.0, 1.0);
     let rectangle = Rectangle::new(x, y, width.max(1e-6), height.max(1e-6)).or_else(|_| fallback());
-    rectangle.unwrap_or_else(|_| Paper::A4.area())
+    rectangle.unwrap_or_else(|_| Paper::A4.to_rectangle())
 }

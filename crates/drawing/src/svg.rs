@@ -3,8 +3,8 @@
 //! A layer is a group with its pen, an object a group in it with one path; both have ids and titles. Paths go by relative steps of
 //! whole micrometres, so they are short, and their sums are exact.
 
-use super::fixed::{length, text, thousandths};
-use super::page::{Cap, Group, Ink, Join, Layer, Page, Pasted, Pen, Place, Polyline};
+use super::fixed_decimal::{format_millimeters, format_thousandths, write_thousandths};
+use super::page::{Cap, Group, Ink, Join, Layer, Page, PagePoint, Pen, PlacedImage, Polyline};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write;
@@ -13,20 +13,20 @@ impl Page {
     /// The page as an SVG file.
     #[must_use]
     pub fn to_svg(&self) -> String {
-        let [width, height] = self.size.to_array().map(length);
+        let [width, height] = self.size.to_array().map(format_millimeters);
         let mut svg = String::new();
         let _ = write!(
             svg,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" \
              viewBox=\"0 0 {width} {height}\">\n<title>{}</title>\n",
-            escaped(&self.title)
+            escape_xml(&self.title)
         );
         if let Some(paper) = self.paper {
-            let paper = color(paper);
+            let paper = css_color(paper);
             let _ = writeln!(svg, "<rect width=\"{width}\" height=\"{height}\" fill=\"{paper}\"/>");
         }
-        for pasted in &self.pictures {
-            write_picture(&mut svg, pasted);
+        for pasted in &self.images {
+            write_image(&mut svg, pasted);
         }
         for layer in &self.layers {
             write_layer(&mut svg, layer);
@@ -37,36 +37,36 @@ impl Page {
 }
 
 /// A picture, within the file.
-fn write_picture(svg: &mut String, pasted: &Pasted) {
+fn write_image(svg: &mut String, pasted: &PlacedImage) {
     let [x, y, width, height] =
         [pasted.corner[0], pasted.corner[1], pasted.size[0], pasted.size[1]]
-            .map(|n| text(n.into()));
+            .map(|n| format_thousandths(n.into()));
     let _ = write!(
         svg,
         "<image id=\"{}\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" \
          preserveAspectRatio=\"none\" href=\"data:image/png;base64,",
-        escaped(&pasted.id)
+        escape_xml(&pasted.id)
     );
     STANDARD.encode_string(pasted.picture.to_png(), svg);
     *svg += "\"/>\n";
 }
 
 fn write_layer(svg: &mut String, layer: &Layer) {
-    let id = escaped(&layer.id);
+    let id = escape_xml(&layer.id);
     let _ = write!(
         svg,
         "<g id=\"{id}\" {}>\n<title>{}</title>\n",
-        attributes(&layer.pen),
-        escaped(&layer.title)
+        pen_attributes(&layer.pen),
+        escape_xml(&layer.title)
     );
     for group in &layer.groups {
         if group.id.is_empty() {
             write_paths(svg, group, &layer.pen);
             continue;
         }
-        let _ = writeln!(svg, "<g id=\"{id}.{}\">", escaped(&group.id));
+        let _ = writeln!(svg, "<g id=\"{id}.{}\">", escape_xml(&group.id));
         if !group.title.is_empty() {
-            let _ = writeln!(svg, "<title>{}</title>", escaped(&group.title));
+            let _ = writeln!(svg, "<title>{}</title>", escape_xml(&group.title));
         }
         write_paths(svg, group, &layer.pen);
         *svg += "</g>\n";
@@ -81,15 +81,16 @@ fn write_paths(svg: &mut String, group: &Group, pen: &Pen) {
         .map(|line| (line, pen.fitted_dashes(line)))
         .partition(|(_, d)| !d.is_empty());
     if !whole.is_empty() {
-        let _ = writeln!(svg, "<path d=\"{}\"/>", path(whole.into_iter().map(|(line, _)| line)));
+        let _ =
+            writeln!(svg, "<path d=\"{}\"/>", path_data(whole.into_iter().map(|(line, _)| line)));
     }
     for (line, dashes) in dashed {
-        let dashes: Vec<String> = dashes.into_iter().map(length).collect();
-        let (path, dashes) = (path([line]), dashes.join(" "));
+        let dashes: Vec<String> = dashes.into_iter().map(format_millimeters).collect();
+        let (path, dashes) = (path_data([line]), dashes.join(" "));
         let _ = writeln!(svg, "<path d=\"{path}\" stroke-dasharray=\"{dashes}\"/>");
     }
     if !group.fills.is_empty() {
-        let (path, ink) = (path(&group.fills), color(pen.ink));
+        let (path, ink) = (path_data(&group.fills), css_color(pen.ink));
         let _ = writeln!(
             svg,
             "<path d=\"{path}\" fill=\"{ink}\" fill-rule=\"evenodd\" stroke=\"none\"/>"
@@ -98,11 +99,11 @@ fn write_paths(svg: &mut String, group: &Group, pen: &Pen) {
 }
 
 /// What a pen is in the words of SVG; what is SVG's own default is left out.
-fn attributes(pen: &Pen) -> String {
+fn pen_attributes(pen: &Pen) -> String {
     let mut words = format!(
         "fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"",
-        color(pen.ink),
-        length(pen.width)
+        css_color(pen.ink),
+        format_millimeters(pen.width)
     );
     match pen.cap {
         Cap::Butt => {}
@@ -118,7 +119,7 @@ fn attributes(pen: &Pen) -> String {
 }
 
 /// A colour as `#rrggbb`, or `#rgb` where that says the same.
-fn color([r, g, b]: Ink) -> String {
+fn css_color([r, g, b]: Ink) -> String {
     if [r, g, b].iter().all(|c| c % 17 == 0) {
         return format!("#{:x}{:x}{:x}", r / 17, g / 17, b / 17);
     }
@@ -126,40 +127,40 @@ fn color([r, g, b]: Ink) -> String {
 }
 
 /// The `d` of a path through all these lines.
-fn path<'a>(lines: impl IntoIterator<Item = &'a Polyline>) -> String {
-    let mut path = Path { out: Vec::new(), at: [0, 0], is_begun: false };
+fn path_data<'a>(lines: impl IntoIterator<Item = &'a Polyline>) -> String {
+    let mut path = PathWriter { out: Vec::new(), position: [0, 0], has_started: false };
     for line in lines {
-        path.line(line);
+        path.push_polyline(line);
     }
     String::from_utf8_lossy(&path.out).into_owned()
 }
 
 /// A path being written.
-struct Path {
+struct PathWriter {
     out: Vec<u8>,
-    at: Place,
-    is_begun: bool,
+    position: PagePoint,
+    has_started: bool,
 }
 
-impl Path {
-    fn line(&mut self, line: &Polyline) {
+impl PathWriter {
+    fn push_polyline(&mut self, line: &Polyline) {
         let [start, rest @ ..] = line.points.as_slice() else { return };
-        self.out.push(if self.is_begun { b'm' } else { b'M' });
-        self.numbers(*start);
-        self.is_begun = true;
+        self.out.push(if self.has_started { b'm' } else { b'M' });
+        self.push_move_to(*start);
+        self.has_started = true;
         let mut command = 0;
         for point in rest {
-            command = self.step(*point, command);
+            command = self.push_line_to(*point, command);
         }
         if line.closed {
             self.out.push(b'z');
-            self.at = *start;
+            self.position = *start;
         }
     }
 
     /// A straight line to a place, and the command that was used; a command that is the same as the one before is not repeated.
-    fn step(&mut self, to: Place, last: u8) -> u8 {
-        let (dx, dy) = (self.step_of(0, to), self.step_of(1, to));
+    fn push_line_to(&mut self, to: PagePoint, last: u8) -> u8 {
+        let (dx, dy) = (self.relative_step(0, to), self.relative_step(1, to));
         let command = match (dx, dy) {
             (_, 0) => b'h',
             (0, _) => b'v',
@@ -171,34 +172,34 @@ impl Path {
             self.out.push(b' ');
         }
         match command {
-            b'h' => thousandths(&mut self.out, dx),
-            b'v' => thousandths(&mut self.out, dy),
-            _ => self.pair(dx, dy),
+            b'h' => write_thousandths(&mut self.out, dx),
+            b'v' => write_thousandths(&mut self.out, dy),
+            _ => self.push_pair(dx, dy),
         }
-        self.at = to;
+        self.position = to;
         command
     }
 
-    fn step_of(&self, axis: usize, to: Place) -> i64 {
-        i64::from(to[axis]) - i64::from(self.at[axis])
+    fn relative_step(&self, axis: usize, to: PagePoint) -> i64 {
+        i64::from(to[axis]) - i64::from(self.position[axis])
     }
 
-    fn numbers(&mut self, to: Place) {
-        self.pair(self.step_of(0, to), self.step_of(1, to));
-        self.at = to;
+    fn push_move_to(&mut self, to: PagePoint) {
+        self.push_pair(self.relative_step(0, to), self.relative_step(1, to));
+        self.position = to;
     }
 
-    fn pair(&mut self, x: i64, y: i64) {
-        thousandths(&mut self.out, x);
+    fn push_pair(&mut self, x: i64, y: i64) {
+        write_thousandths(&mut self.out, x);
         if y >= 0 {
             self.out.push(b' ');
         }
-        thousandths(&mut self.out, y);
+        write_thousandths(&mut self.out, y);
     }
 }
 
 /// A text that is safe between tags and in quotation marks. Characters that XML has no place for are left out.
-pub(super) fn escaped(text: &str) -> String {
+pub(super) fn escape_xml(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
@@ -219,14 +220,14 @@ mod tests {
     use super::*;
     use glam::DVec2;
 
-    fn line(points: &[[i32; 2]], closed: bool) -> Polyline {
+    fn polyline(points: &[[i32; 2]], closed: bool) -> Polyline {
         Polyline { points: points.to_vec(), closed }
     }
 
     #[test]
     fn paths_are_short_and_come_back_to_the_micrometre() {
         let lines = [
-            line(
+            polyline(
                 &[
                     [1000, 2000],
                     [1500, 2000],
@@ -238,11 +239,11 @@ mod tests {
                 ],
                 false,
             ),
-            line(&[[0, 0], [500, 500], [0, 1000]], true),
-            line(&[[10, 10], [20, 10]], false),
+            polyline(&[[0, 0], [500, 500], [0, 1000]], true),
+            polyline(&[[10, 10], [20, 10]], false),
         ];
         assert_eq!(
-            path(&lines),
+            path_data(&lines),
             "M1 2h.5-.25v-1l-.25 .25-.1 .1 .1 .05m-1-1.4l.5 .5-.5 .5zm.01 .01h.01"
         );
     }
@@ -251,8 +252,8 @@ mod tests {
     fn names_cannot_break_the_file() {
         let nasty = "</title><script>\u{0}\u{1b}alert(\"1 & 2\")</script>\u{ffff}";
         let mut page = Page::new(DVec2::new(10.0, 10.0), nasty, Some([255; 3]));
-        let mut layer = Layer::new("a\"b", nasty, Pen::of_width(0.1, [1, 2, 3]));
-        let strokes = vec![line(&[[0, 0], [1, 1]], false)];
+        let mut layer = Layer::new("a\"b", nasty, Pen::solid(0.1, [1, 2, 3]));
+        let strokes = vec![polyline(&[[0, 0], [1, 1]], false)];
         layer.groups.push(Group { id: "1".into(), title: nasty.into(), strokes, fills: vec![] });
         page.layers.push(layer);
         let svg = page.to_svg();
@@ -265,7 +266,7 @@ mod tests {
 
     #[test]
     fn colours_are_as_on_a_web_page() {
-        assert_eq!(color([255, 0, 0x33]), "#f03");
-        assert_eq!(color([1, 0, 0x33]), "#010033");
+        assert_eq!(css_color([255, 0, 0x33]), "#f03");
+        assert_eq!(css_color([1, 0, 0x33]), "#010033");
     }
 }

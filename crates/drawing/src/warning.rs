@@ -12,18 +12,18 @@ pub enum Warning {
         object: String,
     },
     /// The cut through an object has too many points for a cap.
-    SectionTooFine {
+    SectionTooComplex {
         /// The object.
         object: String,
     },
     /// The style shows surfaces, and only line drawings are cut open.
-    SectionsUnseen,
+    SectionsIgnored,
     /// Only pixels have viewports.
-    ViewportsUnseen,
+    ViewportsIgnored,
     /// Not all crossings of surfaces were looked for.
-    CrossingsLeftOut,
+    IntersectionsIncomplete,
     /// Not all of the hatching was drawn.
-    HatchingLeftOut,
+    HatchingIncomplete,
 }
 
 impl fmt::Display for Warning {
@@ -33,20 +33,20 @@ impl fmt::Display for Warning {
                 f,
                 "the cut through `{object}` does not close, for its surface is open: it has no cap and no hatching there"
             ),
-            Self::SectionTooFine { object } => write!(
+            Self::SectionTooComplex { object } => write!(
                 f,
                 "the cut through `{object}` has too many points: it has no cap and no hatching"
             ),
-            Self::SectionsUnseen => f.write_str(
+            Self::SectionsIgnored => f.write_str(
                 "sections cut line drawings only: this style shows the models whole; choose another, such as `--style lines`",
             ),
-            Self::ViewportsUnseen => f.write_str(
+            Self::ViewportsIgnored => f.write_str(
                 "only PNG pictures have viewports and pairs of eyes: this one shows the scene's own camera alone",
             ),
-            Self::CrossingsLeftOut => f.write_str(
+            Self::IntersectionsIncomplete => f.write_str(
                 "so many surfaces may cross that not all were compared: some lines where they cross may be missing",
             ),
-            Self::HatchingLeftOut => {
+            Self::HatchingIncomplete => {
                 f.write_str("there is too much hatching: some of it is missing; make it wider")
             }
         }

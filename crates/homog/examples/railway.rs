@@ -20,7 +20,7 @@ fn main() {
     println!("Sleepers, evenly spaced on the ground:");
     for distance in [2.0, 4.0, 8.0, 16.0, 32.0] {
         let ends = [rail(-0.75, distance), rail(0.75, distance)];
-        let [left, right] = ends.map(|end| view_to_clip.point(end).divide());
+        let [left, right] = ends.map(|end| view_to_clip.transform_point(end).divide());
         if let (Some(left), Some(right)) = (left, right) {
             println!("  {distance:>2} ahead: from {left:.3} to {right:.3}");
         }
@@ -30,11 +30,12 @@ fn main() {
     println!("\nThe rails meet in {meeting:.3}; the sleepers, across the gaze, never:");
     println!("  their images run to {}", view_to_clip.vanishing_point(Vector::X, 0.0));
 
-    let [near, far]: [HPoint<Clip>; 2] = [2.0, 32.0].map(|d| view_to_clip.point(rail(0.75, d)));
-    match Foreshortening::between(near, far) {
+    let [near, far]: [HPoint<Clip>; 2] =
+        [2.0, 32.0].map(|d| view_to_clip.transform_point(rail(0.75, d)));
+    match Foreshortening::from_endpoints(near, far) {
         Ok(f) => println!(
             "\nThe middle of the rail is seen at {:.3} of its image.",
-            f.image(0.5).unwrap_or(0.5)
+            f.image_parameter(0.5).unwrap_or(0.5)
         ),
         Err(torn) => println!("\n{torn}"),
     }

@@ -121,21 +121,21 @@ impl<A: Space, B: Space> Affine<A, B> {
 
     /// The image of a point.
     #[must_use]
-    pub fn point(self, point: Point<A>) -> Point<B> {
+    pub fn transform_point(self, point: Point<A>) -> Point<B> {
         Point::from_raw(self.raw.transform_point3(point.raw()))
     }
 
     /// Writes the images of `points` to `images`, as many as both have: the same bits as
     /// [`point`](Self::point), in one pass.
-    pub fn points_into(self, points: &[Point<A>], images: &mut [Point<B>]) {
+    pub fn transform_points_into(self, points: &[Point<A>], images: &mut [Point<B>]) {
         for (point, image) in points.iter().zip(images) {
-            *image = self.point(*point);
+            *image = self.transform_point(*point);
         }
     }
 
     /// The image of a vector: the translation does not touch it.
     #[must_use]
-    pub fn vector(self, vector: Vector<A>) -> Vector<B> {
+    pub fn transform_vector(self, vector: Vector<A>) -> Vector<B> {
         Vector::from_raw(self.raw.transform_vector3(vector.raw()))
     }
 
@@ -143,8 +143,8 @@ impl<A: Space, B: Space> Affine<A, B> {
     /// times its determinant, so that this works for flattening maps too and the normal of a
     /// mirrored surface keeps its side.
     #[must_use]
-    pub fn normal(self, normal: Normal<A>) -> Normal<B> {
-        let [x, y, z] = self.linear();
+    pub fn transform_normal(self, normal: Normal<A>) -> Normal<B> {
+        let [x, y, z] = self.linear_columns();
         let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
         let mirrored = x.dot(cofactors.x_axis) < 0.0;
         let image = cofactors * normal.raw();
@@ -154,12 +154,12 @@ impl<A: Space, B: Space> Affine<A, B> {
     /// The image of a plane; `None` if the map flattens space, or the image has a coefficient that
     /// is not finite.
     #[must_use]
-    pub fn plane(self, plane: Plane<A>) -> Option<Plane<B>> {
+    pub fn transform_plane(self, plane: Plane<A>) -> Option<Plane<B>> {
         let image = self.inverse()?.raw.transpose() * plane.raw();
         image.is_finite().then_some(Plane::from_raw(image))
     }
 
-    fn linear(self) -> [DVec3; 3] {
+    fn linear_columns(self) -> [DVec3; 3] {
         let m = self.raw;
         [m.x_axis.truncate(), m.y_axis.truncate(), m.z_axis.truncate()]
     }
@@ -168,7 +168,7 @@ impl<A: Space, B: Space> Affine<A, B> {
     /// it flattens.
     #[must_use]
     pub fn determinant(self) -> f64 {
-        let [x, y, z] = self.linear();
+        let [x, y, z] = self.linear_columns();
         x.dot(y.cross(z))
     }
 
@@ -192,7 +192,7 @@ impl<A: Space, B: Space> Affine<A, B> {
         }
         // Columns near length 1 keep the determinant from over- or underflowing; powers of two cost
         // no digit.
-        let columns = self.linear();
+        let columns = self.linear_columns();
         let exponents = columns.map(|column| match column.abs().max_element() {
             0.0 => 0,
             largest => -libm::ilogb(largest),
@@ -228,11 +228,14 @@ mod tests {
         let turn = Affine::<Model, Model>::rotation_x(0.3);
         let map = turn.then(Map::translation(Vector::new(1.0, -2.0, 3.0)));
         let p = Point::new(0.5, 0.25, -4.0);
-        let back = map.inverse().expect("a rigid map has an inverse").point(map.point(p));
+        let back = map
+            .inverse()
+            .expect("a rigid map has an inverse")
+            .transform_point(map.transform_point(p));
         assert!((back - p).length() < 1e-14);
         assert_eq!(Map::scale(1.0, 0.0, 1.0).inverse(), None);
         let tiny = Map::scale(1e-150, 1e-300, 1.0).inverse().expect("small is not flat");
-        assert!((tiny.vector(Vector::Y).y() / 1e300 - 1.0).abs() < 1e-15);
+        assert!((tiny.transform_vector(Vector::Y).y() / 1e300 - 1.0).abs() < 1e-15);
     }
 
     #[test]
@@ -246,10 +249,10 @@ mod tests {
     #[test]
     fn normals_stay_perpendicular_under_uneven_scale_and_keep_their_side_in_a_mirror() {
         let squash = Map::scale(1.0, 0.25, 1.0);
-        let n = squash.normal(Normal::new(1.0, 1.0, 0.0));
-        assert_eq!(n.dot(squash.vector(Vector::new(1.0, -1.0, 0.0))), 0.0);
+        let n = squash.transform_normal(Normal::new(1.0, 1.0, 0.0));
+        assert_eq!(n.dot(squash.transform_vector(Vector::new(1.0, -1.0, 0.0))), 0.0);
         let mirror = Map::scale(-1.0, 1.0, 1.0);
-        assert_eq!(mirror.normal(Normal::new(0.0, 1.0, 0.0)), Normal::new(0.0, 1.0, 0.0));
+        assert_eq!(mirror.transform_normal(Normal::new(0.0, 1.0, 0.0)), Normal::new(0.0, 1.0, 0.0));
     }
 
     #[test]
@@ -262,7 +265,10 @@ mod tests {
         let p = Point::new(1.0, 2.0, 3.0);
         for (axis, turn) in turns {
             let same = Map::rotation(axis, 0.7).expect("an axis");
-            assert!((same.point(p) - turn.point(p)).length() < 1e-15, "about {axis}");
+            assert!(
+                (same.transform_point(p) - turn.transform_point(p)).length() < 1e-15,
+                "about {axis}"
+            );
         }
         assert_eq!(Map::rotation(Vector::ZERO, 0.7), None);
     }
@@ -280,10 +286,10 @@ mod tests {
         let by = Vector::new(1.0, 2.0, 3.0);
         let map = Projective::from(Map::translation(by));
         let (x, y, z, h) = (2.0, -6.0, 4.0, 4.0);
-        let moved = map.hpoint(crate::HPoint::new(x, y, z, h));
+        let moved = map.transform_hpoint(crate::HPoint::new(x, y, z, h));
         assert_eq!(moved.divide(), Some(Point::new(x / h + 1.0, y / h + 2.0, z / h + 3.0)));
         let direction = crate::HPoint::new(x, y, z, 0.0);
-        assert_eq!(map.hpoint(direction).raw(), direction.raw());
+        assert_eq!(map.transform_hpoint(direction).raw(), direction.raw());
     }
 
     #[test]
@@ -297,16 +303,23 @@ mod tests {
         let map = Map::from_rows(rows).expect("affine");
         let (p, h) = (Point::new(1.0, -2.0, 3.0), 4.0);
         let lifted = crate::HPoint::from_raw(crate::HPoint::from(p).raw() * h);
-        let image = Projective::from(map).hpoint(lifted);
+        let image = Projective::from(map).transform_hpoint(lifted);
         assert_eq!(image.w(), h);
-        assert_eq!(image.raw(), crate::HPoint::from(map.point(p)).raw() * h, "M(hp) = h Mp");
+        assert_eq!(
+            image.raw(),
+            crate::HPoint::from(map.transform_point(p)).raw() * h,
+            "M(hp) = h Mp"
+        );
         assert_eq!(image.divide(), Some(Point::new(10.0, 8.5, 4.0)));
     }
 
     #[test]
     fn quaternions_of_any_length_turn_alike_and_zero_is_refused() {
         let half_turn = Map::from_quaternion([0.0, 3e-200, 0.0, 0.0]).expect("not zero");
-        assert_eq!(half_turn.point(Point::new(1.0, 2.0, 3.0)), Point::new(-1.0, 2.0, -3.0));
+        assert_eq!(
+            half_turn.transform_point(Point::new(1.0, 2.0, 3.0)),
+            Point::new(-1.0, 2.0, -3.0)
+        );
         assert_eq!(Map::from_quaternion([0.0; 4]), None);
         assert_eq!(Map::from_quaternion([f64::NAN, 0.0, 0.0, 1.0]), None);
     }

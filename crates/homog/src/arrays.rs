@@ -8,15 +8,15 @@
 use crate::{Affine, Homography, Projective, Space};
 use glam::{DMat3, DMat4};
 
-fn rows_of<const N: usize>(columns: [[f64; N]; N]) -> [[f64; N]; N] {
+fn transpose_columns<const N: usize>(columns: [[f64; N]; N]) -> [[f64; N]; N] {
     core::array::from_fn(|i| core::array::from_fn(|j| columns[j][i]))
 }
 
-fn flat4(lines: [[f64; 4]; 4]) -> [f64; 16] {
+fn flatten4(lines: [[f64; 4]; 4]) -> [f64; 16] {
     core::array::from_fn(|i| lines[i / 4][i % 4])
 }
 
-fn flat3(lines: [[f64; 3]; 3]) -> [f64; 9] {
+fn flatten3(lines: [[f64; 3]; 3]) -> [f64; 9] {
     core::array::from_fn(|i| lines[i / 3][i % 3])
 }
 
@@ -24,13 +24,13 @@ impl<A: Space, B: Space> Projective<A, B> {
     /// The map with the given rows, as a book prints them. The caller vouches for the spaces.
     #[must_use]
     pub fn from_rows(rows: [[f64; 4]; 4]) -> Self {
-        Self::from_raw(DMat4::from_cols_array_2d(&rows_of(rows)))
+        Self::from_raw(DMat4::from_cols_array_2d(&transpose_columns(rows)))
     }
 
     /// The rows of the matrix.
     #[must_use]
     pub fn rows(self) -> [[f64; 4]; 4] {
-        rows_of(self.raw().to_cols_array_2d())
+        transpose_columns(self.raw().to_cols_array_2d())
     }
 
     /// The map of sixteen numbers, row after row.
@@ -42,7 +42,7 @@ impl<A: Space, B: Space> Projective<A, B> {
     /// The sixteen numbers, row after row.
     #[must_use]
     pub fn to_row_major(self) -> [f64; 16] {
-        flat4(self.rows())
+        flatten4(self.rows())
     }
 
     /// The map of sixteen numbers, column after column.
@@ -62,13 +62,13 @@ impl<A: Space, B: Space> Affine<A, B> {
     /// The map with the given rows; `None` unless the last is exactly (0, 0, 0, 1).
     #[must_use]
     pub fn from_rows(rows: [[f64; 4]; 4]) -> Option<Self> {
-        Self::from_raw(DMat4::from_cols_array_2d(&rows_of(rows)))
+        Self::from_raw(DMat4::from_cols_array_2d(&transpose_columns(rows)))
     }
 
     /// The rows of the matrix; the last is (0, 0, 0, 1).
     #[must_use]
     pub fn rows(self) -> [[f64; 4]; 4] {
-        rows_of(self.raw().to_cols_array_2d())
+        transpose_columns(self.raw().to_cols_array_2d())
     }
 
     /// The map of sixteen numbers, row after row; `None` unless the last four are 0, 0, 0, 1.
@@ -80,7 +80,7 @@ impl<A: Space, B: Space> Affine<A, B> {
     /// The sixteen numbers, row after row.
     #[must_use]
     pub fn to_row_major(self) -> [f64; 16] {
-        flat4(self.rows())
+        flatten4(self.rows())
     }
 
     /// The map of sixteen numbers, column after column as in glTF; `None` unless every fourth is 0,
@@ -101,13 +101,13 @@ impl Homography {
     /// The map with the given rows, as a book prints them.
     #[must_use]
     pub fn from_rows(rows: [[f64; 3]; 3]) -> Self {
-        Self::from_raw(DMat3::from_cols_array_2d(&rows_of(rows)))
+        Self::from_raw(DMat3::from_cols_array_2d(&transpose_columns(rows)))
     }
 
     /// The rows of the matrix.
     #[must_use]
     pub fn rows(self) -> [[f64; 3]; 3] {
-        rows_of(self.raw().to_cols_array_2d())
+        transpose_columns(self.raw().to_cols_array_2d())
     }
 
     /// The map of nine numbers, row after row.
@@ -119,7 +119,7 @@ impl Homography {
     /// The nine numbers, row after row.
     #[must_use]
     pub fn to_row_major(self) -> [f64; 9] {
-        flat3(self.rows())
+        flatten3(self.rows())
     }
 
     /// The map of nine numbers, column after column.
@@ -163,7 +163,7 @@ mod tests {
         let theirs = map.to_column_major(); // read by rows: the matrix of v' = v M
         let image: [f64; 4] =
             core::array::from_fn(|j| (0..4).map(|i| v[i] * theirs[4 * i + j]).sum());
-        assert_eq!(<[f64; 4]>::from(map.hpoint(v.into())), image);
+        assert_eq!(<[f64; 4]>::from(map.transform_hpoint(v.into())), image);
     }
 
     #[test]

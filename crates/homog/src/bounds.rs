@@ -25,7 +25,7 @@ impl<S: Space> Bounds<S> {
     /// The smallest box that holds all `points`; `None` if there are none or one of them is not
     /// finite.
     #[must_use]
-    pub fn of(points: impl IntoIterator<Item = Point<S>>) -> Option<Self> {
+    pub fn from_points(points: impl IntoIterator<Item = Point<S>>) -> Option<Self> {
         let mut points = points.into_iter();
         let first = points.next()?;
         let (mut min, mut max) = (first.raw(), first.raw());
@@ -96,7 +96,7 @@ impl<S: Space> Bounds<S> {
     /// box; `None` if a corner leaves the finite numbers.
     #[must_use]
     pub fn transformed<T: Space>(self, map: Affine<S, T>) -> Option<Bounds<T>> {
-        Bounds::of(self.corners().map(|corner| map.point(corner)))
+        Bounds::from_points(self.corners().map(|corner| map.transform_point(corner)))
     }
 }
 
@@ -107,27 +107,29 @@ mod tests {
 
     #[test]
     fn nothing_and_nan_have_no_bounds() {
-        assert_eq!(Bounds::<World>::of([]), None);
+        assert_eq!(Bounds::<World>::from_points([]), None);
         let nan = Point::new(0.0, f64::NAN, 0.0);
-        assert_eq!(Bounds::<World>::of([Point::ORIGIN, nan]), None);
-        assert_eq!(Bounds::<World>::of([nan, Point::ORIGIN]), None);
+        assert_eq!(Bounds::<World>::from_points([Point::ORIGIN, nan]), None);
+        assert_eq!(Bounds::<World>::from_points([nan, Point::ORIGIN]), None);
     }
 
     #[test]
     fn corners_are_all_different_and_span_the_box_again() {
-        let bounds = Bounds::<Model>::of([[-1.0, 2.0, 3.0], [4.0, 5.0, 7.0]].map(Point::from))
-            .expect("two finite points");
+        let bounds =
+            Bounds::<Model>::from_points([[-1.0, 2.0, 3.0], [4.0, 5.0, 7.0]].map(Point::from))
+                .expect("two finite points");
         let corners = bounds.corners();
         for (i, a) in corners.iter().enumerate() {
             assert!(bounds.contains(*a));
             assert!(corners[..i].iter().all(|b| a != b), "corner {i} is there twice");
         }
-        assert_eq!(Bounds::of(corners), Some(bounds));
+        assert_eq!(Bounds::from_points(corners), Some(bounds));
     }
 
     #[test]
     fn a_turned_box_is_held_by_its_new_bounds() {
-        let bounds = Bounds::<Model>::of([[-1.0; 3], [1.0; 3]].map(Point::from)).expect("a box");
+        let bounds =
+            Bounds::<Model>::from_points([[-1.0; 3], [1.0; 3]].map(Point::from)).expect("a box");
         let turn = Affine::<Model, World>::rotation_z(core::f64::consts::FRAC_PI_4);
         let turned = bounds.transformed(turn).expect("finite");
         assert!((turned.size().x() - 8_f64.sqrt()).abs() < 1e-15);

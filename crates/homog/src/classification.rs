@@ -123,7 +123,7 @@ impl fmt::Display for KindReason {
             }
             Self::WVaries { bottom_row } => {
                 f.write_str("w = ")?;
-                form(f, *bottom_row)?;
+                write_linear_form(f, *bottom_row)?;
                 f.write_str(" depends on the point")
             }
             Self::WVanishes => f.write_str("w is 0 everywhere, so that no point has an image"),
@@ -132,7 +132,7 @@ impl fmt::Display for KindReason {
 }
 
 /// The linear form p x + q y + r z + h as people write it.
-fn form(f: &mut fmt::Formatter<'_>, coefficients: [f64; 4]) -> fmt::Result {
+fn write_linear_form(f: &mut fmt::Formatter<'_>, coefficients: [f64; 4]) -> fmt::Result {
     let mut first = true;
     for (c, name) in coefficients.into_iter().zip(["x", "y", "z", ""]) {
         if c == 0.0 {
@@ -256,7 +256,7 @@ mod tests {
         assert_eq!(map.to_affine(), None);
         let (a, b) = ([1.0, 2.0, 3.0, 4.0], [-5.0, 6.0, 7.0, 8.0]);
         let sum: [f64; 4] = core::array::from_fn(|i| a[i] + b[i]);
-        let image = |v: [f64; 4]| map.hpoint(v.into()).raw();
+        let image = |v: [f64; 4]| map.transform_hpoint(v.into()).raw();
         assert_eq!(image(sum), image(a) + image(b));
     }
 

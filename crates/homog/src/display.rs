@@ -6,7 +6,7 @@
 use crate::{HPoint, Normal, Point, Space, Vector};
 use core::fmt::{Display, Formatter, Result};
 
-fn tuple(f: &mut Formatter<'_>, coordinates: &[f64]) -> Result {
+fn write_tuple(f: &mut Formatter<'_>, coordinates: &[f64]) -> Result {
     for (i, c) in coordinates.iter().enumerate() {
         f.write_str(if i == 0 { "(" } else { ", " })?;
         // Adding 0 turns −0 into 0 and leaves all other numbers alone.
@@ -17,25 +17,25 @@ fn tuple(f: &mut Formatter<'_>, coordinates: &[f64]) -> Result {
 
 impl<S: Space> Display for Point<S> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        tuple(f, &self.raw().to_array())
+        write_tuple(f, &self.raw().to_array())
     }
 }
 
 impl<S: Space> Display for Vector<S> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        tuple(f, &self.raw().to_array())
+        write_tuple(f, &self.raw().to_array())
     }
 }
 
 impl<S: Space> Display for Normal<S> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        tuple(f, &self.raw().to_array())
+        write_tuple(f, &self.raw().to_array())
     }
 }
 
 impl<S: Space> Display for HPoint<S> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        tuple(f, &self.raw().to_array())
+        write_tuple(f, &self.raw().to_array())
     }
 }
 

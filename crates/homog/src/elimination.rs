@@ -6,10 +6,10 @@
 //! singular, a small unit does not.
 
 /// A pivot of a balanced matrix up to this size is rounding noise.
-const NOISE: f64 = 4.0 * f64::EPSILON;
+const ROUNDING_NOISE: f64 = 4.0 * f64::EPSILON;
 
 /// What elimination finds.
-pub(crate) struct Eliminated<const N: usize> {
+pub(crate) struct Elimination<const N: usize> {
     /// The number of pivots above the noise.
     pub(crate) rank: usize,
     /// The inverse, by rows; `None` if the rank is not full or an entry is not finite.
@@ -17,32 +17,35 @@ pub(crate) struct Eliminated<const N: usize> {
 }
 
 /// Eliminates a matrix given by rows, with complete pivoting.
-pub(crate) fn eliminate<const N: usize>(rows: [[f64; N]; N]) -> Eliminated<N> {
+pub(crate) fn eliminate_full_pivoting<const N: usize>(rows: [[f64; N]; N]) -> Elimination<N> {
     if !rows.iter().flatten().all(|entry| entry.is_finite()) {
-        return Eliminated { rank: 0, inverse: None };
+        return Elimination { rank: 0, inverse: None };
     }
-    let (mut left, row_exponents, column_exponents) = balance(rows);
-    let mut right = identity::<N>();
+    let (mut left, row_exponents, column_exponents) = equilibrate(rows);
+    let mut right = identity_rows::<N>();
     let mut column_of = [0; N];
     for step in 0..N {
-        let (row, column) = pivot(&left, step, &column_of);
-        if left[row][column].abs() <= NOISE {
-            return Eliminated { rank: step, inverse: None };
+        let (row, column) = find_pivot(&left, step, &column_of);
+        if left[row][column].abs() <= ROUNDING_NOISE {
+            return Elimination { rank: step, inverse: None };
         }
         left.swap(step, row);
         right.swap(step, row);
         column_of[step] = column;
         clear_column(&mut left, &mut right, step, column);
     }
-    Eliminated { rank: N, inverse: unbalance(right, column_of, row_exponents, column_exponents) }
+    Elimination {
+        rank: N,
+        inverse: undo_equilibration(right, column_of, row_exponents, column_exponents),
+    }
 }
 
-fn identity<const N: usize>() -> [[f64; N]; N] {
+fn identity_rows<const N: usize>() -> [[f64; N]; N] {
     core::array::from_fn(|i| core::array::from_fn(|j| f64::from(u8::from(i == j))))
 }
 
 /// The matrix with rows and columns scaled, and the exponents of two they were multiplied by.
-fn balance<const N: usize>(rows: [[f64; N]; N]) -> ([[f64; N]; N], [i32; N], [i32; N]) {
+fn equilibrate<const N: usize>(rows: [[f64; N]; N]) -> ([[f64; N]; N], [i32; N], [i32; N]) {
     let mut a = rows;
     let row_exponents = core::array::from_fn(|i| {
         let exponent = -exponent_of(a[i].iter().copied());
@@ -64,7 +67,11 @@ fn exponent_of(entries: impl Iterator<Item = f64>) -> i32 {
 }
 
 /// Row and column of the largest entry that is in no pivot's row or column yet.
-fn pivot<const N: usize>(a: &[[f64; N]; N], step: usize, column_of: &[usize; N]) -> (usize, usize) {
+fn find_pivot<const N: usize>(
+    a: &[[f64; N]; N],
+    step: usize,
+    column_of: &[usize; N],
+) -> (usize, usize) {
     let mut best = (step, 0);
     let mut largest = -1.0;
     for (i, row) in a.iter().enumerate().skip(step) {
@@ -99,7 +106,7 @@ fn clear_column<const N: usize>(
 
 /// Puts the rows of the balanced inverse where they belong and takes the scaling back: the inverse
 /// of R A C is C⁻¹ A⁻¹ R⁻¹, hence A⁻¹ = C (R A C)⁻¹ R.
-fn unbalance<const N: usize>(
+fn undo_equilibration<const N: usize>(
     right: [[f64; N]; N],
     column_of: [usize; N],
     row_exponents: [i32; N],
@@ -121,18 +128,21 @@ mod tests {
     #[test]
     fn noise_is_singular_but_small_units_are_not() {
         let thirds = [[0.1, 0.2], [0.3, 0.6]];
-        let flat = eliminate(thirds);
+        let flat = eliminate_full_pivoting(thirds);
         assert_eq!((flat.rank, flat.inverse), (1, None), "0.1 · 0.6 − 0.2 · 0.3 is 1e-17, not 0");
-        let small = eliminate([[1e-200, 0.0], [0.0, 1e200]]);
+        let small = eliminate_full_pivoting([[1e-200, 0.0], [0.0, 1e200]]);
         assert_eq!((small.rank, small.inverse), (2, Some([[1e200, 0.0], [0.0, 1e-200]])));
-        assert_eq!(eliminate([[0.0; 3]; 3]).rank, 0);
-        assert!(eliminate([[1e-320, 0.0], [0.0, 1.0]]).inverse.is_none(), "1e320 is no number");
+        assert_eq!(eliminate_full_pivoting([[0.0; 3]; 3]).rank, 0);
+        assert!(
+            eliminate_full_pivoting([[1e-320, 0.0], [0.0, 1.0]]).inverse.is_none(),
+            "1e320 is no number"
+        );
     }
 
     #[test]
     fn pivots_come_from_any_row_and_column() {
         let a = [[0.0, 2.0, 0.0], [0.0, 0.0, 4.0], [8.0, 0.0, 0.0]];
         let want = [[0.0, 0.0, 0.125], [0.5, 0.0, 0.0], [0.0, 0.25, 0.0]];
-        assert_eq!(eliminate(a).inverse, Some(want));
+        assert_eq!(eliminate_full_pivoting(a).inverse, Some(want));
     }
 }

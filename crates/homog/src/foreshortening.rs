@@ -20,7 +20,7 @@ use crate::{HPoint, Space};
     "a segment with w from {start} to {end} has no image in one piece: both must be finite, not 0 \
      and of one sign"
 )]
-pub struct SegmentTorn {
+pub struct SegmentCrossesEyePlane {
     /// w at the start.
     pub start: f64,
     /// w at the end.
@@ -49,10 +49,10 @@ impl Foreshortening {
     ///
     /// # Errors
     /// Unless both are finite, not 0 and of one sign: clip the segment first.
-    pub fn new(start: f64, end: f64) -> Result<Self, SegmentTorn> {
+    pub fn new(start: f64, end: f64) -> Result<Self, SegmentCrossesEyePlane> {
         let one_side = (start > 0.0 && end > 0.0) || (start < 0.0 && end < 0.0);
         if !(one_side && start.is_finite() && end.is_finite()) {
-            return Err(SegmentTorn { start, end });
+            return Err(SegmentCrossesEyePlane { start, end });
         }
         let exponent = libm::ilogb(start.abs().max(end.abs()));
         let scaled = |w: f64| libm::scalbn(w.abs(), -exponent).max(f64::MIN_POSITIVE);
@@ -63,7 +63,10 @@ impl Foreshortening {
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    pub fn between<S: Space>(start: HPoint<S>, end: HPoint<S>) -> Result<Self, SegmentTorn> {
+    pub fn from_endpoints<S: Space>(
+        start: HPoint<S>,
+        end: HPoint<S>,
+    ) -> Result<Self, SegmentCrossesEyePlane> {
         Self::new(start.w(), end.w())
     }
 
@@ -72,51 +75,51 @@ impl Foreshortening {
     ///
     /// Some for every t in [0, 1]; beyond the ends `None` from where the line leaves for infinity.
     #[must_use]
-    pub fn image(self, t: f64) -> Option<f64> {
-        fraction(t, self.end * t, between(self.start, self.end, t))
+    pub fn image_parameter(self, t: f64) -> Option<f64> {
+        perspective_fraction(t, self.end * t, interpolate(self.start, self.end, t))
     }
 
     /// The inverse of f: which fraction of the segment is seen at fraction `s` of its image.
     ///
     /// Some for every s in [0, 1]; beyond the ends `None` from the vanishing point on.
     #[must_use]
-    pub fn source(self, s: f64) -> Option<f64> {
-        fraction(s, self.start * s, between(self.end, self.start, s))
+    pub fn source_parameter(self, s: f64) -> Option<f64> {
+        perspective_fraction(s, self.start * s, interpolate(self.end, self.start, s))
     }
 
     /// f'(t) = w_r w_R / (w_r + t(w_R − w_r))²: how much a short piece at `t` is stretched against
     /// the average.
     #[must_use]
     pub fn derivative(self, t: f64) -> Option<f64> {
-        let w = between(self.start, self.end, t);
-        quotient(self.start, w)?;
-        quotient(self.start / w * self.end, w)
+        let w = interpolate(self.start, self.end, t);
+        finite_quotient(self.start, w)?;
+        finite_quotient(self.start / w * self.end, w)
     }
 
     /// The value that goes from `a` to `b` along the segment, where the image has run to fraction
     /// `s` (IN-2): [(1−s) a/w_r + s b/w_R] / [(1−s)/w_r + s/w_R]. Perspective-correct
     /// interpolation.
     #[must_use]
-    pub fn attribute(self, s: f64, a: f64, b: f64) -> Option<f64> {
-        let t = self.source(s)?;
+    pub fn interpolate_attribute(self, s: f64, a: f64, b: f64) -> Option<f64> {
+        let t = self.source_parameter(s)?;
         Some(a * (1.0 - t) + b * t).filter(|value| value.is_finite())
     }
 }
 
 /// From `start` at 0 to `end` at 1. Both ends come out exactly, and between them nothing cancels.
-fn between(start: f64, end: f64, t: f64) -> f64 {
+fn interpolate(start: f64, end: f64, t: f64) -> f64 {
     start * (1.0 - t) + end * t
 }
 
 /// The quotient; where `of` is a fraction of the segment, so is the quotient, whatever rounding
 /// says.
-fn fraction(of: f64, numerator: f64, denominator: f64) -> Option<f64> {
-    let fraction = quotient(numerator, denominator)?;
+fn perspective_fraction(of: f64, numerator: f64, denominator: f64) -> Option<f64> {
+    let fraction = finite_quotient(numerator, denominator)?;
     Some(if of <= 1.0 { fraction.min(1.0) } else { fraction })
 }
 
 /// None unless the denominator is positive and the quotient finite.
-fn quotient(numerator: f64, denominator: f64) -> Option<f64> {
+fn finite_quotient(numerator: f64, denominator: f64) -> Option<f64> {
     let quotient = numerator / denominator;
     (denominator > 0.0 && quotient.is_finite()).then_some(quotient)
 }
@@ -140,7 +143,7 @@ mod tests {
     #[test]
     fn exercise_11_c47_order_is_kept() {
         let f = Foreshortening::new(1.0, 3.0).expect("both positive");
-        assert_eq!([0.0, 0.5, 1.0].map(|t| f.image(t)), [0.0, 0.75, 1.0].map(Some));
+        assert_eq!([0.0, 0.5, 1.0].map(|t| f.image_parameter(t)), [0.0, 0.75, 1.0].map(Some));
         assert_eq!(f.derivative(0.0), Some(3.0));
         assert_eq!(f.derivative(1.0), Some(1.0 / 3.0));
     }
@@ -148,8 +151,8 @@ mod tests {
     #[test]
     fn every_fraction_of_a_segment_has_an_image_however_far_the_end() {
         let f = Foreshortening::new(3.0, 1e-180).expect("both positive");
-        assert_eq!([0.0, 1.0].map(|t| f.image(t)), [Some(0.0), Some(1.0)]);
-        assert_eq!([0.0, 1.0].map(|s| f.source(s)), [Some(0.0), Some(1.0)]);
+        assert_eq!([0.0, 1.0].map(|t| f.image_parameter(t)), [Some(0.0), Some(1.0)]);
+        assert_eq!([0.0, 1.0].map(|s| f.source_parameter(s)), [Some(0.0), Some(1.0)]);
     }
 
     #[test]
@@ -160,16 +163,16 @@ mod tests {
             assert!(Foreshortening::new(start, end).is_err(), "w from {start} to {end}");
         }
         let f = Foreshortening::new(1.0, 3.0).expect("both positive");
-        assert_eq!(f.image(-0.5), None, "there w is 0");
-        assert_eq!(f.source(1.5), None, "the vanishing point of the line");
-        assert_eq!(f.image(f64::NAN), None);
+        assert_eq!(f.image_parameter(-0.5), None, "there w is 0");
+        assert_eq!(f.source_parameter(1.5), None, "the vanishing point of the line");
+        assert_eq!(f.image_parameter(f64::NAN), None);
     }
 
     #[test]
     fn weights_of_a_triangle_agree_with_the_segment_on_its_sides() {
         let f = Foreshortening::new(2.0, 5.0).expect("both positive");
         let weights = perspective_weights([0.75, 0.25, 0.0], [2.0, 5.0, 9.0]).expect("w > 0");
-        assert!((weights[1] - f.source(0.25).expect("inside")).abs() < 1e-15);
+        assert!((weights[1] - f.source_parameter(0.25).expect("inside")).abs() < 1e-15);
         assert_eq!(weights[2], 0.0);
         assert_eq!(perspective_weights([1.0, 0.0, 0.0], [0.0, 1.0, 1.0]), None);
     }

@@ -11,9 +11,9 @@
 //! = 0, goes to infinity: here 2y + 1 = 0. Any multiple of M is the same map. Source: chapter §8.2,
 //! HO-3.
 
-use crate::elimination::eliminate;
-use crate::meaning::proportional;
-use crate::{Hom2, Line2};
+use crate::elimination::eliminate_full_pivoting;
+use crate::hpoint_kind::are_proportional;
+use crate::{HLine2, HPoint2};
 use glam::{DMat3, DVec3};
 
 /// A projective map of the plane (HO-3).
@@ -71,23 +71,23 @@ impl Homography {
 
     /// The image of a homogeneous point, not divided.
     #[must_use]
-    pub fn apply(self, point: Hom2) -> Hom2 {
-        Hom2::from_raw(self.raw * point.raw())
+    pub fn transform_point(self, point: HPoint2) -> HPoint2 {
+        HPoint2::from_raw(self.raw * point.raw())
     }
 
     /// The image of a line; `None` if the map is singular, or the image has a coefficient that is
     /// not finite.
     #[must_use]
-    pub fn line(self, line: Line2) -> Option<Line2> {
+    pub fn transform_line(self, line: HLine2) -> Option<HLine2> {
         let image = self.inverse()?.raw.transpose() * line.raw();
-        image.is_finite().then_some(Line2::from_raw(image))
+        image.is_finite().then_some(HLine2::from_raw(image))
     }
 
     /// The line that goes to infinity: its points get w = 0. For an affine map it is the line at
     /// infinity itself.
     #[must_use]
-    pub fn horizon(self) -> Line2 {
-        Line2::from_raw(self.raw.row(2))
+    pub fn horizon(self) -> HLine2 {
+        HLine2::from_raw(self.raw.row(2))
     }
 
     /// This map, then `next`.
@@ -105,7 +105,7 @@ impl Homography {
     /// The map that undoes this one; `None` if it is singular up to rounding, or not finite.
     #[must_use]
     pub fn inverse(self) -> Option<Self> {
-        eliminate(self.rows()).inverse.map(Self::from_rows)
+        eliminate_full_pivoting(self.rows()).inverse.map(Self::from_rows)
     }
 
     /// True if both are the same map, that is if one matrix is a multiple of the other (HO-2).
@@ -113,7 +113,7 @@ impl Homography {
     /// `None` if one of them is zero or not finite.
     #[must_use]
     pub fn equivalent(self, other: Self, relative: f64) -> Option<bool> {
-        proportional(&self.raw.to_cols_array(), &other.raw.to_cols_array(), relative)
+        are_proportional(&self.raw.to_cols_array(), &other.raw.to_cols_array(), relative)
     }
 }
 
@@ -129,7 +129,7 @@ mod tests {
     fn c16_the_unit_square_of_the_chapter() {
         let map = Homography::from_rows(CHAPTER);
         for (p, q) in SQUARE.into_iter().zip(IMAGE) {
-            assert_eq!(map.apply(p.into()).divide(), Some(q), "{p:?}");
+            assert_eq!(map.transform_point(p.into()).divide(), Some(q), "{p:?}");
         }
         let found = Homography::from_unit_square(IMAGE).expect("four corners");
         assert_eq!(found.equivalent(map, 1e-14), Some(true));
@@ -141,7 +141,10 @@ mod tests {
         let thrice = Homography::from_raw(map.raw() * 3.0);
         assert_eq!(map.equivalent(thrice, 1e-15), Some(true));
         for p in SQUARE {
-            assert_eq!(map.apply(p.into()).divide(), thrice.apply(p.into()).divide());
+            assert_eq!(
+                map.transform_point(p.into()).divide(),
+                thrice.transform_point(p.into()).divide()
+            );
         }
         assert_eq!(map.equivalent(Homography::IDENTITY, 1e-15), Some(false));
         assert_eq!(map.equivalent(Homography::from_rows([[0.0; 3]; 3]), 1e-15), None);
@@ -150,14 +153,16 @@ mod tests {
     #[test]
     fn one_line_goes_to_infinity() {
         let map = Homography::from_rows(CHAPTER);
-        let wanted = Line2::new(0.0, 2.0, 1.0); // 2y + 1 = 0
+        let wanted = HLine2::new(0.0, 2.0, 1.0); // 2y + 1 = 0
         assert_eq!(map.horizon().equivalent(wanted, 1e-15), Some(true));
         assert_eq!(
-            Homography::from_raw(map.raw() * 3.0).apply(Hom2::place(7.0, -0.5)).divide(),
+            Homography::from_raw(map.raw() * 3.0)
+                .transform_point(HPoint2::from_xy(7.0, -0.5))
+                .divide(),
             None
         );
-        let infinite = map.line(wanted).expect("regular");
-        assert_eq!(infinite.equivalent(Line2::INFINITY, 1e-15), Some(true));
+        let infinite = map.transform_line(wanted).expect("regular");
+        assert_eq!(infinite.equivalent(HLine2::INFINITY, 1e-15), Some(true));
     }
 
     #[test]

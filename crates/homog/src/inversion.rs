@@ -1,7 +1,7 @@
 //! Inverses with a report: how many digits inverting costs, and why there is no inverse if there is
 //! none.
 
-use crate::elimination::eliminate;
+use crate::elimination::eliminate_full_pivoting;
 use crate::{Projective, Space};
 
 /// An inverse, and what it is worth.
@@ -64,7 +64,7 @@ impl<A: Space, B: Space> Projective<A, B> {
         if !self.is_finite() {
             return Err(InversionError::NotFinite);
         }
-        let found = eliminate(self.rows());
+        let found = eliminate_full_pivoting(self.rows());
         let Some(rows) = found.inverse else {
             let rank = found.rank;
             let singular = InversionError::Singular { rank };
@@ -72,7 +72,7 @@ impl<A: Space, B: Space> Projective<A, B> {
         };
         let map = Projective::from_rows(rows);
         let condition = (row_sum_norm(self.rows()) * row_sum_norm(rows)).min(f64::MAX);
-        let residual = self.residual(map);
+        let residual = self.inverse_residual(map);
         Ok(Inversion { map, condition, residual })
     }
 
@@ -80,10 +80,10 @@ impl<A: Space, B: Space> Projective<A, B> {
     /// a plane, 0 for zero and for matrices that are not finite.
     #[must_use]
     pub fn rank(self) -> usize {
-        eliminate(self.rows()).rank
+        eliminate_full_pivoting(self.rows()).rank
     }
 
-    fn residual(self, inverse: Projective<B, A>) -> f64 {
+    fn inverse_residual(self, inverse: Projective<B, A>) -> f64 {
         let product = self.raw() * inverse.raw() - glam::DMat4::IDENTITY;
         if !product.is_finite() {
             return f64::MAX;

@@ -22,7 +22,7 @@ pub struct MatrixDisplay<const N: usize> {
 impl<const N: usize> MatrixDisplay<N> {
     /// The matrix with the given rows.
     #[must_use]
-    pub const fn of_rows(rows: [[f64; N]; N]) -> Self {
+    pub const fn from_rows(rows: [[f64; N]; N]) -> Self {
         Self { rows }
     }
 }
@@ -31,7 +31,7 @@ impl<A: Space, B: Space> Projective<A, B> {
     /// The matrix for people to read.
     #[must_use]
     pub fn display(self) -> MatrixDisplay<4> {
-        MatrixDisplay::of_rows(self.rows())
+        MatrixDisplay::from_rows(self.rows())
     }
 }
 
@@ -39,7 +39,7 @@ impl<A: Space, B: Space> Affine<A, B> {
     /// The matrix for people to read.
     #[must_use]
     pub fn display(self) -> MatrixDisplay<4> {
-        MatrixDisplay::of_rows(self.rows())
+        MatrixDisplay::from_rows(self.rows())
     }
 }
 
@@ -56,20 +56,21 @@ impl Homography {
     /// ```
     #[must_use]
     pub fn display(self) -> MatrixDisplay<3> {
-        MatrixDisplay::of_rows(self.rows())
+        MatrixDisplay::from_rows(self.rows())
     }
 }
 
 impl<const N: usize> fmt::Display for MatrixDisplay<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let cells = self.rows.map(|row| row.map(|entry| Cell::of(entry, f.precision())));
+        let cells =
+            self.rows.map(|row| row.map(|entry| MatrixCell::format_entry(entry, f.precision())));
         let widths: [usize; N] =
             core::array::from_fn(|j| cells.iter().map(|row| row[j].length).max().unwrap_or(0));
         for (i, row) in cells.iter().enumerate() {
             f.write_str(if i == 0 { "[ " } else { "\n[ " })?;
             for (j, cell) in row.iter().enumerate() {
                 let gap = if j == 0 { "" } else { "  " };
-                write!(f, "{gap}{:>width$}", cell.text(), width = widths[j])?;
+                write!(f, "{gap}{:>width$}", cell.as_str(), width = widths[j])?;
             }
             f.write_str(" ]")?;
         }
@@ -79,13 +80,13 @@ impl<const N: usize> fmt::Display for MatrixDisplay<N> {
 
 /// The text of one entry, without need of an allocator. A number that does not fit is cut off.
 #[derive(Clone, Copy)]
-struct Cell {
+struct MatrixCell {
     bytes: [u8; 40],
     length: usize,
 }
 
-impl Cell {
-    fn of(entry: f64, decimals: Option<usize>) -> Self {
+impl MatrixCell {
+    fn format_entry(entry: f64, decimals: Option<usize>) -> Self {
         let mut cell = Self { bytes: [0; 40], length: 0 };
         // Writing fails when the cell is full; then it shows what there was room for.
         let _ = match decimals {
@@ -100,7 +101,7 @@ impl Cell {
         if !x.is_finite() || has_three_decimals(x) {
             return write!(self, "{x}");
         }
-        if let Some((p, q)) = fraction(x) {
+        if let Some((p, q)) = simple_fraction(x) {
             return write!(self, "{p}/{q}");
         }
         if !(1e-4..1e6).contains(&size) {
@@ -110,12 +111,12 @@ impl Cell {
         write!(self, "{x:.decimals$}")
     }
 
-    fn text(&self) -> &str {
+    fn as_str(&self) -> &str {
         core::str::from_utf8(&self.bytes[..self.length]).unwrap_or_default()
     }
 }
 
-impl Write for Cell {
+impl Write for MatrixCell {
     fn write_str(&mut self, text: &str) -> fmt::Result {
         let room = self.bytes.get_mut(self.length..self.length + text.len()).ok_or(fmt::Error)?;
         room.copy_from_slice(text.as_bytes());
@@ -131,7 +132,7 @@ fn has_three_decimals(x: f64) -> bool {
 }
 
 /// The fraction with the smallest denominator that is exactly this f64 when divided out.
-fn fraction(x: f64) -> Option<(i64, i64)> {
+fn simple_fraction(x: f64) -> Option<(i64, i64)> {
     if x.abs() >= 1e6 {
         return None;
     }
@@ -149,7 +150,7 @@ mod tests {
     use alloc::{format, string::ToString};
 
     fn number(x: f64) -> alloc::string::String {
-        Cell::of(x, None).text().to_string()
+        MatrixCell::format_entry(x, None).as_str().to_string()
     }
 
     #[test]

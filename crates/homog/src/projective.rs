@@ -1,6 +1,6 @@
 //! Projective maps: points to homogeneous points.
 
-use crate::elimination::eliminate;
+use crate::elimination::eliminate_full_pivoting;
 use crate::{Affine, HPoint, Plane, Point, Space, Vector};
 use core::marker::PhantomData;
 use glam::DMat4;
@@ -32,13 +32,13 @@ impl<A: Space, B: Space> Projective<A, B> {
 
     /// The image of a point, not divided.
     #[must_use]
-    pub fn point(self, point: Point<A>) -> HPoint<B> {
-        self.hpoint(point.into())
+    pub fn transform_point(self, point: Point<A>) -> HPoint<B> {
+        self.transform_hpoint(point.into())
     }
 
     /// Writes the images of `points` to `images`, as many as both have: the same bits as
     /// [`point`](Self::point), in one pass.
-    pub fn points_into(self, points: &[Point<A>], images: &mut [HPoint<B>]) {
+    pub fn transform_points_into(self, points: &[Point<A>], images: &mut [HPoint<B>]) {
         let DMat4 { x_axis, y_axis, z_axis, w_axis } = self.raw;
         for (point, image) in points.iter().zip(images) {
             let p = point.raw();
@@ -48,20 +48,20 @@ impl<A: Space, B: Space> Projective<A, B> {
 
     /// The image of a direction, that is of its point at infinity: its vanishing point (VN-1).
     #[must_use]
-    pub fn direction(self, vector: Vector<A>) -> HPoint<B> {
-        self.hpoint(vector.into())
+    pub fn transform_direction(self, vector: Vector<A>) -> HPoint<B> {
+        self.transform_hpoint(vector.into())
     }
 
     /// The image of a homogeneous point.
     #[must_use]
-    pub fn hpoint(self, point: HPoint<A>) -> HPoint<B> {
+    pub fn transform_hpoint(self, point: HPoint<A>) -> HPoint<B> {
         HPoint::from_raw(self.raw * point.raw())
     }
 
     /// The image of a plane; `None` if the map is singular, or the image has a coefficient that is
     /// not finite.
     #[must_use]
-    pub fn plane(self, plane: Plane<A>) -> Option<Plane<B>> {
+    pub fn transform_plane(self, plane: Plane<A>) -> Option<Plane<B>> {
         let image = self.inverse()?.raw.transpose() * plane.raw();
         image.is_finite().then_some(Plane::from_raw(image))
     }
@@ -78,7 +78,7 @@ impl<A: Space, B: Space> Projective<A, B> {
     /// [`inverse_with_report`](Self::inverse_with_report) says more.
     #[must_use]
     pub fn inverse(self) -> Option<Projective<B, A>> {
-        eliminate(self.rows()).inverse.map(Projective::from_rows)
+        eliminate_full_pivoting(self.rows()).inverse.map(Projective::from_rows)
     }
 
     /// True if no entry is infinite or NaN.

@@ -56,9 +56,9 @@ pub enum RemapError {
 /// assert_eq!(remap(-3.0, [-1.0, 1.0], [0.0, 10.0]), Ok(-10.0));
 /// assert!(remap(1.0, [2.0, 2.0], [0.0, 1.0]).is_err());
 /// ```
-pub fn remap(x: f64, from: [f64; 2], to: [f64; 2]) -> Result<f64, RemapError> {
-    finite("the number to map", x)?;
-    check("interval", from, to)?;
+pub fn remap_interval(x: f64, from: [f64; 2], to: [f64; 2]) -> Result<f64, RemapError> {
+    check_finite("the number to map", x)?;
+    check_intervals("interval", from, to)?;
     let y = to[0] + (x - from[0]) * ((to[1] - to[0]) / (from[1] - from[0]));
     if y.is_finite() { Ok(y) } else { Err(RemapError::OutOfRange { from, to }) }
 }
@@ -69,7 +69,7 @@ fn scale_and_offset(
     from: [f64; 2],
     to: [f64; 2],
 ) -> Result<(f64, f64), RemapError> {
-    check(interval, from, to)?;
+    check_intervals(interval, from, to)?;
     let length = from[1] - from[0];
     let scale = (to[1] - to[0]) / length;
     let offset = (to[0] * from[1] - to[1] * from[0]) / length;
@@ -80,18 +80,18 @@ fn scale_and_offset(
     }
 }
 
-fn check(interval: &'static str, from: [f64; 2], to: [f64; 2]) -> Result<(), RemapError> {
-    finite("the beginning of the interval to map from", from[0])?;
-    finite("the end of the interval to map from", from[1])?;
-    finite("the beginning of the interval to map to", to[0])?;
-    finite("the end of the interval to map to", to[1])?;
+fn check_intervals(interval: &'static str, from: [f64; 2], to: [f64; 2]) -> Result<(), RemapError> {
+    check_finite("the beginning of the interval to map from", from[0])?;
+    check_finite("the end of the interval to map from", from[1])?;
+    check_finite("the beginning of the interval to map to", to[0])?;
+    check_finite("the end of the interval to map to", to[1])?;
     if from[0] == from[1] {
         return Err(RemapError::Empty { interval, at: from[0] });
     }
     Ok(())
 }
 
-fn finite(name: &'static str, value: f64) -> Result<(), RemapError> {
+fn check_finite(name: &'static str, value: f64) -> Result<(), RemapError> {
     if value.is_finite() { Ok(()) } else { Err(RemapError::NotFinite { name, value }) }
 }
 
@@ -134,9 +134,17 @@ mod tests {
     #[test]
     fn c53_misprint_m27_a_reversed_range_swaps_the_sides() {
         let rising = [0.0, 10.0];
-        assert_eq!(remap(-3.0, [-1.0, 1.0], rising), Ok(-10.0));
-        assert_eq!(remap(-3.0, [-1.0, 1.0], [10.0, 0.0]), Ok(20.0), "x < a, but y above both ends");
-        assert_eq!(remap(3.0, [-1.0, 1.0], [10.0, 0.0]), Ok(-10.0), "x > b, but y below both ends");
+        assert_eq!(remap_interval(-3.0, [-1.0, 1.0], rising), Ok(-10.0));
+        assert_eq!(
+            remap_interval(-3.0, [-1.0, 1.0], [10.0, 0.0]),
+            Ok(20.0),
+            "x < a, but y above both ends"
+        );
+        assert_eq!(
+            remap_interval(3.0, [-1.0, 1.0], [10.0, 0.0]),
+            Ok(-10.0),
+            "x > b, but y below both ends"
+        );
     }
 
     #[test]
@@ -145,7 +153,11 @@ mod tests {
         let to = [Point::<Ndc>::new(-1.0, 1.0, 1.0), Point::new(1.0, -1.0, -1.0)];
         let map = Affine::windowing(from, to).expect("a box");
         for (p, q) in from.into_iter().zip(to) {
-            assert!((map.point(p) - q).length() < 1e-15, "{p} goes to {}, not {q}", map.point(p));
+            assert!(
+                (map.transform_point(p) - q).length() < 1e-15,
+                "{p} goes to {}, not {q}",
+                map.transform_point(p)
+            );
         }
         let flat = Affine::windowing(to, from).expect("a box").then(
             Affine::windowing(from, [Point::<Ndc>::ORIGIN; 2]).expect("flat, but from a box"),
@@ -158,11 +170,14 @@ mod tests {
         let empty = Homography::windowing([[0.0, 1.0], [2.0, 1.0]], [[0.0; 2], [1.0; 2]]);
         assert_eq!(empty, Err(RemapError::Empty { interval: "y interval", at: 1.0 }));
         let unit = [0.0, 1.0];
-        assert!(matches!(remap(f64::NAN, unit, unit), Err(RemapError::NotFinite { .. })));
+        assert!(matches!(remap_interval(f64::NAN, unit, unit), Err(RemapError::NotFinite { .. })));
         assert!(matches!(
-            remap(0.0, [0.0, f64::INFINITY], unit),
+            remap_interval(0.0, [0.0, f64::INFINITY], unit),
             Err(RemapError::NotFinite { .. })
         ));
-        assert!(matches!(remap(1e308, [0.0, 1e-9], unit), Err(RemapError::OutOfRange { .. })));
+        assert!(matches!(
+            remap_interval(1e308, [0.0, 1e-9], unit),
+            Err(RemapError::OutOfRange { .. })
+        ));
     }
 }

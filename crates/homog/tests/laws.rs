@@ -2,8 +2,8 @@
 //! inverses undo, factors do not matter, planes and normals go along.
 
 use homog::{
-    Affine, Clip, Foreshortening, HPoint, Hom2, Homography, Line2, Meaning, Model, Normal, Plane,
-    Point, Projective, Vector, View, World, remap,
+    Affine, Clip, Foreshortening, HLine2, HPoint, HPoint2, HPointKind, Homography, Model, Normal,
+    Plane, Point, Projective, Vector, View, World, remap_interval,
 };
 use proptest::prelude::*;
 
@@ -43,7 +43,7 @@ proptest! {
     #[test]
     fn an_inverse_undoes(map in map(), p in triple(), w in 0.5..2.0) {
         let p = HPoint::new(p[0], p[1], p[2], w);
-        let back = map.inverse().expect("regular").hpoint(map.hpoint(p));
+        let back = map.inverse().expect("regular").transform_hpoint(map.transform_hpoint(p));
         prop_assert_eq!(back.equivalent(p, 1e-10), Some(true));
     }
 
@@ -52,7 +52,7 @@ proptest! {
         let factor = -libm::scalbn(1.0, exponent);
         let multiple = Map::from_raw(map.raw() * factor);
         prop_assert_eq!(map.equivalent(multiple, 1e-15), Some(true));
-        let (a, b) = (map.point(p.into()), multiple.point(p.into()));
+        let (a, b) = (map.transform_point(p.into()), multiple.transform_point(p.into()));
         prop_assert_eq!(a.equivalent(b, 1e-15), Some(true));
         prop_assert_eq!(a.divide(), b.divide());
         prop_assert_eq!(multiple.rank(), 4);
@@ -63,15 +63,15 @@ proptest! {
         map in map(), a in triple(), b in triple(), t in 0.0..1.0,
     ) {
         let (a, b) = (Point::from(a), Point::from(b));
-        let [start, end, between] = [a, b, a.lerp(b, t)].map(|p| map.point(p));
-        if let Ok(f) = Foreshortening::between(start, end) {
+        let [start, end, between] = [a, b, a.lerp(b, t)].map(|p| map.transform_point(p));
+        if let Ok(f) = Foreshortening::from_endpoints(start, end) {
             let on_the_image = |p: HPoint<Clip>| p.divide();
             let (Some(p), Some(q), Some(seen)) =
                 (on_the_image(start), on_the_image(end), on_the_image(between))
             else {
                 return Ok(());
             };
-            let want = p.lerp(q, f.image(t).expect("within the segment"));
+            let want = p.lerp(q, f.image_parameter(t).expect("within the segment"));
             let size = 1.0 + (p - q).length() + (p - Point::ORIGIN).length();
             prop_assert!((want - seen).length() < 1e-9 * size, "{seen} is not {want}");
         }
@@ -80,11 +80,11 @@ proptest! {
     #[test]
     fn c47_exercise_11_order_is_kept(w in [1e-3..1e3, 1e-3..1e3], s in 0.0..1.0_f64, t in 0.0..1.0_f64) {
         let f = Foreshortening::new(w[0], w[1]).expect("both positive");
-        let image = |t: f64| f.image(t).expect("within the segment");
+        let image = |t: f64| f.image_parameter(t).expect("within the segment");
         prop_assume!((s - t).abs() > 1e-12);
         prop_assert_eq!(s < t, image(s) < image(t));
         prop_assert!(f.derivative(t).is_some_and(|slope| slope > 0.0));
-        prop_assert!((f.source(image(t)).expect("within") - t).abs() < 1e-9);
+        prop_assert!((f.source_parameter(image(t)).expect("within") - t).abs() < 1e-9);
         let step = 1e-6;
         let difference = (image(t + step) - image((t - step).max(0.0))) / (t + step - (t - step).max(0.0));
         let slope = f.derivative(t).expect("within");
@@ -97,10 +97,10 @@ proptest! {
     ) {
         let (p, normal) = (Point::from(p), Normal::from_raw(n.into()));
         let plane = Plane::through(p, normal);
-        let image = map.plane(plane).expect("regular");
+        let image = map.transform_plane(plane).expect("regular");
         let side = Vector::from(n).cross(Vector::from(along));
         for point in [p, p + side, p - side * 3.0] {
-            let at = map.point(point);
+            let at = map.transform_point(point);
             let size = image.raw().length() * at.raw().length();
             prop_assert!(image.evaluate(at).abs() <= 1e-9 * size);
         }
@@ -109,9 +109,9 @@ proptest! {
     #[test]
     fn normals_stay_perpendicular(map in affine(), n in triple(), along in triple()) {
         let in_surface = Vector::from(n).cross(Vector::from(along));
-        let normal = map.normal(Normal::from_raw(n.into()));
-        let (normal_size, size) = (normal.raw().length(), map.vector(in_surface).length());
-        prop_assert!(normal.dot(map.vector(in_surface)).abs() <= 1e-12 * normal_size * size);
+        let normal = map.transform_normal(Normal::from_raw(n.into()));
+        let (normal_size, size) = (normal.raw().length(), map.transform_vector(in_surface).length());
+        prop_assert!(normal.dot(map.transform_vector(in_surface)).abs() <= 1e-12 * normal_size * size);
     }
 
     #[test]
@@ -120,34 +120,34 @@ proptest! {
     ) {
         let mut images = vec![HPoint::new(0.0, 0.0, 0.0, 0.0); points.len()];
         let seen: Vec<Point<View>> = points.iter().map(|&p| p.into()).collect();
-        map.points_into(&seen, &mut images);
-        prop_assert!(seen.iter().zip(&images).all(|(&p, &image)| map.point(p) == image));
+        map.transform_points_into(&seen, &mut images);
+        prop_assert!(seen.iter().zip(&images).all(|(&p, &image)| map.transform_point(p) == image));
         let mut placed = vec![Point::ORIGIN; points.len()];
         let models: Vec<Point<Model>> = points.iter().map(|&p| p.into()).collect();
-        affine.points_into(&models, &mut placed);
-        prop_assert!(models.iter().zip(&placed).all(|(&p, &image)| affine.point(p) == image));
+        affine.transform_points_into(&models, &mut placed);
+        prop_assert!(models.iter().zip(&placed).all(|(&p, &image)| affine.transform_point(p) == image));
     }
 
     #[test]
     fn c42_lifted_points_agree_under_affine_maps(map in affine(), p in triple(), h in 0.1..10.0_f64) {
         let p = Point::<Model>::from(p);
         let multiple = HPoint::from_raw(HPoint::from(p).raw() * -h);
-        let image = Projective::from(map).hpoint(multiple).divide().expect("w is not 0");
-        prop_assert!((image - map.point(p)).length() < 1e-12);
+        let image = Projective::from(map).transform_hpoint(multiple).divide().expect("w is not 0");
+        prop_assert!((image - map.transform_point(p)).length() < 1e-12);
     }
 
     #[test]
     fn remapping_there_and_back(x in number(), a in number(), b in number(), c in number(), d in number()) {
         prop_assume!((a - b).abs() > 0.01 && (c - d).abs() > 0.01);
-        let back = remap(remap(x, [a, b], [c, d]).expect("valid"), [c, d], [a, b]).expect("valid");
+        let back = remap_interval(remap_interval(x, [a, b], [c, d]).expect("valid"), [c, d], [a, b]).expect("valid");
         prop_assert!((back - x).abs() < 1e-9);
-        prop_assert_eq!(remap(a, [a, b], [c, d]), Ok(c));
+        prop_assert_eq!(remap_interval(a, [a, b], [c, d]), Ok(c));
     }
 
     #[test]
     fn a_homography_is_found_again_from_its_corners(rows in prop::array::uniform9(-2.0..2.0_f64)) {
         let map = Homography::from_row_major(rows);
-        let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|c| map.apply(Hom2::from(c)));
+        let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|c| map.transform_point(HPoint2::from(c)));
         prop_assume!(corners.iter().all(|c| c.raw().z.abs() > 0.05) && map.determinant().abs() > 0.1);
         let corners = corners.map(|c| c.divide().expect("w is not 0"));
         let found = Homography::from_unit_square(corners).expect("not on a line");
@@ -162,12 +162,13 @@ fn c81_parallels_meet_in_the_image_of_their_point_at_infinity() {
         [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 3.0, -2.0], [0.0, 0.0, -1.0, 0.0]];
     let map = Map::from_rows(rows);
     let direction = Vector::new(1.0, 2.0, -4.0);
-    let Meaning::Place(meeting) = map.vanishing_point(direction, 0.0) else {
+    let HPointKind::Finite(meeting) = map.vanishing_point(direction, 0.0) else {
         panic!("the lines run away from the eye");
     };
     assert_eq!(meeting, Point::new(0.25, 0.5, -3.0));
     for start in [Point::new(5.0, -7.0, -1.0), Point::new(-3.0, 0.0, -2.0)] {
-        let far = map.point(start + direction * 1e9).divide().expect("in front of the eye");
+        let far =
+            map.transform_point(start + direction * 1e9).divide().expect("in front of the eye");
         assert!((far - meeting).length() < 1e-8);
     }
     let names = map.principal_vanishing_points(0.0).map(|meaning| meaning.name());
@@ -188,10 +189,10 @@ fn c3_a_chain_is_the_product_of_its_factors() {
 fn what_overflows_is_none() {
     let stretch = Affine::<World, World>::scale(1e-200, 1.0, 1.0);
     let steep = Plane::from_raw(glam::DVec4::new(1e200, 1.0, 1.0, 1.0));
-    assert_eq!(stretch.plane(steep), None);
-    assert_eq!(Projective::from(stretch).plane(steep), None);
+    assert_eq!(stretch.transform_plane(steep), None);
+    assert_eq!(Projective::from(stretch).transform_plane(steep), None);
     let flat = Homography::from_rows([[1e-200, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
-    assert_eq!(flat.line(Line2::new(1e200, 1.0, 1.0)), None);
+    assert_eq!(flat.transform_line(HLine2::new(1e200, 1.0, 1.0)), None);
     let uneven = Affine::<World, World>::scale(1e-160, 1e160, 1e160);
     let report = Projective::from(uneven).inverse_with_report().expect("regular");
     assert_eq!(report.condition, f64::MAX);
@@ -208,8 +209,8 @@ fn c20_w_may_be_0_in_between() {
     let away = with_bottom([0.0, 0.0, 1.0, 0.0]);
     let back = with_bottom([0.5, 0.0, 0.0, 0.0]);
     let p = Point::new(4.0, 6.0, 0.0);
-    assert_eq!(away.point(p).divide(), None);
-    assert_eq!(away.then(back).point(p).divide(), Some(Point::new(2.0, 3.0, 0.0)));
+    assert_eq!(away.transform_point(p).divide(), None);
+    assert_eq!(away.then(back).transform_point(p).divide(), Some(Point::new(2.0, 3.0, 0.0)));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Animations: which numbers of a model change with time. [`Model::pose`](super::Model::pose) sets them.
 
-use super::{Curve, Field, UvPart};
+use super::{AnimationCurve, ObjectProperty, UvTransformPart};
 
 /// An animation of the file.
 #[derive(Clone, PartialEq, Debug)]
@@ -8,63 +8,63 @@ pub struct Animation {
     /// The name in the file, if it has one.
     pub name: Option<String>,
     /// What changes.
-    pub channels: Vec<Channel>,
+    pub channels: Vec<AnimationChannel>,
     /// The time of the last key in seconds.
     pub duration_seconds: f64,
 }
 
 /// Something that changes with time.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Channel {
+pub struct AnimationChannel {
     /// What it is.
-    pub target: Target,
+    pub target: AnimationTarget,
     /// How it changes.
-    pub curve: Curve,
+    pub curve: AnimationCurve,
 }
 
 /// What a channel changes. All numbers in it are those of existing things.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Target {
+pub enum AnimationTarget {
     /// A property of a node.
     Node {
         /// The node.
         node: usize,
         /// Its property.
-        property: Property,
+        property: NodeProperty,
     },
     /// One of the weights of a node.
-    NodeWeight {
+    NodeMorphWeight {
         /// The node.
         node: usize,
         /// The morph target.
         target: usize,
     },
     /// The weights of a mesh, for all nodes that have none of their own.
-    MeshWeights {
+    MeshMorphWeights {
         /// The mesh.
         mesh: usize,
         /// The morph target, or all of them.
         target: Option<usize>,
     },
     /// Numbers of a material, light or camera.
-    Field {
+    ObjectProperty {
         /// Which numbers.
-        field: Field,
+        property: ObjectProperty,
         /// The number of the material, light or camera.
-        of: usize,
+        index: usize,
     },
     /// The way a texture lies.
-    Texture {
+    TextureTransform {
         /// The entry of [`Model::uv_transforms`](super::Model::uv_transforms).
         transform: usize,
         /// Which part of it.
-        part: UvPart,
+        part: UvTransformPart,
     },
 }
 
 /// What of a node an animation changes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Property {
+pub enum NodeProperty {
     /// The translation, three numbers.
     Translation,
     /// The rotation, a quaternion.

@@ -19,7 +19,7 @@ impl std::fmt::Debug for Image {
 
 /// What a file says of an image.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct ImageFile {
+pub struct ImageInfo {
     /// The name in the file, if it has one.
     pub name: Option<String>,
     /// The URI, if it is in a file of its own; `data:` stands for one that is in the URI itself.
@@ -54,32 +54,32 @@ pub struct Texture {
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Sampler {
     /// What happens left and right of the image.
-    pub wrap_u: Wrap,
+    pub wrap_u: WrapMode,
     /// What happens above and below the image.
-    pub wrap_v: Wrap,
+    pub wrap_v: WrapMode,
     /// Between texels, where the picture shows the texture enlarged.
-    pub magnify: Filter,
+    pub mag_filter: TextureFilter,
     /// Between texels of one level, where the picture shows the texture reduced.
-    pub minify: Filter,
+    pub min_filter: TextureFilter,
     /// Between the levels of the mip chain, where the picture shows the texture reduced.
-    pub mipmap: Mipmap,
+    pub mipmap_mode: MipmapMode,
 }
 
 /// What a texture shows outside of [0, 1].
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub enum Wrap {
+pub enum WrapMode {
     /// The image over and over.
     #[default]
     Repeat,
     /// The image over and over, every second one mirrored.
-    Mirror,
+    MirroredRepeat,
     /// The texels of the border.
-    Clamp,
+    ClampToEdge,
 }
 
 /// What a texture shows between the centres of texels.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub enum Filter {
+pub enum TextureFilter {
     /// The nearest texel.
     Nearest,
     /// The four texels around, weighted.
@@ -89,7 +89,7 @@ pub enum Filter {
 
 /// Which levels of the mip chain a reduced texture shows.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub enum Mipmap {
+pub enum MipmapMode {
     /// The full image only.
     None,
     /// The nearest level.

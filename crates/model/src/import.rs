@@ -14,63 +14,63 @@
 
 mod accessor;
 mod animation;
+mod animation_pointer;
 mod attribute;
-mod budget;
 mod buffers;
-mod build;
 mod camera;
 mod check;
-mod choice;
 mod container;
-mod decode;
-mod decoding;
+mod document;
 mod draco;
-mod edges;
+mod edge_visibility;
 mod elements;
 mod error;
 mod extensions;
-mod image;
-mod instancing;
+mod gpu_instancing;
+mod image_decoder;
+mod images;
 mod jpeg;
-mod json;
+mod json_repair;
 #[cfg(feature = "basisu")]
 mod ktx2;
 mod lights;
 mod limits;
 mod material;
+mod memory_budget;
 mod meshopt;
-mod morph;
+mod model_builder;
+mod morph_target;
+mod node_transform;
 mod normals;
-mod placement;
-mod pointer;
+mod parallel_decoding;
 mod primitive;
-mod repair;
-mod resolver;
-mod scene;
+mod scene_graph;
+mod selection;
 mod skin;
 mod texture;
 mod topology;
-mod untyped;
+mod untyped_members;
+mod uri_resolver;
 mod warnings;
 mod webp;
 
-pub use decode::decode_bounded as decode_image;
+pub use image_decoder::decode_bounded as decode_image;
 
-pub use check::{Problem, Report, Severity, check, check_bytes};
-pub use choice::Choice;
-pub use error::{Fault, FaultKind, ImportError};
+pub use check::{CheckReport, Problem, Severity, check_bytes, check_file};
+pub use error::{Diagnostic, ImportError, ImportErrorKind};
 pub use extensions::{ExtensionUse, extension_use};
 pub use limits::Limits;
+pub use selection::NameOrIndex;
 
 use crate::Model;
 use crate::Timings;
-use accessor::Source;
+use accessor::AccessorReader;
 use buffers::Buffers;
 use container::Container;
-use json::Document;
-use resolver::Resolver;
+use document::GltfDocument;
 use std::path::{Path, PathBuf};
-use warnings::Warnings;
+use uri_resolver::UriResolver;
+use warnings::ImportWarnings;
 
 /// How a file is loaded.
 #[derive(Clone, Debug, Default)]
@@ -85,18 +85,18 @@ pub struct ImportOptions {
     /// of an error. Limits hold all the same. Default: no.
     pub lenient: bool,
     /// The scene of the file that is shown. Default: its default scene, else its first.
-    pub scene: Option<Choice>,
+    pub scene: Option<NameOrIndex>,
     /// The variant of the file that is shown (KHR_materials_variants). Default: none.
-    pub variant: Option<Choice>,
+    pub variant: Option<NameOrIndex>,
     /// What is done with images.
-    pub images: Images,
+    pub images: ImageLoading,
     /// What the stages of loading are measured with. Default: not at all.
     pub timings: Timings,
 }
 
 /// What is done with the images of a file.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub enum Images {
+pub enum ImageLoading {
     /// Those that visible surfaces show are decoded; no other is read.
     #[default]
     Decode,
@@ -122,12 +122,12 @@ pub enum Images {
 /// The file, or one it refers to, cannot be read or may not be; is not glTF 2.0 or breaks its rules; requires an
 /// unknown extension; exceeds a limit; has no such scene or variant as the options ask for.
 pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> {
-    let read = || resolver::read_file(path, &options.limits, "");
+    let read = || uri_resolver::read_file(path, &options.limits, "");
     let loaded = options.timings.measure("read", read).and_then(|bytes| {
-        let resolver = Resolver::new(path, bytes.len(), options)?;
-        read_model(path, &bytes, &resolver, options)
+        let resolver = UriResolver::new(path, bytes.len(), options)?;
+        import_gltf(path, &bytes, &resolver, options)
     });
-    loaded.map_err(|fault| ImportError { file: path.to_owned(), fault })
+    loaded.map_err(|fault| ImportError { file: path.to_owned(), diagnostic: fault })
 }
 
 /// Loads a model whose file is in memory, as [`load`] does; `name` stands for its path in messages.
@@ -139,28 +139,28 @@ pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> 
 /// As for [`load`].
 pub fn load_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<Model, ImportError> {
     let path = Path::new(name);
-    let loaded = Resolver::in_memory(bytes.len(), options)
-        .and_then(|resolver| read_model(path, bytes, &resolver, options));
-    loaded.map_err(|fault| ImportError { file: path.to_owned(), fault })
+    let loaded = UriResolver::in_memory(bytes.len(), options)
+        .and_then(|resolver| import_gltf(path, bytes, &resolver, options));
+    loaded.map_err(|fault| ImportError { file: path.to_owned(), diagnostic: fault })
 }
 
-fn read_model(
+fn import_gltf(
     path: &Path,
     bytes: &[u8],
-    resolver: &Resolver<'_>,
+    resolver: &UriResolver<'_>,
     options: &ImportOptions,
-) -> Result<Model, Fault> {
+) -> Result<Model, Diagnostic> {
     let limits = resolver.limits;
-    let mut warnings = Warnings::new(options.lenient);
-    let container = Container::find(bytes, &mut warnings)?;
+    let mut warnings = ImportWarnings::new(options.lenient);
+    let container = Container::from_bytes(bytes, &mut warnings)?;
     let json = &bytes[container.json];
-    let parse = || Document::parse(json, limits, &mut warnings);
+    let parse = || GltfDocument::parse_json(json, limits, &mut warnings);
     let document = options.timings.measure("parse", parse)?;
     let chunk = container.binary.map(|range| &bytes[range]);
-    extensions::check(&document.root, &mut warnings)?;
+    extensions::check_extensions(&document.root, &mut warnings)?;
     let buffers = Buffers::new(&document.root, resolver, chunk, limits);
-    let source = Source::new(&document.root, &buffers, limits);
-    let mut model = build::build(&document, &source, options, &mut warnings)?;
+    let source = AccessorReader::new(&document.root, &buffers, limits);
+    let mut model = model_builder::build_model(&document, &source, options, &mut warnings)?;
     model.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     model.warnings = warnings.into_list();
     Ok(model)

@@ -4,49 +4,51 @@
 //! Positions stay in the mesh's own coordinates; the node tree places them.
 
 mod animation;
-mod curve;
-mod edges;
-mod field;
+mod animation_curve;
+mod camera;
+mod edge_visibility;
 mod image;
 pub mod import;
-mod instance;
-mod lens;
 mod light;
 mod material;
 mod material_extensions;
 mod mesh;
+mod mesh_instance;
 mod model_instance;
-mod parts;
+mod object_model;
 mod pose;
-mod posed;
-mod shown;
+mod scene_contents;
+mod skinning;
 mod tangents;
 mod texture_slot;
 mod timings;
+mod trs;
 mod uv_transform;
 
-pub use animation::{Animation, Channel, Property, Target};
-pub use curve::{Curve, Interpolation};
-pub use edges::{EdgeLines, EdgeVisibility, Edges};
-pub use field::Field;
-pub(crate) use field::{LIGHT, MATERIAL, Row};
-pub use image::{Filter, Image, ImageFile, ImageHeader, Mipmap, Sampler, Texture, Wrap};
+pub use animation::{Animation, AnimationChannel, AnimationTarget, NodeProperty};
+pub use animation_curve::{AnimationCurve, Interpolation};
+pub use camera::{CameraProjection, ModelCamera};
+pub use edge_visibility::{EdgeList, EdgeVisibility, PrimitiveEdges};
+pub use image::{
+    Image, ImageHeader, ImageInfo, MipmapMode, Sampler, Texture, TextureFilter, WrapMode,
+};
 pub use import::{ImportError, ImportOptions, Limits, load, load_bytes};
-pub use instance::Instance;
-pub use lens::{Lens, LensKind};
 pub use light::{LightKind, PunctualLight};
-pub use material::{AlphaMode, Emission, Material, NormalTexture, OcclusionTexture, TextureUse};
+pub use material::{AlphaMode, Emission, Material, NormalTexture, OcclusionTexture, TextureInfo};
 pub use material_extensions::{
     Anisotropy, Clearcoat, Iridescence, MaterialExtensions, Sheen, Specular, SpecularGlossiness,
     Transmission, Volume,
 };
 pub use mesh::{Mesh, MorphTarget, Primitive, Topology, VariantMaterial};
+pub use mesh_instance::MeshInstance;
 pub use model_instance::{ModelInstance, model_names, world_points};
-pub use parts::Parts;
-pub use posed::Posed;
+pub use object_model::ObjectProperty;
+pub(crate) use object_model::{LIGHT_PROPERTIES, MATERIAL_PROPERTIES, PropertyRow};
+pub use skinning::SkinnedPrimitive;
 pub use texture_slot::TextureSlot;
 pub use timings::Timings;
-pub use uv_transform::{UvPart, UvTransform};
+pub use trs::Trs;
+pub use uv_transform::{UvTransform, UvTransformPart};
 
 use homog::{Affine, Model as ModelSpace};
 
@@ -72,12 +74,12 @@ pub struct Model {
     pub scenes: Vec<SceneRoots>,
     /// The scene that is shown: the one that was asked for, else the file's default scene, else its first. `None` if the file
     /// has no scenes; all roots are shown then.
-    pub scene: Option<usize>,
+    pub active_scene: Option<usize>,
     /// The skins, as numbered in the file; one that cannot be used has no joints, and no node names it.
     pub skins: Vec<Skin>,
     /// The cameras, as numbered in the file; one whose numbers make no view has a usual lens instead, and no node
     /// names it.
-    pub cameras: Vec<Lens>,
+    pub cameras: Vec<ModelCamera>,
     /// The lights, as numbered in the file (KHR_lights_punctual).
     pub lights: Vec<PunctualLight>,
     /// The animations, as numbered in the file; channels that cannot be used are left out.
@@ -87,13 +89,13 @@ pub struct Model {
     /// The names of the variants (KHR_materials_variants).
     pub variants: Vec<String>,
     /// The variant that is shown; `None` for the materials that primitives have without.
-    pub variant: Option<usize>,
+    pub active_variant: Option<usize>,
     /// The extensions the file uses, sorted by name.
     pub extensions_used: Vec<String>,
     /// Those it requires, sorted by name.
     pub extensions_required: Vec<String>,
     /// What the file says of its images, as numbered in it.
-    pub image_files: Vec<ImageFile>,
+    pub image_infos: Vec<ImageInfo>,
     /// Soft faults: what was wrong or left out, and where.
     pub warnings: Vec<Warning>,
 }
@@ -106,7 +108,7 @@ pub struct Node {
     /// The node's transform: from its own coordinates to its parent's (the model's, for a root).
     pub to_parent: Affine<ModelSpace, ModelSpace>,
     /// The parts of that transform, which animations change; `None` if the file gives it as a matrix.
-    pub parts: Option<Parts>,
+    pub trs: Option<Trs>,
     /// From the node's own coordinates to the model's: the product of the transforms from here up, all of them finite.
     pub to_model: Affine<ModelSpace, ModelSpace>,
     /// The node above it; `None` for a root.
@@ -116,9 +118,9 @@ pub struct Node {
     /// The mesh that is shown here.
     pub mesh: Option<usize>,
     /// Where the mesh is shown, in the node's own coordinates, if not once and just here.
-    pub places: Option<Vec<Affine<ModelSpace, ModelSpace>>>,
+    pub instance_transforms: Option<Vec<Affine<ModelSpace, ModelSpace>>>,
     /// How much of each morph target of the mesh is shown here, if not as much as the mesh says.
-    pub weights: Option<Vec<f32>>,
+    pub morph_weights: Option<Vec<f32>>,
     /// The skin that bends the mesh.
     pub skin: Option<usize>,
     /// The camera that looks from here along −z with y up.
@@ -133,13 +135,13 @@ impl Default for Node {
         Self {
             name: None,
             to_parent: Affine::IDENTITY,
-            parts: Some(Parts::default()),
+            trs: Some(Trs::default()),
             to_model: Affine::IDENTITY,
             parent: None,
             children: Vec::new(),
             mesh: None,
-            places: None,
-            weights: None,
+            instance_transforms: None,
+            morph_weights: None,
             skin: None,
             camera: None,
             light: None,
@@ -162,7 +164,7 @@ pub struct Skin {
     /// The nodes that are joints; a vertex's joint numbers point into this list.
     pub joints: Vec<usize>,
     /// For each joint, the map from the mesh's coordinates to the joint's in the pose the mesh was made in.
-    pub inverse_bind: Vec<Affine<ModelSpace, ModelSpace>>,
+    pub inverse_bind_matrices: Vec<Affine<ModelSpace, ModelSpace>>,
 }
 
 /// A soft fault of a file: the model is shown all the same.

@@ -2,7 +2,7 @@
 //!
 //! Scenes have lights of their own too ([`shade::Light`](shade::Light)).
 
-use super::{Instance, Model};
+use super::{MeshInstance, Model};
 
 /// A light of the file.
 #[derive(Clone, PartialEq, Debug)]
@@ -33,16 +33,16 @@ pub enum LightKind {
         /// As for a point.
         range: f32,
         /// The angle from the axis in radians up to which the light is full: at least 0, less than `outer`.
-        inner: f32,
+        inner_cone_angle: f32,
         /// The angle from the axis in radians at which the light ends, at most π/2.
-        outer: f32,
+        outer_cone_angle: f32,
     },
 }
 
 impl LightKind {
     /// The name that glTF has for it.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub const fn gltf_name(self) -> &'static str {
         match self {
             Self::Directional => "directional",
             Self::Point { .. } => "point",
@@ -53,8 +53,8 @@ impl LightKind {
 
 impl Model {
     /// The lights of the shown scene, each with the place of the node that carries it.
-    pub fn shown_lights(&self) -> impl Iterator<Item = (Instance, &PunctualLight)> {
-        self.instances().into_iter().filter_map(|instance| {
+    pub fn scene_lights(&self) -> impl Iterator<Item = (MeshInstance, &PunctualLight)> {
+        self.node_instances().into_iter().filter_map(|instance| {
             let light = self.nodes[instance.node].light?;
             Some((instance, self.lights.get(light)?))
         })

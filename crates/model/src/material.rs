@@ -13,13 +13,13 @@ pub struct Material {
     /// Red, green, blue and alpha of the surface, each in [0, 1]; multiplies texture and vertex colour.
     pub base_color: [f32; 4],
     /// The texture of the base colour (sRGB, alpha linear).
-    pub base_color_texture: Option<TextureUse>,
+    pub base_color_texture: Option<TextureInfo>,
     /// 0 for dielectrics, 1 for metals.
     pub metallic: f32,
     /// 0 for mirrors, 1 for chalk; its square is the α of the microfacet formulas.
     pub roughness: f32,
     /// The texture of metalness (blue) and roughness (green), linear.
-    pub metallic_roughness_texture: Option<TextureUse>,
+    pub metallic_roughness_texture: Option<TextureInfo>,
     /// Small slopes of the surface.
     pub normal_texture: Option<NormalTexture>,
     /// How much of the ambient light arrives.
@@ -27,7 +27,7 @@ pub struct Material {
     /// Light the surface gives off by itself: `emission`'s colour times its strength.
     pub emissive: [f32; 3],
     /// The texture of that light (sRGB); multiplies it.
-    pub emissive_texture: Option<TextureUse>,
+    pub emissive_texture: Option<TextureInfo>,
     /// What `emissive` is made of; animations change one or the other.
     pub emission: Emission,
     /// What alpha means.
@@ -43,7 +43,7 @@ pub struct Material {
 impl Material {
     /// Whether light passes through the surface.
     #[must_use]
-    pub fn transmits(&self) -> bool {
+    pub fn is_transmissive(&self) -> bool {
         let transmission = self.extensions.transmission.as_ref();
         let masked = matches!(self.alpha_mode, AlphaMode::Mask { .. });
         transmission.is_some_and(|share| share.factor > 0.0) && !masked && !self.unlit
@@ -95,7 +95,7 @@ pub struct Emission {
 impl Emission {
     /// Colour times strength.
     #[must_use]
-    pub fn product(self) -> [f32; 3] {
+    pub fn scaled_color(self) -> [f32; 3] {
         self.color.map(|channel| channel * self.strength)
     }
 }
@@ -111,7 +111,7 @@ impl Default for Emission {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct NormalTexture {
     /// The texture.
-    pub texture: TextureUse,
+    pub texture: TextureInfo,
     /// Multiplies the first two components of the vector before it is brought to length 1; any number.
     pub scale: f32,
 }
@@ -120,26 +120,26 @@ pub struct NormalTexture {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct OcclusionTexture {
     /// The texture.
-    pub texture: TextureUse,
+    pub texture: TextureInfo,
     /// In [0, 1]: light arrives as 1 + strength · (red − 1).
     pub strength: f32,
 }
 
 /// A texture in use: which one, and by which coordinates.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct TextureUse {
+pub struct TextureInfo {
     /// The texture's number in the model.
     pub texture: usize,
     /// The set of texture coordinates (`TEXCOORD_n`).
     pub uv_set: usize,
     /// The first two rows of the map from the mesh's (u, v, 1) to the texture's (u, v); the identity unless the file
     /// uses KHR_texture_transform.
-    pub uv_map: [[f32; 3]; 2],
+    pub uv_matrix: [[f32; 3]; 2],
 }
 
-impl TextureUse {
+impl TextureInfo {
     /// The map that keeps texture coordinates as they are.
-    pub const KEEP_UV: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    pub const IDENTITY_UV: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 }
 
 /// What the alpha of a surface means.

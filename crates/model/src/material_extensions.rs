@@ -3,7 +3,7 @@
 //! Names, units and channels of textures are those of the extensions' texts. Factors are linear; a texture multiplies
 //! the factor it stands beside. Records are boxed: most materials have none of them.
 
-use super::{NormalTexture, TextureUse};
+use super::{NormalTexture, TextureInfo};
 
 /// All of them.
 #[derive(Clone, PartialEq, Debug)]
@@ -54,11 +54,11 @@ pub struct Specular {
     /// In [0, 1]. Default: 1.
     pub factor: f32,
     /// Its texture (alpha).
-    pub texture: Option<TextureUse>,
+    pub texture: Option<TextureInfo>,
     /// The colour seen from straight ahead, at least 0 and above 1 at will. Default: 1.
     pub color: [f32; 3],
     /// Its texture (sRGB).
-    pub color_texture: Option<TextureUse>,
+    pub color_texture: Option<TextureInfo>,
 }
 
 /// The older model of surfaces (KHR_materials_pbrSpecularGlossiness). Its diffuse factor and texture are the material's base
@@ -70,7 +70,7 @@ pub struct SpecularGlossiness {
     /// 1 for mirrors, 0 for chalk. Default: 1.
     pub glossiness: f32,
     /// The texture of both: the colour (sRGB), and in alpha (linear) the glossiness.
-    pub texture: Option<TextureUse>,
+    pub texture: Option<TextureInfo>,
 }
 
 /// A clear layer on the surface, with an index of refraction of 1.5 (KHR_materials_clearcoat).
@@ -79,11 +79,11 @@ pub struct Clearcoat {
     /// How much of the surface has it, in [0, 1]. Default: 0.
     pub factor: f32,
     /// Its texture (red).
-    pub texture: Option<TextureUse>,
+    pub texture: Option<TextureInfo>,
     /// The layer's own roughness, in [0, 1]. Default: 0.
     pub roughness: f32,
     /// Its texture (green).
-    pub roughness_texture: Option<TextureUse>,
+    pub roughness_texture: Option<TextureInfo>,
     /// The layer's own slopes; without it the layer is smooth.
     pub normal_texture: Option<NormalTexture>,
 }
@@ -94,11 +94,11 @@ pub struct Sheen {
     /// Each in [0, 1]. Default: 0, which is no sheen.
     pub color: [f32; 3],
     /// Its texture (sRGB).
-    pub color_texture: Option<TextureUse>,
+    pub color_texture: Option<TextureInfo>,
     /// In [0, 1]. Default: 0.
     pub roughness: f32,
     /// Its texture (alpha).
-    pub roughness_texture: Option<TextureUse>,
+    pub roughness_texture: Option<TextureInfo>,
 }
 
 /// Light that passes through the surface and is tinted by the base colour (KHR_materials_transmission). It is shown straight and sharp, as
@@ -108,7 +108,7 @@ pub struct Transmission {
     /// The share of the light that is not reflected and passes through, in [0, 1]. Default: 0.
     pub factor: f32,
     /// Its texture (red).
-    pub texture: Option<TextureUse>,
+    pub texture: Option<TextureInfo>,
 }
 
 /// The body behind the surface (KHR_materials_volume).
@@ -117,7 +117,7 @@ pub struct Volume {
     /// The thickness below the surface in the mesh's own units, at least 0; 0 for a thin sheet. Default: 0.
     pub thickness: f32,
     /// Its texture (green).
-    pub thickness_texture: Option<TextureUse>,
+    pub thickness_texture: Option<TextureInfo>,
     /// After so much way through the body, in units of the world, white light has `attenuation_color`; above 0. Default: infinite.
     pub attenuation_distance: f32,
     /// Each in [0, 1]. Default: 1.
@@ -130,7 +130,7 @@ pub struct Iridescence {
     /// How much of the surface has it, in [0, 1]. Default: 0.
     pub factor: f32,
     /// Its texture (red).
-    pub texture: Option<TextureUse>,
+    pub texture: Option<TextureInfo>,
     /// The film's index of refraction, at least 1. Default: 1.3.
     pub ior: f32,
     /// The thickness in nanometres where the texture's green is 0, at least 0. Default: 100.
@@ -138,7 +138,7 @@ pub struct Iridescence {
     /// The thickness in nanometres where the texture's green is 1, or where there is no texture, at least 0. Default: 400.
     pub thickness_maximum: f32,
     /// The texture of the thickness (green).
-    pub thickness_texture: Option<TextureUse>,
+    pub thickness_texture: Option<TextureInfo>,
 }
 
 /// Highlights that are longer in one direction (KHR_materials_anisotropy).
@@ -149,7 +149,7 @@ pub struct Anisotropy {
     /// The direction in radians, counter-clockwise from the tangent. Default: 0.
     pub rotation: f32,
     /// Its texture: red and green are 2x − 1 of a direction that is turned by `rotation`, blue multiplies the strength.
-    pub texture: Option<TextureUse>,
+    pub texture: Option<TextureInfo>,
 }
 
 impl Default for Specular {

@@ -1,6 +1,6 @@
 //! Meshes: arrays of vertices, and lists of points, lines or triangles over them.
 
-use super::Edges;
+use super::PrimitiveEdges;
 use raster::Clusters;
 use std::sync::OnceLock;
 
@@ -12,7 +12,7 @@ pub struct Mesh {
     /// The parts, each with one material.
     pub primitives: Vec<Primitive>,
     /// How much of each morph target is shown, unless a node says otherwise; targets beyond the list are not shown.
-    pub weights: Vec<f32>,
+    pub morph_weights: Vec<f32>,
 }
 
 /// Vertices with one material, and what to draw of them.
@@ -37,24 +37,24 @@ pub struct Primitive {
     /// Vertex colours, linear, with alpha.
     pub colors: Option<Vec<[f32; 4]>>,
     /// Sets of four joints of the skin for each vertex.
-    pub joints: Vec<Vec<[u16; 4]>>,
+    pub joint_indices: Vec<Vec<[u16; 4]>>,
     /// The weights of those joints, as many sets.
-    pub weights: Vec<Vec<[f32; 4]>>,
+    pub joint_weights: Vec<Vec<[f32; 4]>>,
     /// Differences that can be added to the vertices.
-    pub targets: Vec<MorphTarget>,
+    pub morph_targets: Vec<MorphTarget>,
     /// The material's number in the model; `None` for the default material.
     pub material: Option<usize>,
     /// The materials it has in variants of the model instead.
-    pub variants: Vec<VariantMaterial>,
+    pub material_variants: Vec<VariantMaterial>,
     /// The edges its maker wants to see, if the file says so.
-    pub edges: Option<Box<Edges>>,
+    pub edges: Option<Box<PrimitiveEdges>>,
     /// What is worked out of the other fields when it is first asked for: nothing in a new primitive.
-    pub derived: Derived,
+    pub derived: DerivedData,
 }
 
 /// What a primitive keeps that follows from its other fields. Who changes these must begin again with [`Derived::default`].
 #[derive(Clone, Debug, Default)]
-pub struct Derived {
+pub struct DerivedData {
     /// The clusters of its triangles, without and with cones around their normals.
     clusters: [OnceLock<Clusters>; 2],
     /// The tangents of its corners for the set of texture coordinates that was asked for first, if they can be derived.
@@ -89,15 +89,15 @@ pub struct MorphTarget {
 impl Primitive {
     /// How many points, lines or triangles there are.
     #[must_use]
-    pub fn count(&self) -> usize {
-        self.indices.len() / self.topology.corners()
+    pub fn item_count(&self) -> usize {
+        self.indices.len() / self.topology.vertices_per_item()
     }
 
     /// The clusters of its triangles, with cones where it matters which side they show.
     pub fn clusters(&self, cones: bool) -> &Clusters {
         let triangles = self.indices.as_chunks::<3>().0;
         self.derived.clusters[usize::from(cones)]
-            .get_or_init(|| Clusters::of(&self.positions, triangles, cones))
+            .get_or_init(|| Clusters::build(&self.positions, triangles, cones))
     }
 }
 
@@ -116,7 +116,7 @@ pub enum Topology {
 impl Topology {
     /// Indices per item: 1, 2 or 3.
     #[must_use]
-    pub const fn corners(self) -> usize {
+    pub const fn vertices_per_item(self) -> usize {
         match self {
             Self::Points => 1,
             Self::Lines => 2,

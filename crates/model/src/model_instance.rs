@@ -18,7 +18,7 @@ pub struct ModelInstance {
 pub fn world_points(models: &[ModelInstance]) -> Vec<Point<World>> {
     let mut points = Vec::new();
     for ModelInstance { model, model_to_world } in models {
-        model.for_each_shown_point(|point| points.push(model_to_world.point(point)));
+        model.for_each_scene_point(|point| points.push(model_to_world.transform_point(point)));
     }
     points
 }

@@ -1,81 +1,88 @@
 //! Posing: a model as an animation has it at a time.
 
-use super::{Animation, Channel, Field, Model, Parts, Property, Target};
+use super::{
+    Animation, AnimationChannel, AnimationTarget, Model, NodeProperty, ObjectProperty, Trs,
+};
 use homog::Affine;
 
 impl Model {
     /// Poses the model as an animation has it at a time: nodes, weights of morph targets, and with KHR_animation_pointer
     /// materials, textures, lights and cameras. What it does not change stays; nodes that would leave the range of numbers
     /// do as well. Nothing happens if there is no such animation.
-    pub fn pose(&mut self, animation: usize, seconds: f64) {
+    pub fn apply_animation(&mut self, animation: usize, seconds: f64) {
         let animations = std::mem::take(&mut self.animations);
         if let Some(Animation { channels, .. }) = animations.get(animation) {
-            for Channel { target, curve } in channels {
-                self.set(*target, &curve.at(seconds));
+            for AnimationChannel { target, curve } in channels {
+                self.apply_channel(*target, &curve.sample(seconds));
             }
-            self.place_nodes();
+            self.update_node_transforms();
         }
         self.animations = animations;
     }
 
-    fn set(&mut self, target: Target, value: &[f64]) {
+    fn apply_channel(&mut self, target: AnimationTarget, value: &[f64]) {
         match target {
-            Target::Node { node, property } => self.set_node(node, property, value),
-            Target::NodeWeight { node, target } => {
+            AnimationTarget::Node { node, property } => {
+                self.set_node_property(node, property, value)
+            }
+            AnimationTarget::NodeMorphWeight { node, target } => {
                 let usual = self.morph_weights(node).to_vec();
                 if let Some(node) = self.nodes.get_mut(node) {
-                    set_weights(node.weights.get_or_insert(usual), Some(target), value);
+                    set_morph_weights(node.morph_weights.get_or_insert(usual), Some(target), value);
                 }
             }
-            Target::MeshWeights { mesh, target } => {
+            AnimationTarget::MeshMorphWeights { mesh, target } => {
                 if let Some(mesh) = self.meshes.get_mut(mesh) {
-                    set_weights(&mut mesh.weights, target, value);
+                    set_morph_weights(&mut mesh.morph_weights, target, value);
                 }
             }
-            Target::Field { field: Field::Material(at), of } => {
+            AnimationTarget::ObjectProperty {
+                property: ObjectProperty::Material(at),
+                index: of,
+            } => {
                 if let Some(material) = self.materials.get_mut(of) {
-                    material.set(at, value);
+                    material.set_property(at, value);
                 }
             }
-            Target::Field { field: Field::Light(at), of } => {
+            AnimationTarget::ObjectProperty { property: ObjectProperty::Light(at), index: of } => {
                 if let Some(light) = self.lights.get_mut(of) {
-                    light.set(at, value);
+                    light.set_property(at, value);
                 }
             }
-            Target::Field { field: Field::Lens(at), of } => {
+            AnimationTarget::ObjectProperty { property: ObjectProperty::Camera(at), index: of } => {
                 if let (Some(lens), &[value]) = (self.cameras.get_mut(of), value) {
-                    lens.kind.set(at, value);
+                    lens.projection.set_property(at, value);
                 }
             }
-            Target::Texture { transform, part } => {
+            AnimationTarget::TextureTransform { transform, part } => {
                 let Some(transform) = self.uv_transforms.get_mut(transform) else { return };
-                transform.set(part, value);
+                transform.set_part(part, value);
                 let material = self.materials.get_mut(transform.material);
                 if let Some(used) = material.and_then(|m| m.texture_mut(transform.slot)) {
-                    used.uv_map = transform.map();
+                    used.uv_matrix = transform.to_matrix();
                 }
             }
         }
     }
 
-    fn set_node(&mut self, node: usize, property: Property, value: &[f64]) {
+    fn set_node_property(&mut self, node: usize, property: NodeProperty, value: &[f64]) {
         let Some(node) = self.nodes.get_mut(node) else { return };
-        if property == Property::Weights {
-            set_weights(node.weights.get_or_insert_default(), None, value);
-        } else if let Some(parts) = &mut node.parts {
-            set_part(parts, property, value);
+        if property == NodeProperty::Weights {
+            set_morph_weights(node.morph_weights.get_or_insert_default(), None, value);
+        } else if let Some(parts) = &mut node.trs {
+            set_trs_property(parts, property, value);
         }
     }
 
     /// Tells every node its place anew, parents first.
-    fn place_nodes(&mut self) {
+    fn update_node_transforms(&mut self) {
         let mut open: Vec<usize> =
             (0..self.nodes.len()).filter(|&at| self.nodes[at].parent.is_none()).collect();
         while let Some(at) = open.pop() {
             let above =
                 self.nodes[at].parent.map_or(Affine::IDENTITY, |up| self.nodes[up].to_model);
             let node = &mut self.nodes[at];
-            let posed = node.parts.and_then(|parts| parts.to_parent());
+            let posed = node.trs.and_then(|parts| parts.to_affine());
             let candidates = [posed.unwrap_or(node.to_parent), node.to_parent, Affine::IDENTITY];
             let fits = candidates.into_iter().find(|map| map.then(above).is_finite());
             node.to_parent = fits.unwrap_or(Affine::IDENTITY);
@@ -86,7 +93,7 @@ impl Model {
 }
 
 /// Sets one weight, or all of them.
-fn set_weights(weights: &mut Vec<f32>, target: Option<usize>, value: &[f64]) {
+fn set_morph_weights(weights: &mut Vec<f32>, target: Option<usize>, value: &[f64]) {
     match (target, value) {
         (None, all) => *weights = all.iter().map(|&weight| weight as f32).collect(),
         (Some(target), &[weight]) => {
@@ -99,11 +106,11 @@ fn set_weights(weights: &mut Vec<f32>, target: Option<usize>, value: &[f64]) {
     }
 }
 
-fn set_part(parts: &mut Parts, property: Property, value: &[f64]) {
+fn set_trs_property(parts: &mut Trs, property: NodeProperty, value: &[f64]) {
     match (property, value) {
-        (Property::Translation, &[x, y, z]) => parts.translation = [x, y, z],
-        (Property::Rotation, &[x, y, z, w]) => parts.rotation = [x, y, z, w],
-        (Property::Scale, &[x, y, z]) => parts.scale = [x, y, z],
+        (NodeProperty::Translation, &[x, y, z]) => parts.translation = [x, y, z],
+        (NodeProperty::Rotation, &[x, y, z, w]) => parts.rotation = [x, y, z, w],
+        (NodeProperty::Scale, &[x, y, z]) => parts.scale = [x, y, z],
         _ => {}
     }
 }
@@ -112,36 +119,38 @@ fn set_part(parts: &mut Parts, property: Property, value: &[f64]) {
 mod tests {
     use super::*;
     use crate::{
-        Curve, Interpolation, Material, Mesh, Node, TextureSlot, TextureUse, UvPart, UvTransform,
+        AnimationCurve, Interpolation, Material, Mesh, Node, TextureInfo, TextureSlot, UvTransform,
+        UvTransformPart,
     };
 
     /// From one value at 0 s to another at 1 s.
-    fn line(values: &[f32], width: usize) -> Curve {
+    fn linear_curve(values: &[f32], width: usize) -> AnimationCurve {
         let (interpolation, times) = (Interpolation::Linear, vec![0.0, 1.0]);
-        Curve { interpolation, times, values: values.to_vec(), width }
+        AnimationCurve { interpolation, times, values: values.to_vec(), components: width }
     }
 
     #[test]
     fn a_pose_moves_nodes_and_what_hangs_on_them() {
-        let node = |parent: Option<usize>, children: &[usize], parts: Parts| Node {
-            to_parent: parts.to_parent().unwrap(),
-            parts: Some(parts),
+        let node = |parent: Option<usize>, children: &[usize], parts: Trs| Node {
+            to_parent: parts.to_affine().unwrap(),
+            trs: Some(parts),
             parent,
             children: children.to_vec(),
             ..Node::default()
         };
-        let above = Parts { scale: [2.0; 3], ..Parts::default() };
-        let below = Parts { translation: [1.0, 0.0, 0.0], ..Parts::default() };
-        let channel = |node: usize, property: Property, values: &[f32], width: usize| Channel {
-            target: Target::Node { node, property },
-            curve: line(values, width),
-        };
+        let above = Trs { scale: [2.0; 3], ..Trs::default() };
+        let below = Trs { translation: [1.0, 0.0, 0.0], ..Trs::default() };
+        let channel =
+            |node: usize, property: NodeProperty, values: &[f32], width: usize| AnimationChannel {
+                target: AnimationTarget::Node { node, property },
+                curve: linear_curve(values, width),
+            };
         let largest = f32::MAX;
         let channels = vec![
-            channel(0, Property::Translation, &[0.0, 0.0, 0.0, 0.0, 8.0, 0.0], 3),
-            channel(1, Property::Rotation, &[0.0; 8], 4),
-            channel(1, Property::Weights, &[0.0, 1.0, 1.0, 0.0], 2),
-            channel(9, Property::Scale, &[largest; 6], 3),
+            channel(0, NodeProperty::Translation, &[0.0, 0.0, 0.0, 0.0, 8.0, 0.0], 3),
+            channel(1, NodeProperty::Rotation, &[0.0; 8], 4),
+            channel(1, NodeProperty::Weights, &[0.0, 1.0, 1.0, 0.0], 2),
+            channel(9, NodeProperty::Scale, &[largest; 6], 3),
         ];
         let mut model = Model {
             nodes: vec![node(None, &[1], above), node(Some(0), &[], below)],
@@ -149,33 +158,45 @@ mod tests {
             animations: vec![Animation { name: None, channels, duration_seconds: 1.0 }],
             ..Model::default()
         };
-        model.pose(1, 0.0);
+        model.apply_animation(1, 0.0);
         assert_eq!(model.nodes[1].to_model, Affine::IDENTITY, "there is no such animation");
-        model.pose(0, 0.25);
-        let origin = model.instances()[1].node_to_model.point(homog::Point::ORIGIN);
+        model.apply_animation(0, 0.25);
+        let origin = model.node_instances()[1].node_to_model.transform_point(homog::Point::ORIGIN);
         assert_eq!(<[f64; 3]>::from(origin), [2.0, 2.0, 0.0], "what is no rotation is not used");
-        assert_eq!(model.nodes[1].to_model, model.instances()[1].node_to_model);
-        assert_eq!(model.nodes[1].weights, Some(vec![0.25, 0.75]));
+        assert_eq!(model.nodes[1].to_model, model.node_instances()[1].node_to_model);
+        assert_eq!(model.nodes[1].morph_weights, Some(vec![0.25, 0.75]));
     }
 
     #[test]
     fn pointers_change_materials_weights_and_textures() {
-        let used = TextureUse { texture: 0, uv_set: 0, uv_map: TextureUse::KEEP_UV };
+        let used = TextureInfo { texture: 0, uv_set: 0, uv_matrix: TextureInfo::IDENTITY_UV };
         let material = Material { emissive_texture: Some(used), ..Material::default() };
         let slot = TextureSlot::Emissive;
         let lies =
             UvTransform { material: 0, slot, offset: [0.0; 2], rotation: 0.0, scale: [1.0; 2] };
-        let field = Field::of_material("pbrMetallicRoughness/metallicFactor").unwrap();
-        let part = UvPart::Offset;
+        let field = ObjectProperty::for_material("pbrMetallicRoughness/metallicFactor").unwrap();
+        let part = UvTransformPart::Offset;
         let targets = [
-            (Target::Field { field, of: 0 }, line(&[0.0, 0.5], 1)),
-            (Target::Field { field, of: 7 }, line(&[0.0, 0.5], 1)),
-            (Target::MeshWeights { mesh: 0, target: Some(1) }, line(&[0.0, 0.5], 1)),
-            (Target::NodeWeight { node: 0, target: 0 }, line(&[0.0, 1.0], 1)),
-            (Target::Texture { transform: 0, part }, line(&[0.0, 0.0, 2.0, 4.0], 2)),
+            (
+                AnimationTarget::ObjectProperty { property: field, index: 0 },
+                linear_curve(&[0.0, 0.5], 1),
+            ),
+            (
+                AnimationTarget::ObjectProperty { property: field, index: 7 },
+                linear_curve(&[0.0, 0.5], 1),
+            ),
+            (
+                AnimationTarget::MeshMorphWeights { mesh: 0, target: Some(1) },
+                linear_curve(&[0.0, 0.5], 1),
+            ),
+            (AnimationTarget::NodeMorphWeight { node: 0, target: 0 }, linear_curve(&[0.0, 1.0], 1)),
+            (
+                AnimationTarget::TextureTransform { transform: 0, part },
+                linear_curve(&[0.0, 0.0, 2.0, 4.0], 2),
+            ),
         ];
-        let channels = targets.map(|(target, curve)| Channel { target, curve }).to_vec();
-        let mesh = Mesh { weights: vec![0.25, 0.0], ..Mesh::default() };
+        let channels = targets.map(|(target, curve)| AnimationChannel { target, curve }).to_vec();
+        let mesh = Mesh { morph_weights: vec![0.25, 0.0], ..Mesh::default() };
         let mut model = Model {
             nodes: vec![Node { mesh: Some(0), ..Node::default() }],
             meshes: vec![mesh],
@@ -184,11 +205,11 @@ mod tests {
             animations: vec![Animation { name: None, channels, duration_seconds: 1.0 }],
             ..Model::default()
         };
-        model.pose(0, 0.5);
+        model.apply_animation(0, 0.5);
         assert_eq!(model.materials[0].metallic, 0.25);
-        assert_eq!(model.meshes[0].weights, [0.25, 0.25]);
-        assert_eq!(model.nodes[0].weights.as_deref(), Some(&[0.5, 0.25][..]));
-        let map = model.materials[0].emissive_texture.unwrap().uv_map;
+        assert_eq!(model.meshes[0].morph_weights, [0.25, 0.25]);
+        assert_eq!(model.nodes[0].morph_weights.as_deref(), Some(&[0.5, 0.25][..]));
+        let map = model.materials[0].emissive_texture.unwrap().uv_matrix;
         assert_eq!(map, [[1.0, 0.0, 1.0], [0.0, 1.0, 2.0]]);
     }
 }

@@ -18,20 +18,20 @@ impl Primitive {
     /// Flat normals stand in for missing ones. `None` for points and lines, if there is no such set, and for shapes that the
     /// algorithm gives up on. Those for one set are kept with the primitive: pictures of a film share them.
     #[must_use]
-    pub fn derived_tangents(&self, uv_set: usize) -> Option<Cow<'_, [[f32; 4]]>> {
+    pub fn mikktspace_tangents(&self, uv_set: usize) -> Option<Cow<'_, [[f32; 4]]>> {
         let (kept_set, kept) =
-            self.derived.tangents.get_or_init(|| (uv_set, self.generated_tangents(uv_set)));
+            self.derived.tangents.get_or_init(|| (uv_set, self.run_mikktspace(uv_set)));
         if *kept_set == uv_set {
             return kept.as_deref().map(Cow::Borrowed);
         }
-        self.generated_tangents(uv_set).map(Cow::Owned)
+        self.run_mikktspace(uv_set).map(Cow::Owned)
     }
 
-    fn generated_tangents(&self, uv_set: usize) -> Option<Vec<[f32; 4]>> {
+    fn run_mikktspace(&self, uv_set: usize) -> Option<Vec<[f32; 4]>> {
         let uvs = self.uvs.get(uv_set).filter(|_| self.topology == Topology::Triangles)?;
         // What has no direction in the texture keeps this one.
         let tangents = vec![[1.0, 0.0, 0.0, 1.0]; self.indices.len()];
-        let mut corners = Corners { primitive: self, uvs, tangents };
+        let mut corners = MikktspaceInput { primitive: self, uvs, tangents };
         // The crate trusts shapes more than a stranger's file deserves.
         let done = catch_unwind(AssertUnwindSafe(|| generate_tangents(&mut corners).is_ok()));
         done.unwrap_or(false).then_some(corners.tangents)
@@ -39,27 +39,27 @@ impl Primitive {
 }
 
 /// A primitive as MikkTSpace asks for it.
-struct Corners<'a> {
+struct MikktspaceInput<'a> {
     primitive: &'a Primitive,
     uvs: &'a [[f32; 2]],
     tangents: Vec<[f32; 4]>,
 }
 
-impl Corners<'_> {
-    fn vertex(&self, face: usize, corner: usize) -> usize {
+impl MikktspaceInput<'_> {
+    fn vertex_index(&self, face: usize, corner: usize) -> usize {
         self.primitive.indices[3 * face + corner] as usize
     }
 
     fn face_normal(&self, face: usize) -> [f32; 3] {
-        let corner = |k| self.primitive.positions[self.vertex(face, k)].map(f64::from);
+        let corner = |k| self.primitive.positions[self.vertex_index(face, k)].map(f64::from);
         let [a, b, c] = [0, 1, 2].map(|k| DVec3::from(corner(k)));
         (b - a).cross(c - a).normalize_or(DVec3::Z).as_vec3().to_array()
     }
 }
 
-impl Geometry<Portable> for Corners<'_> {
+impl Geometry<PortableMath> for MikktspaceInput<'_> {
     fn num_faces(&self) -> usize {
-        self.primitive.count()
+        self.primitive.item_count()
     }
 
     fn num_vertices_of_face(&self, _face: usize) -> usize {
@@ -67,18 +67,18 @@ impl Geometry<Portable> for Corners<'_> {
     }
 
     fn position(&self, face: usize, corner: usize) -> [f32; 3] {
-        self.primitive.positions[self.vertex(face, corner)]
+        self.primitive.positions[self.vertex_index(face, corner)]
     }
 
     fn normal(&self, face: usize, corner: usize) -> [f32; 3] {
-        let vertex = self.vertex(face, corner);
+        let vertex = self.vertex_index(face, corner);
         self.primitive.normals.as_ref().map_or_else(|| self.face_normal(face), |all| all[vertex])
     }
 
     /// MikkTSpace has v upwards, glTF downwards; with the sign turned, bitangents point up in the image, as normal
     /// textures mean them.
     fn tex_coord(&self, face: usize, corner: usize) -> [f32; 2] {
-        let [u, v] = self.uvs[self.vertex(face, corner)];
+        let [u, v] = self.uvs[self.vertex_index(face, corner)];
         [u, -v]
     }
 
@@ -90,9 +90,9 @@ impl Geometry<Portable> for Corners<'_> {
 }
 
 /// The functions that have the same bits on all machines.
-struct Portable;
+struct PortableMath;
 
-impl Ops for Portable {
+impl Ops for PortableMath {
     fn sqrt(x: f32) -> f32 {
         x.sqrt()
     }
@@ -105,10 +105,10 @@ impl Ops for Portable {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::Derived;
+    use crate::mesh::DerivedData;
 
     /// A unit square in the plane z = 0 that faces +z, with these texture coordinates at (0, 0), (1, 0), (1, 1), (0, 1).
-    fn square(uvs: [[f32; 2]; 4]) -> Primitive {
+    fn textured_square(uvs: [[f32; 2]; 4]) -> Primitive {
         Primitive {
             indices: vec![0, 1, 2, 0, 2, 3],
             positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
@@ -131,17 +131,17 @@ mod tests {
             // A quarter turn: u along y, v falls along −x.
             ([[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]], [0.0, 1.0, 0.0, 1.0]),
         ] {
-            let square = square(uvs);
-            let tangents = square.derived_tangents(0).unwrap();
+            let square = textured_square(uvs);
+            let tangents = square.mikktspace_tangents(0).unwrap();
             for found in tangents.iter() {
                 let near = found.iter().zip(tangent).all(|(a, b): (_, f32)| (a - b).abs() < 1e-6);
                 assert!(near, "{uvs:?}: {found:?}");
             }
             assert_eq!(tangents.len(), 6);
-            let derived = Derived::default();
+            let derived = DerivedData::default();
             let flat = Primitive { normals: None, derived, ..square.clone() };
             assert_eq!(
-                flat.derived_tangents(0).unwrap(),
+                flat.mikktspace_tangents(0).unwrap(),
                 tangents,
                 "flat normals are the same here"
             );
@@ -154,25 +154,28 @@ mod tests {
             [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]],
             [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]],
         ];
-        let both = Primitive { uvs: vec![along_x.to_vec(), along_y.to_vec()], ..square(along_x) };
-        let first = both.derived_tangents(0).unwrap();
-        assert!(matches!(both.derived_tangents(0), Some(Cow::Borrowed(kept)) if kept == &*first));
-        assert_eq!(both.derived_tangents(1), square(along_y).derived_tangents(0));
-        assert_ne!(both.derived_tangents(1).unwrap(), first);
+        let both =
+            Primitive { uvs: vec![along_x.to_vec(), along_y.to_vec()], ..textured_square(along_x) };
+        let first = both.mikktspace_tangents(0).unwrap();
+        assert!(
+            matches!(both.mikktspace_tangents(0), Some(Cow::Borrowed(kept)) if kept == &*first)
+        );
+        assert_eq!(both.mikktspace_tangents(1), textured_square(along_y).mikktspace_tangents(0));
+        assert_ne!(both.mikktspace_tangents(1).unwrap(), first);
     }
 
     #[test]
     fn shapes_without_directions_do_no_harm() {
-        let one_point = square([[0.5; 2]; 4]);
-        assert_eq!(one_point.derived_tangents(0).map(|tangents| tangents.len()), Some(6));
-        assert_eq!(one_point.derived_tangents(1), None);
+        let one_point = textured_square([[0.5; 2]; 4]);
+        assert_eq!(one_point.mikktspace_tangents(0).map(|tangents| tangents.len()), Some(6));
+        assert_eq!(one_point.mikktspace_tangents(1), None);
         let flat = Primitive {
             positions: vec![[f32::MAX; 3]; 4],
-            derived: Derived::default(),
+            derived: DerivedData::default(),
             ..one_point
         };
-        assert_eq!(flat.derived_tangents(0).map(|tangents| tangents.len()), Some(6));
-        let line = Primitive { topology: Topology::Lines, derived: Derived::default(), ..flat };
-        assert_eq!(line.derived_tangents(0), None);
+        assert_eq!(flat.mikktspace_tangents(0).map(|tangents| tangents.len()), Some(6));
+        let line = Primitive { topology: Topology::Lines, derived: DerivedData::default(), ..flat };
+        assert_eq!(line.mikktspace_tangents(0), None);
     }
 }

@@ -1,6 +1,6 @@
 //! All places of a material that can have a texture, by name.
 
-use super::{Material, TextureUse};
+use super::{Material, TextureInfo};
 
 /// A place of a material that can have a texture.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -77,7 +77,7 @@ impl TextureSlot {
 
     /// Whether the texture's red, green and blue are sRGB codes; alpha never is, nor are numbers that are no colours.
     #[must_use]
-    pub const fn is_color(self) -> bool {
+    pub const fn is_srgb(self) -> bool {
         matches!(
             self,
             Self::BaseColor
@@ -91,14 +91,14 @@ impl TextureSlot {
 
     /// Its place in a glTF material: a JSON pointer without the first slash.
     #[must_use]
-    pub fn path(self) -> &'static str {
+    pub fn json_path(self) -> &'static str {
         Self::PATHS.iter().find(|(slot, _)| *slot == self).map_or("", |(_, path)| path)
     }
 }
 
 impl Material {
     /// All textures of the material, each with its slot.
-    pub fn all_textures(&self) -> impl Iterator<Item = (TextureSlot, TextureUse)> {
+    pub fn all_textures(&self) -> impl Iterator<Item = (TextureSlot, TextureInfo)> {
         let mut copy = self.clone();
         let slots = TextureSlot::PATHS.iter().map(|(slot, _)| *slot);
         slots.filter_map(move |slot| Some((slot, *copy.texture_mut(slot)?)))
@@ -106,7 +106,7 @@ impl Material {
 
     /// The textures that the surface shows, each with its slot: their images are decoded. Without light there is only the base
     /// colour to see, and where a body has no depth, its depth is not.
-    pub fn textures(&self) -> impl Iterator<Item = (TextureSlot, TextureUse)> {
+    pub fn visible_textures(&self) -> impl Iterator<Item = (TextureSlot, TextureInfo)> {
         let unlit = self.unlit;
         self.all_textures().filter(move |(slot, _)| match slot {
             TextureSlot::BaseColor | TextureSlot::Diffuse => true,
@@ -115,7 +115,7 @@ impl Material {
     }
 
     /// The texture in a slot.
-    pub fn texture_mut(&mut self, slot: TextureSlot) -> Option<&mut TextureUse> {
+    pub fn texture_mut(&mut self, slot: TextureSlot) -> Option<&mut TextureInfo> {
         let more = &mut self.extensions;
         // The diffuse texture of the older model stands in the place of the base colour's.
         let older = more.specular_glossiness.is_some();
@@ -155,12 +155,13 @@ mod tests {
     #[test]
     fn slots_stand_in_the_order_of_their_table() {
         assert!(TextureSlot::PATHS.windows(2).all(|pair| pair[0].0 < pair[1].0));
-        assert_eq!(TextureSlot::Normal.path(), "normalTexture");
+        assert_eq!(TextureSlot::Normal.json_path(), "normalTexture");
     }
 
     #[test]
     fn a_material_lists_its_textures() {
-        let used = |texture| TextureUse { texture, uv_set: 0, uv_map: TextureUse::KEEP_UV };
+        let used =
+            |texture| TextureInfo { texture, uv_set: 0, uv_matrix: TextureInfo::IDENTITY_UV };
         let mut material = Material { base_color_texture: Some(used(3)), ..Material::default() };
         assert_eq!(
             material.all_textures().collect::<Vec<_>>(),

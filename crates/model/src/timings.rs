@@ -4,24 +4,24 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Stages and what each took.
-type Spans = Vec<(&'static str, Duration)>;
+type StageTimes = Vec<(&'static str, Duration)>;
 
 /// A stopwatch for the stages of a run. Its copies share what they measure; the default one measures nothing.
 #[derive(Clone, Debug, Default)]
 pub struct Timings {
-    spans: Option<Arc<Mutex<Spans>>>,
+    stage_times: Option<Arc<Mutex<StageTimes>>>,
 }
 
 impl Timings {
     /// A stopwatch that measures.
     #[must_use]
-    pub fn measuring() -> Self {
-        Self { spans: Some(Arc::default()) }
+    pub fn enabled() -> Self {
+        Self { stage_times: Some(Arc::default()) }
     }
 
     /// Does the work, and adds the time it takes to that of the stage.
     pub fn measure<T>(&self, stage: &'static str, work: impl FnOnce() -> T) -> T {
-        let Some(spans) = &self.spans else { return work() };
+        let Some(spans) = &self.stage_times else { return work() };
         let begin = Instant::now();
         let result = work();
         let took = begin.elapsed();
@@ -36,10 +36,10 @@ impl Timings {
     /// The stages and what each took, in the order in which they first ended.
     #[must_use]
     pub fn stages(&self) -> Vec<(&'static str, Duration)> {
-        let spans = |spans: &Arc<Mutex<Spans>>| {
+        let spans = |spans: &Arc<Mutex<StageTimes>>| {
             spans.lock().unwrap_or_else(PoisonError::into_inner).clone()
         };
-        self.spans.as_ref().map(spans).unwrap_or_default()
+        self.stage_times.as_ref().map(spans).unwrap_or_default()
     }
 }
 
@@ -49,7 +49,7 @@ mod tests {
 
     #[test]
     fn a_stage_that_comes_twice_is_one_entry_and_the_default_measures_nothing() {
-        let timings = Timings::measuring();
+        let timings = Timings::enabled();
         assert_eq!(timings.measure("a", || 1), 1);
         timings.clone().measure("b", || ());
         timings.measure("a", || ());

@@ -1,6 +1,6 @@
 //! How a texture lies on its coordinates (KHR_texture_transform), in the parts that animations change.
 
-use super::{TextureSlot, TextureUse};
+use super::{TextureInfo, TextureSlot};
 
 /// The transform of the texture in a slot of a material: scale, then rotate, then move.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -19,7 +19,7 @@ pub struct UvTransform {
 
 /// A part of a [`UvTransform`].
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum UvPart {
+pub enum UvTransformPart {
     /// The translation, two numbers.
     Offset,
     /// The rotation, one number.
@@ -31,20 +31,24 @@ pub enum UvPart {
 impl UvTransform {
     /// The map it makes: [`TextureUse::uv_map`]. The identity if a number is not finite.
     #[must_use]
-    pub fn map(&self) -> [[f32; 3]; 2] {
+    pub fn to_matrix(&self) -> [[f32; 3]; 2] {
         let ([u, v], [width, height]) = (self.offset, self.scale);
         let angle = f64::from(self.rotation);
         let (sin, cos) = (libm::sin(angle) as f32, libm::cos(angle) as f32);
         let map = [[cos * width, sin * height, u], [-sin * width, cos * height, v]];
-        if map.as_flattened().iter().all(|x| x.is_finite()) { map } else { TextureUse::KEEP_UV }
+        if map.as_flattened().iter().all(|x| x.is_finite()) {
+            map
+        } else {
+            TextureInfo::IDENTITY_UV
+        }
     }
 
     /// Sets a part; values of another number of components change nothing.
-    pub fn set(&mut self, part: UvPart, value: &[f64]) {
+    pub fn set_part(&mut self, part: UvTransformPart, value: &[f64]) {
         match (part, value) {
-            (UvPart::Offset, &[u, v]) => self.offset = [u as f32, v as f32],
-            (UvPart::Rotation, &[angle]) => self.rotation = angle as f32,
-            (UvPart::Scale, &[u, v]) => self.scale = [u as f32, v as f32],
+            (UvTransformPart::Offset, &[u, v]) => self.offset = [u as f32, v as f32],
+            (UvTransformPart::Rotation, &[angle]) => self.rotation = angle as f32,
+            (UvTransformPart::Scale, &[u, v]) => self.scale = [u as f32, v as f32],
             _ => {}
         }
     }
@@ -63,12 +67,12 @@ mod tests {
             rotation: 0.0,
             scale: [1.0; 2],
         };
-        assert_eq!(transform.map(), TextureUse::KEEP_UV);
-        transform.set(UvPart::Offset, &[0.5, 0.25]);
-        transform.set(UvPart::Rotation, &[std::f64::consts::FRAC_PI_2]);
-        transform.set(UvPart::Scale, &[2.0, 3.0]);
-        transform.set(UvPart::Scale, &[9.0]);
-        let map = transform.map();
+        assert_eq!(transform.to_matrix(), TextureInfo::IDENTITY_UV);
+        transform.set_part(UvTransformPart::Offset, &[0.5, 0.25]);
+        transform.set_part(UvTransformPart::Rotation, &[std::f64::consts::FRAC_PI_2]);
+        transform.set_part(UvTransformPart::Scale, &[2.0, 3.0]);
+        transform.set_part(UvTransformPart::Scale, &[9.0]);
+        let map = transform.to_matrix();
         let image = |u: f32, v: f32| map.map(|row| row[0] * u + row[1] * v + row[2]);
         let near =
             |a: [f32; 2], b: [f32; 2]| (a[0] - b[0]).abs() < 1e-6 && (a[1] - b[1]).abs() < 1e-6;

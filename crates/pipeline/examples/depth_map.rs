@@ -3,17 +3,17 @@
 //! Run it with `cargo run -p pipeline --example depth_map -- model.glb depth.npy`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
 
-use pipeline::render::passes::{Pass, passes};
+use pipeline::render::passes::{Pass, render_passes};
 use pipeline::{Origin, Scene, Timings};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut names = std::env::args().skip(1);
     let (model, output) = names.next().zip(names.next()).ok_or("name a model and a file")?;
-    let (origin, file) = Origin::bare_model(model.as_ref());
+    let (origin, file) = Origin::from_model_path(model.as_ref());
     let scene = Scene::resolve(&origin, &file, &Default::default())?;
-    let whole = scene.image.rect();
-    let depths = passes(&scene, whole, &[Pass::Depth], 2, &Timings::default())?;
+    let whole = scene.image.pixel_rect();
+    let depths = render_passes(&scene, whole, &[Pass::Depth], 2, &Timings::default())?;
     let [depth] = depths.as_slice() else { return Err("one pass".into()) };
-    println!("{:?} ahead in the middle", depth.floats(depth.width / 2, depth.height / 2));
+    println!("{:?} ahead in the middle", depth.float_values(depth.width / 2, depth.height / 2));
     Ok(pipeline::write_file(output.as_ref(), &depth.to_npy())?)
 }

@@ -3,7 +3,7 @@
 //! Run it with `cargo run -p pipeline --example explain -- model.glb 480 360`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
 
-use pipeline::explain::{Chain, Conventions, explain_pixel};
+use pipeline::explain::{ApiConventions, TransformChain, explain_pixel};
 use pipeline::{Origin, Scene};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -11,9 +11,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let [model, column, row] = names.as_slice() else {
         return Err("name a model and a pixel".into());
     };
-    let (origin, file) = Origin::bare_model(model.as_ref());
+    let (origin, file) = Origin::from_model_path(model.as_ref());
     let scene = Scene::resolve(&origin, &file, &Default::default())?;
-    let chain = Chain::of(&scene.view_projection, file.image.size, Conventions::Alberti)?;
+    let chain =
+        TransformChain::new(&scene.view_projection, file.image.size, ApiConventions::Alberti)?;
     let told = explain_pixel(&chain, &scene, column.parse()?, row.parse()?)?;
     println!("{told}\nas JSON it has {} bytes", told.to_json().to_string().len());
     Ok(())

@@ -8,7 +8,7 @@ use pipeline::{Origin, Scene, render};
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut names = std::env::args().skip(1);
     let (model, output) = names.next().zip(names.next()).ok_or("name a model and a picture")?;
-    let (origin, mut file) = Origin::bare_model(model.as_ref());
+    let (origin, mut file) = Origin::from_model_path(model.as_ref());
     file.image.size = (256, 256);
     let scene = Scene::resolve(&origin, &file, &Default::default())?;
     let picture = render(&scene, 2)?; // with two threads; the picture does not depend on it

@@ -2,17 +2,19 @@
 //!
 //! Run it with `cargo run -p pipeline --example turntable -- model.glb frames`.
 
-use pipeline::film::{Film, Motion};
+use pipeline::sequence::{Motion, Sequence};
 use pipeline::{Origin, Scene};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut names = std::env::args().skip(1);
     let (model, folder) = names.next().zip(names.next()).ok_or("name a model and a folder")?;
-    let (origin, mut file) = Origin::bare_model(model.as_ref());
+    let (origin, mut file) = Origin::from_model_path(model.as_ref());
     file.image.size = (320, 240);
     let scene = Scene::resolve(&origin, &file, &Default::default())?;
     let turn = Motion::Turntable { angle: std::f64::consts::TAU };
-    let film = Film::new(&origin, &file, scene, turn, 12)?;
-    film.draw(2, |frame, picture| picture.write_png(format!("{folder}/{frame:02}.png").as_ref()))?;
+    let film = Sequence::new(&origin, &file, scene, turn, 12)?;
+    film.render_frames(2, |frame, picture| {
+        picture.write_png(format!("{folder}/{frame:02}.png").as_ref())
+    })?;
     Ok(())
 }

@@ -23,9 +23,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// # }
 /// ```
 #[derive(Clone, Debug, Default)]
-pub struct Cancel(Arc<AtomicBool>);
+pub struct CancelToken(Arc<AtomicBool>);
 
-impl Cancel {
+impl CancelToken {
     /// Asks for the end. Work ends within the time that a few rows of tiles take, and the wish stays.
     pub fn cancel(&self) {
         self.0.store(true, Ordering::Relaxed);
@@ -38,7 +38,7 @@ impl Cancel {
     }
 
     /// What drawing looks at.
-    pub(crate) fn flag(&self) -> Arc<AtomicBool> {
+    pub(crate) fn stop_flag(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.0)
     }
 }

@@ -10,19 +10,19 @@
 //! Each gives [`Panels`](drawing::Panels) or a [`Page`](drawing::Page), to be written as SVG, PDF or PNG; panels go
 //! into a web page as well. None depends on the number of threads.
 
-mod depth;
 mod depth_chart;
-mod family;
-mod number;
+mod depth_table;
+mod number_format;
+mod projection_family;
 mod sweep;
-mod tear;
 #[cfg(test)]
 mod test_scene;
+mod wraparound;
 
-pub use depth::{DepthRow, DepthTable};
-pub use family::{Member, compared};
-pub use sweep::{Sweep, Vary};
-pub use tear::tear;
+pub use depth_table::{DepthRow, DepthTable};
+pub use projection_family::{NamedProjection, projection_panels};
+pub use sweep::{Sweep, SweepParameter};
+pub use wraparound::wraparound_panels;
 
 use crate::render::RenderError;
 use crate::scene::ResolveError;
@@ -45,17 +45,17 @@ pub enum DemonstrationError {
     Projection(#[from] projection::ProjectionError),
     /// The parameter is none of this scene's projection.
     #[error("`{vary}` cannot be varied: {reason}")]
-    Unsuited {
+    UnsupportedParameter {
         /// The parameter.
-        vary: Vary,
+        vary: SweepParameter,
         /// Why not, and what to do.
         reason: String,
     },
     /// A value makes no sense.
     #[error("`{vary}` cannot be {value}: {reason}")]
-    Value {
+    InvalidValue {
         /// The parameter.
-        vary: Vary,
+        vary: SweepParameter,
         /// Its value.
         value: String,
         /// Why not.

@@ -5,29 +5,29 @@
 //! ```
 //! Nothing is computed in a way of its own here: every number comes from the stage that a picture goes through.
 
-mod chain;
 mod conventions;
-mod factors;
-mod figures;
+mod diagrams;
 mod html;
 mod json;
 mod matrix;
 mod node;
 mod pixel;
-mod place;
+mod plain_text;
+mod point;
+mod projection_factors;
 mod segment;
-mod text;
+mod transform_chain;
 mod triangle;
 
-pub use chain::Chain;
-pub use conventions::Conventions;
-pub(crate) use factors::formula_of;
+pub use conventions::ApiConventions;
 pub use json::{SCHEMA_NAME, SCHEMA_VERSION};
 pub use matrix::explain_matrix;
 pub use node::explain_node;
 pub use pixel::explain_pixel;
-pub use place::{Vertex, explain_chain, explain_place, explain_vertex};
+pub use point::{VertexRef, explain_point, explain_transforms, explain_vertex};
+pub(crate) use projection_factors::formula_ids;
 pub use segment::explain_segment;
+pub use transform_chain::TransformChain;
 pub use triangle::explain_triangle;
 
 /// What happens to a subject, step by step.
@@ -62,12 +62,12 @@ pub struct Item {
     /// A name for people.
     pub name: String,
     /// The value.
-    pub value: Value,
+    pub value: ItemValue,
 }
 
 /// What an item is.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Value {
+pub enum ItemValue {
     /// A matrix for column vectors, row by row.
     Matrix([[f64; 4]; 4]),
     /// Coordinates, or another list of numbers.
@@ -75,7 +75,7 @@ pub enum Value {
     /// A number.
     Number(f64),
     /// Words.
-    Words(String),
+    Text(String),
 }
 
 impl Step {
@@ -83,47 +83,52 @@ impl Step {
         Self { id, title: title.into(), formula, items: Vec::new() }
     }
 
-    fn with(
+    fn with_item(
         mut self,
         id: impl Into<String>,
         name: impl Into<String>,
-        value: impl Into<Value>,
+        value: impl Into<ItemValue>,
     ) -> Self {
-        self.add(id, name, value);
+        self.add_item(id, name, value);
         self
     }
 
-    fn add(&mut self, id: impl Into<String>, name: impl Into<String>, value: impl Into<Value>) {
+    fn add_item(
+        &mut self,
+        id: impl Into<String>,
+        name: impl Into<String>,
+        value: impl Into<ItemValue>,
+    ) {
         self.items.push(Item { id: id.into(), name: name.into(), value: value.into() });
     }
 }
 
-impl From<[[f64; 4]; 4]> for Value {
+impl From<[[f64; 4]; 4]> for ItemValue {
     fn from(rows: [[f64; 4]; 4]) -> Self {
         Self::Matrix(rows)
     }
 }
 
-impl<const N: usize> From<[f64; N]> for Value {
+impl<const N: usize> From<[f64; N]> for ItemValue {
     fn from(numbers: [f64; N]) -> Self {
         Self::Numbers(numbers.to_vec())
     }
 }
 
-impl From<f64> for Value {
+impl From<f64> for ItemValue {
     fn from(number: f64) -> Self {
         Self::Number(number)
     }
 }
 
-impl From<String> for Value {
+impl From<String> for ItemValue {
     fn from(words: String) -> Self {
-        Self::Words(words)
+        Self::Text(words)
     }
 }
 
-impl From<&str> for Value {
+impl From<&str> for ItemValue {
     fn from(words: &str) -> Self {
-        Self::Words(words.to_owned())
+        Self::Text(words.to_owned())
     }
 }

@@ -34,31 +34,43 @@
 mod cancel;
 pub mod demonstration;
 pub mod explain;
-pub mod film;
 pub mod render;
 pub mod scene;
+pub mod sequence;
 
-pub use cancel::Cancel;
+pub use cancel::CancelToken;
 pub use drawing;
 pub use homog::PixelRect;
 pub use model::{self, Timings, import};
 pub use render::{
-    MAX_SIDE, Paint, PaintError, RenderError, Renderer, Textures, draw, render, render_reported,
-    render_timed,
+    BandedRenderer, MAX_IMAGE_SIDE, RenderError, Renderer, Textures, WritePngError, draw_lines,
+    render, render_reported, render_timed,
 };
 pub use scene::{Origin, ResolveError, Scene, SceneError, SceneFile};
-pub use shade::{self, Channel, Draft, OutputError, Picture, PngRows, encode_png, write_file};
+pub use shade::{self, AtomicFile, Channel, OutputError, Picture, PngRows, encode_png, write_file};
 
 #[cfg(test)]
 mod tests {
     /// That this compiles is the test.
     #[test]
     fn everything_can_go_to_another_thread() {
-        fn goes<T: Send + Sync + 'static>() {}
-        goes::<(crate::Origin, crate::SceneFile, crate::Scene, shade::Picture, model::Timings)>();
-        goes::<(crate::Renderer, crate::film::Film, crate::explain::Explanation)>();
-        goes::<(drawing::Page, drawing::LineDrawing, drawing::Sheet)>();
-        goes::<(crate::SceneError, crate::ResolveError, crate::RenderError, shade::OutputError)>();
-        goes::<(model::import::ImportError, model::import::ImportOptions)>();
+        fn assert_send_sync<T: Send + Sync + 'static>() {}
+        assert_send_sync::<(
+            crate::Origin,
+            crate::SceneFile,
+            crate::Scene,
+            shade::Picture,
+            model::Timings,
+        )>();
+        assert_send_sync::<(crate::Renderer, crate::sequence::Sequence, crate::explain::Explanation)>(
+        );
+        assert_send_sync::<(drawing::Page, drawing::LineDrawing, drawing::Sheet)>();
+        assert_send_sync::<(
+            crate::SceneError,
+            crate::ResolveError,
+            crate::RenderError,
+            shade::OutputError,
+        )>();
+        assert_send_sync::<(model::import::ImportError, model::import::ImportOptions)>();
     }
 }

@@ -6,40 +6,40 @@
 //!  positions ─model_to_clip─► clip space ─clip─► pieces ─÷w, viewport, snap─► raster ─► shading ─► pixels
 //! ```
 
-mod assemble;
-mod backdrop;
+mod ambient_occlusion;
+mod background;
+mod banded_renderer;
 mod ground;
-mod images;
-mod lines;
-mod needs;
-mod occlusion;
-mod paint;
+mod image_tiles;
+mod insets;
+mod line_drawing;
+mod mip_chains;
 mod panel;
 pub mod passes;
-mod pixel;
-mod region;
+mod pixel_inspection;
+mod primitive_assembly;
+mod projected_mesh;
 mod renderer;
-mod shadows;
-mod stage;
+mod screen_transform;
+mod shadow_maps;
 #[cfg(test)]
 mod tests;
-mod textures;
-mod vertices;
-mod viewports;
+mod vertex_inputs;
+mod vertex_processing;
 
-pub use lines::draw;
-pub use paint::{Paint, PaintError, band_rows};
+pub use banded_renderer::{BandedRenderer, WritePngError, rows_per_band};
+pub use image_tiles::MAX_IMAGE_SIDE;
+pub use line_drawing::draw_lines;
+pub use mip_chains::Textures;
 pub use panel::render_panel;
-pub use passes::{Pass, PassBuffer, passes};
-pub use pixel::{Owner, PixelMakeup, SeenFragment, pixel};
-pub use region::MAX_SIDE;
+pub use passes::{Pass, PassBuffer, render_passes};
+pub use pixel_inspection::{FragmentSource, PixelFragments, ShadedFragment, inspect_pixel};
 pub use renderer::Renderer;
-pub use textures::Textures;
 
 use crate::scene::Scene;
 use crate::{Picture, Timings};
 use drawing::Warning;
-use region::check_region;
+use image_tiles::validate_region;
 
 /// A scene that cannot be rendered.
 #[derive(Debug, thiserror::Error)]
@@ -94,8 +94,8 @@ pub fn render_reported(
     threads: usize,
     timings: &Timings,
 ) -> Result<(Picture, Vec<Warning>), RenderError> {
-    let whole = scene.image.rect();
-    check_region(scene.image, whole)?;
-    let mut paint = Paint::new(scene, threads, timings)?;
-    Ok((paint.region(whole)?, paint.into_warnings()))
+    let image_rect = scene.image.pixel_rect();
+    validate_region(scene.image, image_rect)?;
+    let mut paint = BandedRenderer::new(scene, threads, timings)?;
+    Ok((paint.render_region(image_rect)?, paint.into_warnings()))
 }

@@ -3,61 +3,61 @@
 //! A scene is written in a file ([`SceneFile`], RON, by people) and resolved ([`Scene`]): models are loaded, angles are
 //! radians, every default is decided, and what does not make sense has become an error that points at its place.
 
-mod advice;
-mod background;
-pub(crate) mod bounds;
+mod backdrop;
 mod camera_path;
 mod classical;
+pub(crate) mod depth_span;
 mod error;
 pub mod file;
+mod format;
 mod ground;
+mod hdr;
 mod include;
+mod insets;
 mod instances;
-mod layout;
 mod lights;
-mod locate;
-mod look;
+mod lints;
+mod material_overrides;
+mod messages;
 #[cfg(test)]
 mod mistakes;
 mod number;
 mod origin;
 mod outputs;
-mod overrides;
 mod parse;
-mod radiance;
 pub mod reference;
 mod resolve;
-mod review;
 mod section;
 mod shadows;
 mod sheet;
-mod surroundings;
-mod viewpoint;
-mod views;
-mod wording;
+mod source_span;
+mod style;
+mod surrounding_light;
+mod validate;
+mod view_projection;
 
-pub use advice::{Advice, advise};
-pub(crate) use bounds::DepthSpan;
 pub use camera_path::CameraPath;
+pub(crate) use depth_span::DepthSpan;
 pub use error::SceneError;
 pub use file::SceneFile;
+pub use format::format_source;
 pub use ground::Ground;
-pub use layout::laid_out;
+pub use insets::Inset;
+pub use lints::{Lint, lint_scene};
 pub use origin::Origin;
 pub use outputs::Outputs;
-pub use parse::parse;
-pub use resolve::{ResolveOptions, chosen_animation};
-pub use review::review;
+pub use parse::parse_scene;
+pub use resolve::{ResolveOptions, select_animation};
 pub use sheet::resolve_sheet;
-pub use views::View;
+pub use validate::validate_scene;
 
 use camera::ViewProjection;
-use drawing::{LineLook, Overlay};
+use drawing::{LineStyle, Overlay};
 use homog::{PixelRect, Plane, Point, World};
 use model::ModelInstance;
 use model::import::ImportError;
 use raster::Samples;
-use shade::{Develop, Environment, Light, Painting};
+use shade::{Backdrop, Environment, Light, ToneMapper};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -77,15 +77,15 @@ pub struct Scene {
     /// How far away things still take light from all around, in the units of the world; `None` if they do not.
     pub occlusion_radius: Option<f64>,
     /// How light becomes colours.
-    pub develop: Develop,
+    pub tone_mapper: ToneMapper,
     /// How surfaces are drawn.
     pub style: Style,
     /// The picture to make.
     pub image: ImageSpec,
     /// Views of their own in parts of the picture, in the order in which they are drawn over it.
-    pub views: Vec<View>,
+    pub insets: Vec<Inset>,
     /// What is painted behind the models, over the picture's background.
-    pub painting: Option<Arc<Painting>>,
+    pub backdrop: Option<Arc<Backdrop>>,
     /// What is drawn over it.
     pub overlays: Vec<Overlay>,
     /// Planes that cut the models open in line drawings; their unit normals point to what is kept.
@@ -101,13 +101,13 @@ impl Scene {
 
     /// The names of the models, each once.
     #[must_use]
-    pub fn title(&self) -> String {
+    pub fn model_names(&self) -> String {
         model::model_names(&self.models)
     }
 
     /// What the line drawing of the scene is made of.
     #[must_use]
-    pub fn subject(&self) -> drawing::Subject<'_> {
+    pub fn drawing_subject(&self) -> drawing::Subject<'_> {
         drawing::Subject {
             models: &self.models,
             view_projection: self.view_projection,
@@ -145,20 +145,20 @@ pub enum Style {
     /// The edges of all triangles.
     Wireframe,
     /// A line drawing.
-    Lines(LineLook),
+    Lines(LineStyle),
 }
 
 impl Style {
     /// Whether surfaces are drawn, and not only lines.
     #[must_use]
-    pub const fn shows_surfaces(self) -> bool {
+    pub const fn draws_surfaces(self) -> bool {
         !matches!(self, Self::Wireframe | Self::Lines(_))
     }
 
     /// Whether surfaces look otherwise than their materials have it.
     #[must_use]
-    pub const fn look_is_own(self) -> bool {
-        self.shows_surfaces() && !matches!(self, Self::Shaded | Self::Flat)
+    pub const fn overrides_materials(self) -> bool {
+        self.draws_surfaces() && !matches!(self, Self::Shaded | Self::Flat)
     }
 
     /// Whether lines are drawn over the surfaces.
@@ -178,17 +178,17 @@ pub struct ImageSpec {
     /// What is seen where no model is: linear, multiplied by alpha.
     pub background: [f32; 4],
     /// How blurred the environment is seen there, from 0 to 1; `None` if it is not seen.
-    pub backdrop: Option<f32>,
+    pub environment_blur: Option<f32>,
     /// Coverage samples per pixel.
     pub samples: Samples,
     /// How many places textures are read at along the longer side of what a pixel covers of them, from 1 to 8.
-    pub anisotropy: u32,
+    pub max_anisotropy: u32,
 }
 
 impl ImageSpec {
     /// All pixels of the picture.
     #[must_use]
-    pub const fn rect(self) -> PixelRect {
+    pub const fn pixel_rect(self) -> PixelRect {
         PixelRect::from_size(self.width, self.height)
     }
 }

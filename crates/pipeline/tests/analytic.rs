@@ -3,13 +3,13 @@
 use base64::Engine;
 use model::ModelInstance;
 use model::import::{ImportOptions, load_bytes};
-use pipeline::scene::parse;
-use pipeline::{Origin, Paint, Picture, Scene, Timings, render};
+use pipeline::scene::parse_scene;
+use pipeline::{BandedRenderer, Origin, Picture, Scene, Timings, render};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// A glTF file of one mesh: triangles with normals, each part with a material of its own.
-fn model(parts: &[Part]) -> Vec<u8> {
+fn build_glb(parts: &[TestPart]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let (mut views, mut accessors, mut primitives, mut materials) =
         (vec![], vec![], vec![], vec![]);
@@ -53,17 +53,17 @@ fn model(parts: &[Part]) -> Vec<u8> {
 }
 
 /// Triangles of one material.
-struct Part {
+struct TestPart {
     positions: Vec<[f32; 3]>,
     normals: Vec<[f32; 3]>,
     material: String,
 }
 
 /// The square from −1 to 1 at a height, which faces +z.
-fn square(z: f32, material: &str) -> Part {
+fn square_part(z: f32, material: &str) -> TestPart {
     let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     let positions = [0, 1, 2, 0, 2, 3].map(|n: usize| [corners[n][0], corners[n][1], z]);
-    Part {
+    TestPart {
         positions: positions.to_vec(),
         normals: vec![[0.0, 0.0, 1.0]; 6],
         material: material.to_owned(),
@@ -71,7 +71,7 @@ fn square(z: f32, material: &str) -> Part {
 }
 
 /// A sphere of radius 1, fine enough that its normals are those of a sphere to four digits.
-fn sphere(material: &str) -> Part {
+fn sphere_part(material: &str) -> TestPart {
     let (rows, columns) = (96, 192);
     let point = |row: usize, column: usize| {
         let (a, b) = (PI * row as f64 / rows as f64, 2.0 * PI * column as f64 / columns as f64);
@@ -83,35 +83,35 @@ fn sphere(material: &str) -> Part {
         let [c, d] = [point(row + 1, column + 1), point(row, column + 1)];
         positions.extend([a, b, c, a, c, d]);
     }
-    Part { normals: positions.clone(), positions, material: material.to_owned() }
+    TestPart { normals: positions.clone(), positions, material: material.to_owned() }
 }
 
 /// The picture of some parts by the rest of a scene file, from (0, 0, 5) with a picture of 2.2 units' height.
-fn draw(parts: &[Part], rest: &str) -> Picture {
-    draw_larger(parts, 1.0, rest)
+fn render_parts(parts: &[TestPart], rest: &str) -> Picture {
+    render_parts_larger(parts, 1.0, rest)
 }
 
 /// The same with everything so many times as large.
-fn draw_larger(parts: &[Part], size: f64, rest: &str) -> Picture {
-    render(&scene(parts, size, rest), 2).expect("a picture")
+fn render_parts_larger(parts: &[TestPart], size: f64, rest: &str) -> Picture {
+    render(&test_scene(parts, size, rest), 2).expect("a picture")
 }
 
-fn scene(parts: &[Part], size: f64, rest: &str) -> Scene {
+fn test_scene(parts: &[TestPart], size: f64, rest: &str) -> Scene {
     let text = format!(
         r#"Scene(models: [(path: "made")],
         camera: (view: LookTo(eye: (0, 0, 5), gaze: (0, 0, -1)), projection: Orthographic(height: 2.2)),
         {rest})"#
     );
-    let file = parse("made.ron", &text).expect("a scene");
+    let file = parse_scene("made.ron", &text).expect("a scene");
     let loaded =
-        load_bytes("made.gltf", &model(parts), &ImportOptions::default()).expect("a model");
+        load_bytes("made.gltf", &build_glb(parts), &ImportOptions::default()).expect("a model");
     let model_to_world = homog::Affine::scale(size, size, size);
     let placed = ModelInstance { model: Arc::new(loaded), model_to_world };
-    let origin = Origin::of_text("made.ron", text, ".".into());
-    Scene::of_models(&origin, &file, vec![placed]).expect("a scene that makes sense")
+    let origin = Origin::from_text("made.ron", text, ".".into());
+    Scene::from_models(&origin, &file, vec![placed]).expect("a scene that makes sense")
 }
 
-fn srgb(light: f64) -> f64 {
+fn encode_srgb(light: f64) -> f64 {
     let light = light.clamp(0.0, 1.0);
     let code = if light <= 0.003_130_8 {
         light * 12.92
@@ -121,9 +121,9 @@ fn srgb(light: f64) -> f64 {
     code * 255.0
 }
 
-fn assert_near(found: [u8; 4], due: [f64; 3], where_: &str) {
+fn assert_near(actual: [u8; 4], expected: [f64; 3], where_: &str) {
     for k in 0..3 {
-        let (found, due) = (f64::from(found[k]), srgb(due[k]).round());
+        let (found, due) = (f64::from(actual[k]), encode_srgb(expected[k]).round());
         assert!((found - due).abs() <= 1.0, "{where_}, channel {k}: {found}, not {due:.2}");
     }
 }
@@ -132,15 +132,15 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn unit(v: [f64; 3]) -> [f64; 3] {
+fn normalize(v: [f64; 3]) -> [f64; 3] {
     v.map(|c| c / dot(v, v).sqrt())
 }
 
 /// What a dielectric of this colour and roughness sends to the viewer at +z, per lux, by Appendix B of the specification; what
 /// highlights lose at one bounce is left out, which is less than a code for them.
-fn reflected(base: [f64; 3], roughness: f64, n: [f64; 3], l: [f64; 3]) -> [f64; 3] {
+fn expected_reflection(base: [f64; 3], roughness: f64, n: [f64; 3], l: [f64; 3]) -> [f64; 3] {
     let v = [0.0, 0.0, 1.0];
-    let h = unit([0, 1, 2].map(|k: usize| l[k] + v[k]));
+    let h = normalize([0, 1, 2].map(|k: usize| l[k] + v[k]));
     let (nl, nv, nh, vh) = (dot(n, l).max(0.0), dot(n, v).max(0.0), dot(n, h), dot(v, h));
     let a2 = libm::pow(roughness, 4.0);
     let below = nh * nh * (a2 - 1.0) + 1.0;
@@ -151,33 +151,34 @@ fn reflected(base: [f64; 3], roughness: f64, n: [f64; 3], l: [f64; 3]) -> [f64; 
     base.map(|c| ((1.0 - fresnel) * c / PI + fresnel * lobe) * nl)
 }
 
-const MATT: &str = r#"{"pbrMetallicRoughness":{"baseColorFactor":[0.8,0.4,0.1,1],"metallicFactor":0,"roughnessFactor":0.6}}"#;
+const MATTE: &str = r#"{"pbrMetallicRoughness":{"baseColorFactor":[0.8,0.4,0.1,1],"metallicFactor":0,"roughnessFactor":0.6}}"#;
 
 #[test]
 fn a_lit_plane_has_the_colour_of_the_formula_everywhere() {
-    let picture = draw(
-        &[square(0.0, MATT)],
+    let picture = render_parts(
+        &[square_part(0.0, MATTE)],
         r#"lights: [Sun(direction: (-1, -1, -2), lux: 2)], image: (size: (80, 80), samples: 1)"#,
     );
-    let l = unit([1.0, 1.0, 2.0]);
-    let due = reflected([0.8, 0.4, 0.1], 0.6, [0.0, 0.0, 1.0], l).map(|c| c * 2.0);
+    let l = normalize([1.0, 1.0, 2.0]);
+    let expected = expected_reflection([0.8, 0.4, 0.1], 0.6, [0.0, 0.0, 1.0], l).map(|c| c * 2.0);
     for (x, y) in (6..74).flat_map(|y| (6..74).map(move |x| (x, y))) {
-        assert_near(picture.pixel(x, y).unwrap(), due, &format!("pixel ({x}, {y})"));
+        assert_near(picture.pixel(x, y).unwrap(), expected, &format!("pixel ({x}, {y})"));
     }
 }
 
 #[test]
 fn a_plane_under_a_point_has_the_colour_of_the_formula_everywhere() {
-    let picture = draw(
-        &[square(0.0, MATT)],
+    let picture = render_parts(
+        &[square_part(0.0, MATTE)],
         r#"lights: [Point(position: (0.5, 0.3, 0.8), candela: 1.5)], image: (size: (88, 88), samples: 1)"#,
     );
     for (x, y) in (6..82).flat_map(|y| (6..82).map(move |x| (x, y))) {
         let place = [f64::from(x) + 0.5, 87.5 - f64::from(y)].map(|c| (c / 88.0 - 0.5) * 2.2);
         let way = [0.5 - place[0], 0.3 - place[1], 0.8];
         let lux = 1.5 / dot(way, way);
-        let due = reflected([0.8, 0.4, 0.1], 0.6, [0.0, 0.0, 1.0], unit(way)).map(|c| c * lux);
-        assert_near(picture.pixel(x, y).unwrap(), due, &format!("pixel ({x}, {y})"));
+        let expected = expected_reflection([0.8, 0.4, 0.1], 0.6, [0.0, 0.0, 1.0], normalize(way))
+            .map(|c| c * lux);
+        assert_near(picture.pixel(x, y).unwrap(), expected, &format!("pixel ({x}, {y})"));
     }
 }
 
@@ -187,8 +188,8 @@ fn a_lit_sphere_has_the_colours_of_the_formula() {
     let rest = format!(
         "lights: [Sun(direction: (-1, -2, -2), lux: 2.5)], image: (size: ({size}, {size}), samples: 1)"
     );
-    let picture = draw(&[sphere(MATT)], &rest);
-    let l = unit([1.0, 2.0, 2.0]);
+    let picture = render_parts(&[sphere_part(MATTE)], &rest);
+    let l = normalize([1.0, 2.0, 2.0]);
     let mut seen = 0;
     for (x, y) in (0..size).flat_map(|y| (0..size).map(move |x| (x, y))).step_by(7) {
         let side = f64::from(size);
@@ -200,14 +201,14 @@ fn a_lit_sphere_has_the_colours_of_the_formula() {
         let n = [at[0], at[1], (1.0 - square).sqrt()];
         // A pixel's normals spread by how far they turn from one to the next, which widens highlights.
         let turn = 2.2 / side / n[2];
-        let due = reflected([0.8, 0.4, 0.1], 0.6 + turn, n, l).map(|c| c * 2.5);
-        assert_near(picture.pixel(x, y).unwrap(), due, &format!("pixel ({x}, {y})"));
+        let expected = expected_reflection([0.8, 0.4, 0.1], 0.6 + turn, n, l).map(|c| c * 2.5);
+        assert_near(picture.pixel(x, y).unwrap(), expected, &format!("pixel ({x}, {y})"));
         seen += 1;
     }
     assert!(seen > 10_000);
 }
 
-fn pane(color: [f64; 4]) -> String {
+fn pane_material(color: [f64; 4]) -> String {
     format!(
         r#"{{"alphaMode":"BLEND","extensions":{{"KHR_materials_unlit":{{}}}},"pbrMetallicRoughness":{{"baseColorFactor":{color:?}}}}}"#
     )
@@ -217,38 +218,44 @@ const PANES: [[f64; 4]; 3] = [[0.9, 0.2, 0.1, 0.5], [0.1, 0.7, 0.2, 0.25], [0.2,
 
 #[test]
 fn three_translucent_squares_are_laid_over_each_other_by_depth_whatever_their_order() {
-    let mut due = [1.0; 3];
+    let mut expected = [1.0; 3];
     for [r, g, b, alpha] in PANES {
-        due = [0, 1, 2].map(|k: usize| [r, g, b][k] * alpha + due[k] * (1.0 - alpha));
+        expected = [0, 1, 2].map(|k: usize| [r, g, b][k] * alpha + expected[k] * (1.0 - alpha));
     }
     for order in [[0, 1, 2], [2, 0, 1], [1, 2, 0], [2, 1, 0]] {
-        let parts = order.map(|n: usize| square(n as f32 * 0.3, &pane(PANES[n])));
+        let parts = order.map(|n: usize| square_part(n as f32 * 0.3, &pane_material(PANES[n])));
         let rest = r##"image: (size: (40, 40), background: Color("#fff"), samples: 4)"##;
-        let picture = draw(&parts, rest);
+        let picture = render_parts(&parts, rest);
         for (x, y) in (4..36).flat_map(|y| (4..36).map(move |x| (x, y))) {
-            assert_near(picture.pixel(x, y).unwrap(), due, &format!("{order:?} ({x}, {y})"));
+            assert_near(picture.pixel(x, y).unwrap(), expected, &format!("{order:?} ({x}, {y})"));
         }
     }
 }
 
 #[test]
 fn a_transparent_picture_laid_over_a_colour_is_the_opaque_one_over_it() {
-    let parts = || [sphere(MATT), square(1.2, &pane(PANES[0])), square(-1.5, &pane(PANES[2]))];
+    let parts = || {
+        [
+            sphere_part(MATTE),
+            square_part(1.2, &pane_material(PANES[0])),
+            square_part(-1.5, &pane_material(PANES[2])),
+        ]
+    };
     let rest = |background: &str| {
         let lights = "lights: [Sun(direction: (-1, -2, -2), lux: 2.5), Ambient(lux: 0.5)]";
         format!("{lights}, image: (size: (60, 60), background: {background}, samples: 4)")
     };
     // In 16 bits, for where sRGB is steep half a code of an alpha of 8 bits is more than one of colour.
-    let clear = scene(&parts(), 1.0, &rest("Transparent"));
+    let clear = test_scene(&parts(), 1.0, &rest("Transparent"));
     let timings = Timings::default();
-    let mut paint = Paint::new(&clear, 2, &timings).expect("a scene");
-    let clear: Picture<u16> = paint.region(clear.image.rect()).expect("a picture");
+    let mut paint = BandedRenderer::new(&clear, 2, &timings).expect("a scene");
+    let clear: Picture<u16> = paint.render_region(clear.image.pixel_rect()).expect("a picture");
     for (text, color) in [("#fff", [1.0; 3]), ("#000", [0.0; 3]), ("#ff0000", [1.0, 0.0, 0.0])] {
-        let solid = draw(&parts(), &rest(&format!("Color(\"{text}\")")));
+        let solid = render_parts(&parts(), &rest(&format!("Color(\"{text}\")")));
         for (clear, solid) in clear.pixels.iter().zip(&solid.pixels) {
             let clear = clear.map(|code| f64::from(code) / 65535.0);
             let alpha = clear[3];
-            let due = [0, 1, 2].map(|k: usize| {
+            let expected = [0, 1, 2].map(|k: usize| {
                 let light = if clear[k] <= 0.04045 {
                     clear[k] / 12.92
                 } else {
@@ -256,13 +263,13 @@ fn a_transparent_picture_laid_over_a_colour_is_the_opaque_one_over_it() {
                 };
                 light * alpha + color[k] * (1.0 - alpha)
             });
-            assert_near(*solid, due, &format!("{clear:?} over {text}"));
+            assert_near(*solid, expected, &format!("{clear:?} over {text}"));
         }
     }
 }
 
 /// Glass that mirrors nothing, with more in the extension of its body.
-fn glass(color: [f64; 3], volume: &str) -> String {
+fn glass_material(color: [f64; 3], volume: &str) -> String {
     let [r, g, b] = color;
     format!(
         r#"{{"extensions":{{"KHR_materials_transmission":{{"transmissionFactor":1}},
@@ -275,22 +282,23 @@ fn glass(color: [f64; 3], volume: &str) -> String {
 fn glass_tints_what_is_behind_it_by_channels() {
     // Over white, a product of what each lets through, in whatever order; over colours, of theirs as well.
     let colors = [[0.9, 0.3, 0.2], [0.5, 0.8, 1.0], [0.7, 0.7, 0.7]];
-    let mut due = [1.0; 3];
+    let mut expected = [1.0; 3];
     for color in colors {
-        due = [0, 1, 2].map(|k: usize| due[k] * color[k]);
+        expected = [0, 1, 2].map(|k: usize| expected[k] * color[k]);
     }
     let behind = [0.2, 0.9, 0.6];
-    let opaque = pane([0.2, 0.9, 0.6, 1.0]);
+    let opaque = pane_material([0.2, 0.9, 0.6, 1.0]);
     let rest = r##"lights: [], image: (size: (40, 40), background: Color("#fff"), samples: 4)"##;
     for order in [[0, 1, 2], [2, 0, 1], [2, 1, 0]] {
-        let mut parts: Vec<Part> =
-            order.map(|n: usize| square(n as f32 * 0.3, &glass(colors[n], ""))).into();
-        let middle = draw(&parts, rest).pixel(20, 20).unwrap();
-        assert_near(middle, due, &format!("{order:?} over white"));
-        parts.push(square(-0.5, &opaque));
-        let middle = draw(&parts, rest).pixel(20, 20).unwrap();
-        let due = [0, 1, 2].map(|k: usize| due[k] * behind[k]);
-        assert_near(middle, due, &format!("{order:?} over a colour"));
+        let mut parts: Vec<TestPart> = order
+            .map(|n: usize| square_part(n as f32 * 0.3, &glass_material(colors[n], "")))
+            .into();
+        let middle = render_parts(&parts, rest).pixel(20, 20).unwrap();
+        assert_near(middle, expected, &format!("{order:?} over white"));
+        parts.push(square_part(-0.5, &opaque));
+        let middle = render_parts(&parts, rest).pixel(20, 20).unwrap();
+        let expected = [0, 1, 2].map(|k: usize| expected[k] * behind[k]);
+        assert_near(middle, expected, &format!("{order:?} over a colour"));
     }
 }
 
@@ -302,25 +310,28 @@ fn bodies_of_glass_tint_by_their_thickness_in_the_world() {
     let base = [1.0, 0.8, 0.9];
     for size in [0.5, 1.0, 3.0] {
         let rest = r##"lights: [], image: (size: (40, 40), background: Color("#fff"))"##;
-        let picture = draw_larger(&[square(0.0, &glass(base, volume))], size, rest);
+        let picture =
+            render_parts_larger(&[square_part(0.0, &glass_material(base, volume))], size, rest);
         let kept = |color: f64| libm::pow(color, 0.5 * size / 0.8);
-        let due = [base[0] * kept(0.9), base[1] * kept(0.5), base[2] * kept(0.1)];
-        assert_near(picture.pixel(20, 20).unwrap(), due, &format!("size {size}"));
+        let expected = [base[0] * kept(0.9), base[1] * kept(0.5), base[2] * kept(0.1)];
+        assert_near(picture.pixel(20, 20).unwrap(), expected, &format!("size {size}"));
     }
 }
 
 #[test]
 fn glass_that_is_partly_there_lets_the_rest_pass_untinted() {
     // KHR_materials_transmission: alpha is coverage; what is not covered is seen as it is.
-    let material = glass([0.9, 0.3, 0.2], "")
+    let material = glass_material([0.9, 0.3, 0.2], "")
         .replace(r#"{"extensions""#, r#"{"alphaMode":"BLEND","extensions""#);
     let material = material.replace(",1]", ",0.6]");
     let rest = r##"lights: [], image: (size: (40, 40), background: Color("#fff"))"##;
-    let found = draw(&[square(0.0, &material)], rest).pixel(20, 20).unwrap();
+    let found = render_parts(&[square_part(0.0, &material)], rest).pixel(20, 20).unwrap();
     assert_near(found, [0.9, 0.3, 0.2].map(|c| 0.4 + 0.6 * c), "coverage 0.6");
     // Over nothing there is one alpha: that of a grey as bright.
     let rest = "lights: [], image: (size: (40, 40))";
-    let found = draw(&[square(0.0, &glass([0.9, 0.3, 0.2], ""))], rest).pixel(20, 20).unwrap();
+    let found = render_parts(&[square_part(0.0, &glass_material([0.9, 0.3, 0.2], ""))], rest)
+        .pixel(20, 20)
+        .unwrap();
     let grey = 0.2126 * 0.9 + 0.7152 * 0.3 + 0.0722 * 0.2;
     assert_eq!(found, [0, 0, 0, (255.0 * (1.0 - grey) + 0.5) as u8]);
 }
@@ -337,7 +348,7 @@ fn white_surroundings_are_no_brighter_on_any_surface() {
         [(0.0, 1.0), (0.0, 0.3), (1.0, 1.0), (1.0, 0.5), (1.0, 0.0), (0.5, 0.7)]
     {
         let rest = "environment: Uniform(strength: 0.5), lights: [], image: (size: (100, 100), samples: 1)";
-        let picture = draw(&[sphere(&material(metallic, roughness))], rest);
+        let picture = render_parts(&[sphere_part(&material(metallic, roughness))], rest);
         let inside = picture.pixels.iter().filter(|pixel| pixel[3] == 255);
         let codes: Vec<u8> = inside.map(|pixel| pixel[1]).collect();
         // sRGB of 0.5 is 188. White scatters all that is not mirrored, and metal mirrors all: nothing may be lost but by rounding.

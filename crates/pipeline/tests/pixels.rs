@@ -1,6 +1,6 @@
 //! What is told of a pixel is what the picture shows: the same colour, from the triangle that is there.
 
-use pipeline::render::pixel;
+use pipeline::render::inspect_pixel;
 use pipeline::scene::ResolveOptions;
 use pipeline::{Origin, Scene, render};
 use std::path::Path;
@@ -30,17 +30,17 @@ fn a_thousand_pixels_have_the_colours_of_their_pictures() {
     let mut seen = 0;
     for name in SCENES {
         let (origin, mut file) =
-            Origin::read(&folder.join(format!("{name}.ron"))).expect("a committed scene");
+            Origin::read_scene(&folder.join(format!("{name}.ron"))).expect("a committed scene");
         file.image.size = (160, 120);
         let scene = Scene::resolve(&origin, &file, &ResolveOptions::default()).expect("a scene");
         let picture = render(&scene, 2).expect("a picture");
         for _ in 0..100 {
             let (x, y) = (below(160), below(120));
-            let told = pixel(&scene, x, y).expect("a picture").expect("a shaded pixel");
+            let told = inspect_pixel(&scene, x, y).expect("a picture").expect("a shaded pixel");
             assert_eq!(Some(told.color), picture.pixel(x, y), "{name} ({x}, {y}): {told:?}");
             seen += usize::from(!told.fragments.is_empty());
         }
-        assert_eq!(pixel(&scene, 160, 0).expect("a picture"), None);
+        assert_eq!(inspect_pixel(&scene, 160, 0).expect("a picture"), None);
     }
     assert!(seen > 300, "most of the pictures show something: {seen}");
 }

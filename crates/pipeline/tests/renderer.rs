@@ -1,17 +1,24 @@
 //! Pictures that are rendered one after the other are those that are rendered alone, and take no memory anew.
 
-use pipeline::{Cancel, Origin, Picture, RenderError, Renderer, Scene, Textures, Timings, render};
+use pipeline::{
+    CancelToken, Origin, Picture, RenderError, Renderer, Scene, Textures, Timings, render,
+};
 use std::path::Path;
 
 /// A scene of the project, small.
-fn scene(name: &str, size: (u32, u32)) -> Scene {
+fn load_scene(name: &str, size: (u32, u32)) -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name);
-    let (origin, mut file) = Origin::read(&path).expect("a scene of the project");
+    let (origin, mut file) = Origin::read_scene(&path).expect("a scene of the project");
     file.image.size = size;
     Scene::resolve(&origin, &file, &Default::default()).expect("a scene that makes sense")
 }
 
-fn next(renderer: &mut Renderer, scene: &Scene, textures: &Textures<'_>, picture: &mut Picture) {
+fn render_next(
+    renderer: &mut Renderer,
+    scene: &Scene,
+    textures: &Textures<'_>,
+    picture: &mut Picture,
+) {
     let silent = Timings::default();
     renderer.render(scene, textures, 1, &silent, picture).expect("a picture");
 }
@@ -20,11 +27,11 @@ fn next(renderer: &mut Renderer, scene: &Scene, textures: &Textures<'_>, picture
 fn a_second_picture_allocates_but_short_lists() {
     for name in ["crates.ron", "panes.ron", "product.ron", "room.ron", "shadows.ron", "teapot.ron"]
     {
-        let scene = scene(name, (160, 120));
+        let scene = load_scene(name, (160, 120));
         let models = scene.models.clone();
-        let textures = Textures::of(&models);
+        let textures = Textures::for_models(&models);
         let (mut renderer, mut picture) = (Renderer::default(), Picture::default());
-        let mut draw = || next(&mut renderer, &scene, &textures, &mut picture);
+        let mut draw = || render_next(&mut renderer, &scene, &textures, &mut picture);
         let first = allocation_counter::measure(&mut draw);
         let second = allocation_counter::measure(&mut draw);
         assert!(first.bytes_total > 100_000, "{name}: {first:?}");
@@ -44,19 +51,19 @@ fn pictures_do_not_depend_on_those_before() {
         ("primitives.ron", (160, 120)),
         ("teapot.ron", (33, 21)),
     ] {
-        let scene = scene(name, size);
-        let textures = Textures::of(&scene.models);
-        next(&mut renderer, &scene, &textures, &mut picture);
+        let scene = load_scene(name, size);
+        let textures = Textures::for_models(&scene.models);
+        render_next(&mut renderer, &scene, &textures, &mut picture);
         assert!(picture == render(&scene, 2).expect("a picture"), "{name}");
     }
 }
 
 #[test]
 fn a_cancelled_picture_ends_with_an_error_and_the_renderer_is_told_nothing_else() {
-    let scene = scene("crates.ron", (160, 120));
-    let textures = Textures::of(&scene.models);
-    let cancel = Cancel::default();
-    let mut renderer = Renderer::default().cancelled_by(cancel.clone());
+    let scene = load_scene("crates.ron", (160, 120));
+    let textures = Textures::for_models(&scene.models);
+    let cancel = CancelToken::default();
+    let mut renderer = Renderer::default().with_cancel(cancel.clone());
     let mut picture = Picture::default();
     let mut draw = |renderer: &mut Renderer| {
         renderer.render(&scene, &textures, 2, &Timings::default(), &mut picture)
@@ -64,7 +71,7 @@ fn a_cancelled_picture_ends_with_an_error_and_the_renderer_is_told_nothing_else(
     assert!(draw(&mut renderer).is_ok(), "nobody has cancelled it yet");
     cancel.cancel();
     assert!(matches!(draw(&mut renderer), Err(RenderError::Cancelled)));
-    let mut again = renderer.cancelled_by(Cancel::default());
+    let mut again = renderer.with_cancel(CancelToken::default());
     assert!(draw(&mut again).is_ok());
     assert!(picture == render(&scene, 1).expect("a picture"));
 }

@@ -4,14 +4,14 @@ use homog::Affine;
 use homog::PixelRect;
 use model::ModelInstance;
 use model::{AlphaMode, Material, Mesh, Model, Node, Primitive};
-use pipeline::scene::parse;
-use pipeline::{Origin, Paint, Picture, Scene, Timings, render};
+use pipeline::scene::parse_scene;
+use pipeline::{BandedRenderer, Origin, Picture, Scene, Timings, render};
 use std::sync::Arc;
 
-type Place = [f32; 3];
+type Position = [f32; 3];
 
 /// A model of parts, each with its material.
-fn model(parts: Vec<(Primitive, Material)>) -> Model {
+fn build_model(parts: Vec<(Primitive, Material)>) -> Model {
     let (primitives, materials): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
     let primitives = primitives.into_iter().enumerate();
     let primitives =
@@ -25,29 +25,29 @@ fn model(parts: Vec<(Primitive, Material)>) -> Model {
     }
 }
 
-fn matt(red: f32, green: f32, blue: f32) -> Material {
+fn matte_material(red: f32, green: f32, blue: f32) -> Material {
     let base_color = [red, green, blue, 1.0];
     Material { base_color, metallic: 0.0, roughness: 1.0, ..Material::default() }
 }
 
 /// Black in any light but for what it gives off.
-fn marked(emissive: [f32; 3]) -> Material {
-    Material { emissive, double_sided: true, ..matt(0.0, 0.0, 0.0) }
+fn emissive_material(emissive: [f32; 3]) -> Material {
+    Material { emissive, double_sided: true, ..matte_material(0.0, 0.0, 0.0) }
 }
 
-fn quads(quads: &[[Place; 4]]) -> Primitive {
-    let positions: Vec<Place> = quads.concat();
+fn quad_mesh(quads: &[[Position; 4]]) -> Primitive {
+    let positions: Vec<Position> = quads.concat();
     let indices = (0..quads.len() as u32).flat_map(|n| [0, 1, 2, 0, 2, 3].map(|k| 4 * n + k));
     Primitive { indices: indices.collect(), positions, ..Primitive::default() }
 }
 
 /// The square floor at y = 0 from −side to side.
-fn floor(side: f32) -> Primitive {
-    quads(&[[[-side, 0.0, -side], [-side, 0.0, side], [side, 0.0, side], [side, 0.0, -side]]])
+fn floor_quad(side: f32) -> Primitive {
+    quad_mesh(&[[[-side, 0.0, -side], [-side, 0.0, side], [side, 0.0, side], [side, 0.0, -side]]])
 }
 
 /// The sides of a box, and its top unless it is open.
-fn sides([x0, y0, z0]: Place, [x1, y1, z1]: Place, top: bool) -> Primitive {
+fn box_sides([x0, y0, z0]: Position, [x1, y1, z1]: Position, top: bool) -> Primitive {
     let mut faces = vec![
         [[x0, y0, z1], [x1, y0, z1], [x1, y1, z1], [x0, y1, z1]],
         [[x1, y0, z0], [x0, y0, z0], [x0, y1, z0], [x1, y1, z0]],
@@ -57,11 +57,11 @@ fn sides([x0, y0, z0]: Place, [x1, y1, z1]: Place, top: bool) -> Primitive {
     if top {
         faces.push([[x0, y1, z1], [x1, y1, z1], [x1, y1, z0], [x0, y1, z0]]);
     }
-    quads(&faces)
+    quad_mesh(&faces)
 }
 
 /// A coarse ball with smooth normals.
-fn ball(center: Place, radius: f32, rows: u32) -> Primitive {
+fn ball_mesh(center: Position, radius: f32, rows: u32) -> Primitive {
     let columns = 2 * rows;
     let mut primitive = Primitive::default();
     let mut normals = Vec::new();
@@ -82,41 +82,46 @@ fn ball(center: Place, radius: f32, rows: u32) -> Primitive {
     Primitive { normals: Some(normals), ..primitive }
 }
 
-fn scene(parts: Vec<(Primitive, Material)>, rest: &str) -> Scene {
+fn shadow_scene(parts: Vec<(Primitive, Material)>, rest: &str) -> Scene {
     let text = format!(r#"Scene(models: [(path: "made")], {rest})"#);
-    let file = parse("made.ron", &text).expect("a scene");
-    let placed = ModelInstance { model: Arc::new(model(parts)), model_to_world: Affine::IDENTITY };
-    let origin = Origin::of_text("made.ron", text, ".".into());
-    Scene::of_models(&origin, &file, vec![placed]).expect("a scene that makes sense")
+    let file = parse_scene("made.ron", &text).expect("a scene");
+    let placed =
+        ModelInstance { model: Arc::new(build_model(parts)), model_to_world: Affine::IDENTITY };
+    let origin = Origin::from_text("made.ron", text, ".".into());
+    Scene::from_models(&origin, &file, vec![placed]).expect("a scene that makes sense")
 }
 
-fn draw(parts: Vec<(Primitive, Material)>, rest: &str) -> Picture {
-    render(&scene(parts, rest), 2).expect("a picture")
+fn render_parts(parts: Vec<(Primitive, Material)>, rest: &str) -> Picture {
+    render(&shadow_scene(parts, rest), 2).expect("a picture")
 }
 
-fn pixel(picture: &Picture, x: u32, y: u32) -> [u8; 4] {
+fn pixel_at(picture: &Picture, x: u32, y: u32) -> [u8; 4] {
     picture.pixels[(y * picture.width + x) as usize]
 }
 
 /// A box on a floor in 1080 lines, seen from one side.
-fn box_on_floor(eye: &str, lights: &str) -> Picture {
+fn render_box_on_floor(eye: &str, lights: &str) -> Picture {
     let parts = vec![
-        (floor(4.0), matt(0.8, 0.8, 0.8)),
-        (sides([-0.5, 0.0, -0.5], [0.5, 1.0, 0.5], true), marked([0.0, 0.0, 1.0])),
+        (floor_quad(4.0), matte_material(0.8, 0.8, 0.8)),
+        (box_sides([-0.5, 0.0, -0.5], [0.5, 1.0, 0.5], true), emissive_material([0.0, 0.0, 1.0])),
     ];
     let camera = format!(
         "camera: (view: LookAt(eye: {eye}, target: (0, 0.3, 0)), projection: Perspective(fov_y_degrees: 40))"
     );
-    draw(parts, &format!("{camera}, lights: [{lights}], image: (size: (1920, 1080), samples: 1)"))
+    render_parts(
+        parts,
+        &format!("{camera}, lights: [{lights}], image: (size: (1920, 1080), samples: 1)"),
+    )
 }
 
 /// For each column through the middle of the box: the codes of the floor below it, from the first pixel that is not the box's.
-fn below_the_box(picture: &Picture) -> Vec<Vec<u8>> {
-    let is_box = |x: u32, y: u32| pixel(picture, x, y)[2] > 250 && pixel(picture, x, y)[0] < 250;
+fn pixels_below_box(picture: &Picture) -> Vec<Vec<u8>> {
+    let is_box =
+        |x: u32, y: u32| pixel_at(picture, x, y)[2] > 250 && pixel_at(picture, x, y)[0] < 250;
     let middle = 860..1060;
     let column = |x: u32| {
         let last = (0..1080).rev().find(|&y| is_box(x, y)).expect("the box");
-        (last + 1..1080).map(|y| pixel(picture, x, y)[0]).collect()
+        (last + 1..1080).map(|y| pixel_at(picture, x, y)[0]).collect()
     };
     middle.map(column).collect()
 }
@@ -129,16 +134,16 @@ fn a_box_and_its_shadow_touch_and_its_lit_side_stays_lit() {
         "Sun(direction: (1, -0.8, 0.1), lux: 3, shadows: On(softness_degrees: 4))",
         "Spot(position: (-4, 4, -0.4), direction: (1, -1, 0.1), candela: 90, shadows: On())",
     ] {
-        for column in below_the_box(&box_on_floor("(5, 3, 0)", lights)) {
+        for column in pixels_below_box(&render_box_on_floor("(5, 3, 0)", lights)) {
             // Black from the second pixel on, and light again where the shadow ends.
             assert!(column[1..40].iter().all(|&code| code == 0), "{lights}: {:?}", &column[..40]);
             assert!(column.iter().any(|&code| code > 100), "{lights}");
         }
-        for column in below_the_box(&box_on_floor("(-5, 3, 0)", lights)) {
-            let due = column[6];
-            let near = |code: u8| code.abs_diff(due) <= 4;
+        for column in pixels_below_box(&render_box_on_floor("(-5, 3, 0)", lights)) {
+            let expected = column[6];
+            let near = |code: u8| code.abs_diff(expected) <= 4;
             assert!(
-                due > 100 && column[1..8].iter().all(|&c| near(c)),
+                expected > 100 && column[1..8].iter().all(|&c| near(c)),
                 "{lights}: {:?}",
                 &column[..8]
             );
@@ -148,8 +153,8 @@ fn a_box_and_its_shadow_touch_and_its_lit_side_stays_lit() {
 
 /// The greatest difference of codes between a scene with shadows and without.
 fn greatest_difference(parts: &[(Primitive, Material)], rest: &str, shadows: &str) -> u8 {
-    let without = draw(parts.to_vec(), &format!("{rest}, shadows: Off"));
-    let with = draw(parts.to_vec(), &format!("{rest}, shadows: {shadows}"));
+    let without = render_parts(parts.to_vec(), &format!("{rest}, shadows: Off"));
+    let with = render_parts(parts.to_vec(), &format!("{rest}, shadows: {shadows}"));
     assert!(without.pixels.iter().any(|pixel| pixel[0] > 60), "there is light");
     let pairs = with.pixels.iter().zip(&without.pixels);
     pairs.map(|(a, b)| a[0].abs_diff(b[0])).max().expect("a pixel")
@@ -159,7 +164,7 @@ fn greatest_difference(parts: &[(Primitive, Material)], rest: &str, shadows: &st
 fn balls_do_not_shade_themselves_in_grazing_light() {
     // A row of balls across the light, from coarse to fine: none is in another's shadow.
     let balls: Vec<_> = [(-4.0, 12), (-2.0, 24), (0.0, 48), (2.0, 96), (4.0, 192)]
-        .map(|(x, rows)| (ball([x, 0.0, 0.0], 0.9, rows), matt(0.8, 0.8, 0.8)))
+        .map(|(x, rows)| (ball_mesh([x, 0.0, 0.0], 0.9, rows), matte_material(0.8, 0.8, 0.8)))
         .into();
     let camera = "camera: (view: LookAt(eye: (0, 0, 10), target: (0, 0, 0)), projection: Orthographic(height: 3))";
     for direction in ["(0, -1, -0.02)", "(0, -1, -0.3)", "(0, -0.2, -1)", "(0, -1, 0.4)"] {
@@ -180,39 +185,43 @@ fn a_floor_and_a_bowl_do_not_shade_themselves() {
         let rest = format!(
             "{camera}, lights: [Sun(direction: {direction}, lux: 60)], image: (size: (480, 270))"
         );
-        let difference = greatest_difference(&[(floor(30.0), matt(0.8, 0.8, 0.8))], &rest, "On()");
+        let difference = greatest_difference(
+            &[(floor_quad(30.0), matte_material(0.8, 0.8, 0.8))],
+            &rest,
+            "On()",
+        );
         assert_eq!(difference, 0, "{direction}");
     }
     // The inside of a ball, of which nothing is cut off: lit by a spot in its middle.
-    let mut bowl = ball([0.0; 3], 5.0, 40);
+    let mut bowl = ball_mesh([0.0; 3], 5.0, 40);
     bowl.indices =
         bowl.indices.as_chunks::<3>().0.iter().flat_map(|&[a, b, c]| [a, c, b]).collect();
     bowl.normals = bowl.normals.map(|list| list.iter().map(|n| n.map(|c| -c)).collect());
     let rest = "camera: (view: LookAt(eye: (0, 0, 4), target: (0, 0, 0))),
         lights: [Spot(position: (1, 1, 1), direction: (-1, -1, -2), candela: 40)], image: (size: (480, 270))";
-    let difference = greatest_difference(&[(bowl, matt(0.8, 0.8, 0.8))], rest, "On()");
+    let difference = greatest_difference(&[(bowl, matte_material(0.8, 0.8, 0.8))], rest, "On()");
     assert!(difference <= 1, "{difference}");
 }
 
 #[test]
 fn no_light_comes_through_walls_without_thickness() {
-    let wall = Material { double_sided: true, ..matt(0.8, 0.8, 0.8) };
+    let wall = Material { double_sided: true, ..matte_material(0.8, 0.8, 0.8) };
     for (direction, shadows) in [
         ("(1, -1, 0.3)", "On()"),
         ("(1, -0.2, 0.3)", "On(softness_degrees: 0)"),
         ("(0.3, -1, -1)", "On(softness_degrees: 2)"),
     ] {
         let room = vec![
-            (floor(3.0), matt(0.8, 0.8, 0.8)),
-            (sides([-2.0, 0.0, -2.0], [2.0, 2.0, 2.0], true), wall.clone()),
+            (floor_quad(3.0), matte_material(0.8, 0.8, 0.8)),
+            (box_sides([-2.0, 0.0, -2.0], [2.0, 2.0, 2.0], true), wall.clone()),
         ];
         let rest = format!(
             "camera: (view: LookAt(eye: (1.5, 1.5, 1.7), target: (-1, 0, -1)), projection: Perspective(fov_y_degrees: 90, near: 0.01)),
             lights: [Sun(direction: {direction}, lux: 3)], shadows: {shadows}, image: (size: (960, 540), samples: 1)"
         );
-        let picture = draw(room, &rest);
+        let picture = render_parts(room, &rest);
         // Where a wall without thickness meets another, light and shade meet too: single pixels on the edges may be lit.
-        let lit = |x: u32, y: u32| u32::from(pixel(&picture, x, y)[0] > 0);
+        let lit = |x: u32, y: u32| u32::from(pixel_at(&picture, x, y)[0] > 0);
         let all = (0..540).flat_map(|y| (0..960).map(move |x| (x, y)));
         let (mut count, mut clump) = (0, 0);
         for (x, y) in all {
@@ -228,18 +237,18 @@ fn no_light_comes_through_walls_without_thickness() {
 #[test]
 fn masked_parts_cast_what_is_left_of_them_and_blended_ones_nothing() {
     let roof =
-        || quads(&[[[-1.0, 1.0, -1.0], [-1.0, 1.0, 1.0], [1.0, 1.0, 1.0], [1.0, 1.0, -1.0]]]);
+        || quad_mesh(&[[[-1.0, 1.0, -1.0], [-1.0, 1.0, 1.0], [1.0, 1.0, 1.0], [1.0, 1.0, -1.0]]]);
     let shade_of = |alpha: f32, alpha_mode: AlphaMode| {
         let base_color = [0.5, 0.5, 0.5, alpha];
         let material =
             Material { base_color, alpha_mode, double_sided: true, ..Material::default() };
-        let parts = vec![(floor(3.0), matt(0.8, 0.8, 0.8)), (roof(), material)];
-        let picture = draw(
+        let parts = vec![(floor_quad(3.0), matte_material(0.8, 0.8, 0.8)), (roof(), material)];
+        let picture = render_parts(
             parts,
             "camera: (view: LookAt(eye: (0, 0.5, 5), target: (0, 0, 0))),
             lights: [Sun(direction: (0, -1, 0), lux: 3)], shadows: On(), image: (size: (100, 100), samples: 1)",
         );
-        pixel(&picture, 50, 50)[0]
+        pixel_at(&picture, 50, 50)[0]
     };
     let masked = |alpha| shade_of(alpha, AlphaMode::Mask { cutoff: 0.5 });
     assert_eq!((masked(0.6), shade_of(1.0, AlphaMode::Opaque)), (0, 0));
@@ -251,10 +260,10 @@ fn masked_parts_cast_what_is_left_of_them_and_blended_ones_nothing() {
 #[test]
 fn shadows_are_the_same_for_any_number_of_threads() {
     let parts = vec![
-        (floor(3.0), matt(0.8, 0.8, 0.8)),
-        (ball([0.0, 1.0, 0.0], 0.7, 60), matt(0.8, 0.8, 0.8)),
+        (floor_quad(3.0), matte_material(0.8, 0.8, 0.8)),
+        (ball_mesh([0.0, 1.0, 0.0], 0.7, 60), matte_material(0.8, 0.8, 0.8)),
     ];
-    let scene = scene(
+    let scene = shadow_scene(
         parts,
         "lights: [Sun(direction: (1, -1, 0.3), lux: 2, shadows: On(softness_degrees: 3)),
             Spot(position: (2, 3, 2), direction: (-2, -3, -2), candela: 20, shadows: On())],
@@ -265,9 +274,9 @@ fn shadows_are_the_same_for_any_number_of_threads() {
 }
 
 /// A ball over the ground that only shows shadows, under a sun straight above.
-fn over_ground(background: &str, rest: &str) -> Picture {
-    let ball = (ball([0.0, 1.0, 0.0], 0.5, 60), matt(0.8, 0.8, 0.8));
-    draw(
+fn render_over_ground(background: &str, rest: &str) -> Picture {
+    let ball = (ball_mesh([0.0, 1.0, 0.0], 0.5, 60), matte_material(0.8, 0.8, 0.8));
+    render_parts(
         vec![ball],
         &format!(
             "camera: (view: LookAt(eye: (0, 4, 6), target: (0, 0.5, 0))), ground: Shadow(height: 0),
@@ -277,15 +286,15 @@ fn over_ground(background: &str, rest: &str) -> Picture {
 }
 
 /// Where a place of the ground is in that picture.
-fn place_of(x: f64, z: f64) -> (u32, u32) {
-    let scene = scene(
-        vec![(ball([0.0, 1.0, 0.0], 0.5, 60), matt(0.8, 0.8, 0.8))],
+fn pixel_of_ground_point(x: f64, z: f64) -> (u32, u32) {
+    let scene = shadow_scene(
+        vec![(ball_mesh([0.0, 1.0, 0.0], 0.5, 60), matte_material(0.8, 0.8, 0.8))],
         "camera: (view: LookAt(eye: (0, 4, 6), target: (0, 0.5, 0))), image: (size: (300, 200))",
     );
     let seen = scene
         .view_projection
         .world_to_clip()
-        .point(homog::Point::new(x, 0.0, z))
+        .transform_point(homog::Point::new(x, 0.0, z))
         .divide()
         .expect("a place");
     ((150.0 * (1.0 + seen.x())) as u32, (100.0 * (1.0 - seen.y())) as u32)
@@ -295,19 +304,19 @@ fn place_of(x: f64, z: f64) -> (u32, u32) {
 fn the_ground_shows_the_share_of_light_that_shadows_take() {
     // 3 lux from the sun, 1 from everywhere: where the sun is hidden, three quarters are missing.
     let lights = "lights: [Sun(direction: (0, -1, 0), lux: 3), Ambient(lux: 1)]";
-    let clear = over_ground("Transparent", lights);
+    let clear = render_over_ground("Transparent", lights);
     let at = |picture: &Picture, x, z| {
-        let (x, y) = place_of(x, z);
-        pixel(picture, x, y)
+        let (x, y) = pixel_of_ground_point(x, z);
+        pixel_at(picture, x, y)
     };
     assert_eq!(at(&clear, 0.0, 0.3), [0, 0, 0, 191]);
     assert_eq!(at(&clear, 0.0, 0.8), [0; 4]);
     assert_eq!(at(&clear, -0.8, 0.0), [0; 4]);
     // Over white, in linear light: a quarter is left.
-    let white = over_ground("Color(\"#ffffff\")", lights);
+    let white = render_over_ground("Color(\"#ffffff\")", lights);
     assert_eq!(at(&white, 0.0, 0.3), [137, 137, 137, 255]);
     assert_eq!(at(&white, 0.0, 0.8), [255; 4]);
-    let none = over_ground("Transparent", &format!("{lights}, shadows: Off"));
+    let none = render_over_ground("Transparent", &format!("{lights}, shadows: Off"));
     assert_eq!(at(&none, 0.0, 0.3), [0; 4]);
 }
 
@@ -317,21 +326,24 @@ fn occlusion_darkens_corners_and_nothing_that_is_open() {
         let rest = format!(
             "camera: (view: LookAt(eye: (0, 3, 3), target: (0, 0, 0))), lights: [{lights}], image: (size: (300, 200), samples: 1)"
         );
-        let without = draw(parts.clone(), &rest);
-        (without, draw(parts, &format!("{rest}, ambient_occlusion: (radius: 1)")))
+        let without = render_parts(parts.clone(), &rest);
+        (without, render_parts(parts, &format!("{rest}, ambient_occlusion: (radius: 1)")))
     };
-    let floor = || (floor(6.0), matt(0.8, 0.8, 0.8));
+    let floor = || (floor_quad(6.0), matte_material(0.8, 0.8, 0.8));
     let (without, with) = draw_both(vec![floor()], "Ambient(lux: 3)");
     assert!(without == with, "a plane is open");
-    let (without, with) =
-        draw_both(vec![(ball([0.0; 3], 1.0, 60), matt(0.8, 0.8, 0.8))], "Ambient(lux: 3)");
+    let (without, with) = draw_both(
+        vec![(ball_mesh([0.0; 3], 1.0, 60), matte_material(0.8, 0.8, 0.8))],
+        "Ambient(lux: 3)",
+    );
     let pairs = with.pixels.iter().zip(&without.pixels);
     assert!(
         pairs.map(|(a, b)| a[0].abs_diff(b[0])).max() <= Some(8),
         "a ball is open but for its facets"
     );
     // A wall on the floor: at its foot half of the light is missing, and far away nothing.
-    let wall = (sides([-6.0, 0.0, -4.0], [6.0, 4.0, -0.5], false), matt(0.8, 0.8, 0.8));
+    let wall =
+        (box_sides([-6.0, 0.0, -4.0], [6.0, 4.0, -0.5], false), matte_material(0.8, 0.8, 0.8));
     let parts = vec![floor(), wall];
     let (without, with) = draw_both(parts.clone(), "Ambient(lux: 3)");
     let linear = |code: u8| {
@@ -339,13 +351,13 @@ fn occlusion_darkens_corners_and_nothing_that_is_open() {
         if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
     };
     let foot = (0..200)
-        .find(|&y| pixel(&with, 150, y)[0] != pixel(&without, 150, y)[0])
+        .find(|&y| pixel_at(&with, 150, y)[0] != pixel_at(&without, 150, y)[0])
         .expect("a corner");
-    let least =
-        (foot..200).map(|y| linear(pixel(&with, 150, y)[0]) / linear(pixel(&without, 150, y)[0]));
+    let least = (foot..200)
+        .map(|y| linear(pixel_at(&with, 150, y)[0]) / linear(pixel_at(&without, 150, y)[0]));
     let least = least.fold(1.0, f64::min);
     assert!((0.35..0.62).contains(&least), "{least}");
-    assert_eq!(pixel(&with, 150, 199), pixel(&without, 150, 199));
+    assert_eq!(pixel_at(&with, 150, 199), pixel_at(&without, 150, 199));
     // What a sun gives stays.
     let (without, with) = draw_both(parts, "Sun(direction: (0, -1, -1), lux: 3)");
     assert!(without == with);
@@ -355,18 +367,18 @@ fn occlusion_darkens_corners_and_nothing_that_is_open() {
 fn occlusion_has_no_stripes_beside_sharp_edges() {
     // A box in 1080 lines, whose surroundings reach far over the screen; on the ground to the left of it.
     let parts = vec![
-        (floor(6.0), matt(0.8, 0.8, 0.8)),
-        (sides([-0.5, 0.0, -0.5], [0.5, 1.0, 0.5], true), matt(0.8, 0.8, 0.8)),
+        (floor_quad(6.0), matte_material(0.8, 0.8, 0.8)),
+        (box_sides([-0.5, 0.0, -0.5], [0.5, 1.0, 0.5], true), matte_material(0.8, 0.8, 0.8)),
     ];
-    let scene = scene(
+    let scene = shadow_scene(
         parts,
         "camera: (view: LookAt(eye: (2.2, 2.6, 3.6), target: (0, 0.3, 0)), projection: Perspective(fov_y_degrees: 32)),
         lights: [Ambient(lux: 3.14159)], ambient_occlusion: (radius: 1), image: (size: (1920, 1080), samples: 1)",
     );
     let timings = Timings::default();
-    let mut paint = Paint::new(&scene, 2, &timings).expect("a scene");
+    let mut paint = BandedRenderer::new(&scene, 2, &timings).expect("a scene");
     let region = PixelRect { x: 545, y: 570, width: 110, height: 60 };
-    let picture: Picture<u16> = paint.region(region).expect("a region");
+    let picture: Picture<u16> = paint.render_region(region).expect("a region");
     let code =
         |x: u32, y: u32| f64::from(picture.pixels[(y * region.width + x) as usize][0]) / 257.0;
     let (mut step, mut back) = (0.0_f64, 0.0_f64);

@@ -34,7 +34,7 @@ fn main() {
     }
     for symptom in symptoms(matrix) {
         let id = symptom.misprint.id().unwrap_or("not numbered");
-        println!("It looks like a misprint ({id}): {}.", symptom.misprint.finding());
+        println!("It looks like a misprint ({id}): {}.", symptom.misprint.description());
         println!("Remedy: {}.", symptom.misprint.remedy());
         if let Some(remedied) = symptom.remedied {
             show("Then it is", remedied);

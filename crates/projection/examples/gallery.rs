@@ -40,7 +40,7 @@ fn main() -> Result<(), ProjectionError> {
             println!("{:indent$}{}", "", class.name(), indent = 2 * depth);
             continue;
         };
-        let count = principal_vanishing_points(example.depth_kept())?.count();
+        let count = principal_vanishing_points(example.depth_preserving())?.count();
         println!("{:indent$}{}, {count} vanishing points", "", class.name(), indent = 2 * depth);
         println!("{}", draw(example)?);
     }
@@ -52,7 +52,8 @@ fn draw(projection: Classical) -> Result<String, ProjectionError> {
     let volume = Orthographic::new(-3.3, 3.3, -2.2, 2.75, -4.0, 4.0)?;
     let view_to_clip = projection.view_to_clip(volume, Convention::CHAPTER)?;
     let screen = CORNERS.map(|corner| {
-        let ndc = view_to_clip.point(Point::from(corner)).divide().unwrap_or(Point::ORIGIN);
+        let ndc =
+            view_to_clip.transform_point(Point::from(corner)).divide().unwrap_or(Point::ORIGIN);
         ((ndc.x() + 1.0) / 2.0 * WIDTH as f64, (1.0 - ndc.y()) / 2.0 * HEIGHT as f64)
     });
     let mut canvas = vec![vec![' '; WIDTH]; HEIGHT];

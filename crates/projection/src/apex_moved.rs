@@ -11,7 +11,7 @@
 //! Both agree on the near plane only, or when the window is centred (LW-1, M12). For stereo pairs,
 //! tiles and lens shift use [`Frustum`].
 
-use crate::error::finite;
+use crate::error::check_finite;
 use crate::{Convention, Frustum, ProjectionError, Window};
 use homog::{Affine, Clip, Point, Projective, View};
 
@@ -67,11 +67,11 @@ impl ApexMovedFrustum {
         far: f64,
     ) -> Result<Self, ProjectionError> {
         let window = Window::new(left, right, bottom, top)?;
-        finite("far", far)?;
-        let centred = Window::centred(window.width(), window.height())?;
+        check_finite("far", far)?;
+        let centred = Window::centered(window.width(), window.height())?;
         Frustum::from_window(window, near, far)?;
         // The lesson scales the window by itself, not together with near.
-        centred.fit(1.0)?;
+        centred.window_fit(1.0)?;
         Ok(Self { window, about_apex: Frustum::from_window(centred, near, far)? })
     }
 
@@ -96,7 +96,7 @@ impl ApexMovedFrustum {
     /// The place from which the picture is right.
     #[must_use]
     pub fn apex(self) -> Point<View> {
-        let (x, y) = self.window.centre();
+        let (x, y) = self.window.center();
         Point::new(x, y, 0.0)
     }
 

@@ -13,7 +13,7 @@
 //! # Ok::<(), projection::ProjectionError>(())
 //! ```
 
-use crate::error::finite;
+use crate::error::check_finite;
 use crate::{Convention, Fov, Frustum, Orthographic, Perspective, ProjectionError};
 use homog::{Clip, Projective, View};
 
@@ -22,17 +22,29 @@ type Matrix = Result<Projective<View, Clip>, ProjectionError>;
 const ZERO_ONE_RH: Convention = Convention::WEBGPU;
 const ZERO_ONE_LH: Convention = Convention::DIRECT3D;
 
-fn frustum(window: [f64; 4], near: f64, far: f64, convention: Convention) -> Matrix {
+fn frustum_matrix(window: [f64; 4], near: f64, far: f64, convention: Convention) -> Matrix {
     let [left, right, bottom, top] = window;
-    let frustum = Frustum::new(left, right, bottom, top, near, finite("far", far)?)?;
+    let frustum = Frustum::new(left, right, bottom, top, near, check_finite("far", far)?)?;
     Ok(frustum.view_to_clip(convention))
 }
 
-fn perspective(fovy: f64, aspect: f64, near: f64, far: f64, convention: Convention) -> Matrix {
-    endless(fovy, aspect, near, finite("far", far)?, convention)
+fn perspective_matrix(
+    fovy: f64,
+    aspect: f64,
+    near: f64,
+    far: f64,
+    convention: Convention,
+) -> Matrix {
+    infinite_perspective_matrix(fovy, aspect, near, check_finite("far", far)?, convention)
 }
 
-fn endless(fovy: f64, aspect: f64, near: f64, far: f64, convention: Convention) -> Matrix {
+fn infinite_perspective_matrix(
+    fovy: f64,
+    aspect: f64,
+    near: f64,
+    far: f64,
+    convention: Convention,
+) -> Matrix {
     Ok(Perspective::new(Fov::Vertical(fovy), aspect, near, far)?.view_to_clip(convention))
 }
 
@@ -43,7 +55,7 @@ macro_rules! by_window {
         /// # Errors
         /// If a number is not finite, the window is empty, or not 0 < near < far.
         pub fn $name(left: f64, right: f64, bottom: f64, top: f64, near: f64, far: f64) -> Matrix {
-            frustum([left, right, bottom, top], near, far, $convention)
+            frustum_matrix([left, right, bottom, top], near, far, $convention)
         }
     };
 }
@@ -69,7 +81,7 @@ macro_rules! by_angle {
         /// If a number is not finite, fovy not between 0 and π, aspect not above 0, or not 0 < near
         /// < far.
         pub fn $name(fovy: f64, aspect: f64, near: f64, far: f64) -> Matrix {
-            perspective(fovy, aspect, near, far, $convention)
+            perspective_matrix(fovy, aspect, near, far, $convention)
         }
     };
     ($(#[$doc:meta])* $name:ident, $convention:expr, infinite) => {
@@ -78,7 +90,7 @@ macro_rules! by_angle {
         /// # Errors
         /// If a number is not finite, fovy not between 0 and π, or aspect or near not above 0.
         pub fn $name(fovy: f64, aspect: f64, near: f64) -> Matrix {
-            endless(fovy, aspect, near, f64::INFINITY, $convention)
+            infinite_perspective_matrix(fovy, aspect, near, f64::INFINITY, $convention)
         }
     };
 }

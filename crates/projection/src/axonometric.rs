@@ -13,8 +13,8 @@
 //! squares of the three ratios sum to 2.
 
 use crate::ProjectionError;
-use crate::error::{finite, positive};
-use crate::matrix::representable;
+use crate::error::{check_finite, check_positive};
+use crate::matrix::check_representable;
 use homog::{Affine, Normal, Point, Vector, View};
 
 /// An axonometric projection; [`foreshortening`](Self::foreshortening) tells which kind.
@@ -52,8 +52,8 @@ impl Axonometric {
     /// # Errors
     /// If an angle is not finite.
     pub fn by_angles(alpha: f64, beta: f64) -> Result<Self, ProjectionError> {
-        finite("alpha", alpha)?;
-        finite("beta", beta)?;
+        check_finite("alpha", alpha)?;
+        check_finite("beta", beta)?;
         Ok(Self { alpha, beta, origin: Point::ORIGIN })
     }
 
@@ -64,7 +64,7 @@ impl Axonometric {
     /// If the normal is zero or not finite.
     pub fn by_normal(normal: Normal<View>) -> Result<Self, ProjectionError> {
         for value in normal.raw().to_array() {
-            finite("normal", value)?;
+            check_finite("normal", value)?;
         }
         let unit =
             normal.normalized().ok_or(ProjectionError::ZeroVector { parameter: "normal" })?.raw();
@@ -82,9 +82,9 @@ impl Axonometric {
     /// # Errors
     /// If a ratio is not finite and above 0, or no plane shortens the axes so.
     pub fn by_foreshortening(x: f64, y: f64, z: f64) -> Result<Self, ProjectionError> {
-        positive("x ratio", x)?;
-        positive("y ratio", y)?;
-        positive("z ratio", z)?;
+        check_positive("x ratio", x)?;
+        check_positive("y ratio", y)?;
+        check_positive("z ratio", z)?;
         let largest = x.max(y).max(z);
         let squares = [x, y, z].map(|ratio| (ratio / largest) * (ratio / largest));
         let sum = squares[0] + squares[1] + squares[2];
@@ -121,10 +121,10 @@ impl Axonometric {
     /// If the origin is not finite.
     pub fn about(self, origin: Point<View>) -> Result<Self, ProjectionError> {
         for value in <[f64; 3]>::from(origin) {
-            finite("origin", value)?;
+            check_finite("origin", value)?;
         }
         let moved = Self { origin, ..self };
-        representable(moved.depth_kept().raw(), "origin")?;
+        check_representable(moved.depth_preserving().raw(), "origin")?;
         Ok(moved)
     }
 
@@ -159,7 +159,7 @@ impl Axonometric {
 
     /// The turned object, depth kept: Rx(β) Ry(−α) T(−origin). Its z axis points to the viewer.
     #[must_use]
-    pub fn depth_kept(self) -> Affine<View, View> {
+    pub fn depth_preserving(self) -> Affine<View, View> {
         let [x, y, z] = self.axes();
         let to_origin = Affine::translation(Point::ORIGIN - self.origin);
         to_origin.then(Affine::from_frame(x, y, z, Point::ORIGIN))
@@ -167,7 +167,7 @@ impl Axonometric {
 
     /// Its inverse: the transposed rotation, then back from the origin.
     #[must_use]
-    pub fn depth_kept_inverse(self) -> Affine<View, View> {
+    pub fn depth_preserving_inverse(self) -> Affine<View, View> {
         let [x, y, z] = self.axes().map(Vector::raw);
         let back = |a: f64, b: f64, c: f64| Vector::new(a, b, c);
         let (to_x, to_y, to_z) = (back(x.x, y.x, z.x), back(x.y, y.y, z.y), back(x.z, y.z, z.z));
@@ -177,7 +177,7 @@ impl Axonometric {
     /// The classical projection: the turned object with z dropped. Singular.
     #[must_use]
     pub fn onto_plane(self) -> Affine<View, View> {
-        self.depth_kept().then(Affine::scale(1.0, 1.0, 0.0))
+        self.depth_preserving().then(Affine::scale(1.0, 1.0, 0.0))
     }
 
     /// The lengths of the images of units along x, y and z: their squares sum to 2.

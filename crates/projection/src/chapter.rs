@@ -14,8 +14,8 @@
 //! # Ok::<(), projection::ProjectionError>(())
 //! ```
 
-use crate::error::{finite, positive};
-use crate::matrix::{from_rows, representable};
+use crate::error::{check_finite, check_positive};
+use crate::matrix::{check_representable, from_rows};
 use crate::{Convention, Fov, Frustum, Orthographic, ProjectionError, Window};
 use homog::{Affine, Clip, Projective, View};
 
@@ -35,7 +35,7 @@ pub fn p(n: f64, f: f64) -> Result<Projective<View, View>, ProjectionError> {
     let rows =
         [[n, 0.0, 0.0, 0.0], [0.0, n, 0.0, 0.0], [0.0, 0.0, n + f, -f * n], [0.0, 0.0, 1.0, 0.0]];
     p_inverse(n, f)?;
-    Ok(Projective::from_raw(representable(from_rows(rows), "depth range")?))
+    Ok(Projective::from_raw(check_representable(from_rows(rows), "depth range")?))
 }
 
 /// The true inverse of [`p`] (C25).
@@ -51,7 +51,7 @@ pub fn p_inverse(n: f64, f: f64) -> Result<Projective<View, View>, ProjectionErr
         [0.0, 0.0, 0.0, 1.0],
         [0.0, 0.0, -1.0 / nf, (n + f) / nf],
     ];
-    Ok(Projective::from_raw(representable(from_rows(rows), "depth range")?))
+    Ok(Projective::from_raw(check_representable(from_rows(rows), "depth range")?))
 }
 
 /// The inverse of [`p`] times nf, without fractions; as a projective map it is the same (exercise
@@ -64,12 +64,12 @@ pub fn p_inverse_scaled(n: f64, f: f64) -> Result<Projective<View, View>, Projec
     let nf = n * f;
     let rows =
         [[f, 0.0, 0.0, 0.0], [0.0, f, 0.0, 0.0], [0.0, 0.0, 0.0, nf], [0.0, 0.0, -1.0, n + f]];
-    Ok(Projective::from_raw(representable(from_rows(rows), "depth range")?))
+    Ok(Projective::from_raw(check_representable(from_rows(rows), "depth range")?))
 }
 
 fn check_same_side(n: f64, f: f64) -> Result<(), ProjectionError> {
     for (parameter, value) in [("n", n), ("f", f)] {
-        if finite(parameter, value)? == 0.0 {
+        if check_finite(parameter, value)? == 0.0 {
             let allowed = "a plane beside the eye, not through it";
             return Err(ProjectionError::OutOfRange { parameter, value, allowed });
         }
@@ -187,7 +187,7 @@ fn signed_frustum(
     f: f64,
 ) -> Result<Frustum, ProjectionError> {
     for (parameter, value) in [("n", n), ("f", f)] {
-        if finite(parameter, value)? >= 0.0 {
+        if check_finite(parameter, value)? >= 0.0 {
             let allowed = "below 0, since the camera looks along −z";
             return Err(ProjectionError::OutOfRange { parameter, value, allowed });
         }
@@ -201,9 +201,9 @@ fn signed_frustum(
 /// # Errors
 /// If theta is not between 0 and π, nx or ny not above 0, n not below 0, or one of them not finite.
 pub fn window_from_fov(theta: f64, nx: f64, ny: f64, n: f64) -> Result<Window, ProjectionError> {
-    let aspect = positive("nx", nx)? / positive("ny", ny)?;
+    let aspect = check_positive("nx", nx)? / check_positive("ny", ny)?;
     let distance = -n;
-    positive("−n", distance)?;
+    check_positive("−n", distance)?;
     let half = Fov::Vertical(theta).half_slopes(aspect)?;
     let (right, top) = (half.x * distance, half.y * distance);
     Window::new(-right, right, -top, top)
@@ -216,5 +216,5 @@ pub fn window_from_fov(theta: f64, nx: f64, ny: f64, n: f64) -> Result<Window, P
 /// If t is not above 0, n not below 0, or one of them not finite.
 pub fn fov_from_window(t: f64, n: f64) -> Result<f64, ProjectionError> {
     let distance = -n;
-    Ok(2.0 * libm::atan2(positive("t", t)?, positive("−n", distance)?))
+    Ok(2.0 * libm::atan2(check_positive("t", t)?, check_positive("−n", distance)?))
 }

@@ -40,7 +40,9 @@ impl Classical {
     #[must_use]
     pub fn onto_plane(self) -> Projective<View, View> {
         match self {
-            Self::Multiview(view) => view.depth_kept().then(Affine::scale(1.0, 1.0, 0.0)).into(),
+            Self::Multiview(view) => {
+                view.depth_preserving().then(Affine::scale(1.0, 1.0, 0.0)).into()
+            }
             Self::Axonometric(axonometric) => axonometric.onto_plane().into(),
             Self::Oblique(oblique) => oblique.onto_plane().into(),
             Self::Planometric(plan) => plan.onto_plane().into(),
@@ -50,26 +52,28 @@ impl Classical {
 
     /// The same with depth kept: x and y as in the picture, larger z nearer to the viewer.
     #[must_use]
-    pub fn depth_kept(self) -> Projective<View, View> {
+    pub fn depth_preserving(self) -> Projective<View, View> {
         match self {
-            Self::Multiview(view) => view.depth_kept().into(),
-            Self::Axonometric(axonometric) => axonometric.depth_kept().into(),
-            Self::Oblique(oblique) => oblique.depth_kept().into(),
-            Self::Planometric(plan) => plan.depth_kept().into(),
-            Self::NPoint(perspective) => perspective.depth_kept(),
+            Self::Multiview(view) => view.depth_preserving().into(),
+            Self::Axonometric(axonometric) => axonometric.depth_preserving().into(),
+            Self::Oblique(oblique) => oblique.depth_preserving().into(),
+            Self::Planometric(plan) => plan.depth_preserving().into(),
+            Self::NPoint(perspective) => perspective.depth_preserving(),
         }
     }
 
     /// The inverse of [`depth_kept`](Self::depth_kept), in closed form.
     #[must_use]
-    pub fn depth_kept_inverse(self) -> Projective<View, View> {
+    pub fn depth_preserving_inverse(self) -> Projective<View, View> {
         match self {
             // The back view is its own inverse; a quarter turn is undone by the opposite one.
-            Self::Multiview(view) => Projective::from_raw(view.depth_kept().raw().transpose()),
-            Self::Axonometric(axonometric) => axonometric.depth_kept_inverse().into(),
-            Self::Oblique(oblique) => oblique.depth_kept_inverse().into(),
-            Self::Planometric(plan) => plan.depth_kept_inverse().into(),
-            Self::NPoint(perspective) => perspective.depth_kept_inverse(),
+            Self::Multiview(view) => {
+                Projective::from_raw(view.depth_preserving().raw().transpose())
+            }
+            Self::Axonometric(axonometric) => axonometric.depth_preserving_inverse().into(),
+            Self::Oblique(oblique) => oblique.depth_preserving_inverse().into(),
+            Self::Planometric(plan) => plan.depth_preserving_inverse().into(),
+            Self::NPoint(perspective) => perspective.depth_preserving_inverse(),
         }
     }
 
@@ -89,7 +93,7 @@ impl Classical {
     ) -> Result<Projective<View, Clip>, ProjectionError> {
         let upright = convention.right_handed();
         let fit = self.picture_box(volume)?.view_to_clip(upright);
-        finite(upright.convert(convention, self.depth_kept().then(fit)))
+        check_finite_map(upright.convert(convention, self.depth_preserving().then(fit)))
     }
 
     /// The inverse of [`view_to_clip`](Self::view_to_clip), in closed form.
@@ -103,9 +107,10 @@ impl Classical {
     ) -> Result<Projective<Clip, View>, ProjectionError> {
         let upright = convention.right_handed();
         let unfit = self.picture_box(volume)?.clip_to_view(upright);
-        let inverse = convention.clip_to_clip(upright).then(unfit).then(self.depth_kept_inverse());
+        let inverse =
+            convention.clip_to_clip(upright).then(unfit).then(self.depth_preserving_inverse());
         let turn = Affine::<View, View>::scale(1.0, 1.0, upright.ahead() * convention.ahead());
-        finite(inverse.then(turn))
+        check_finite_map(inverse.then(turn))
     }
 
     /// The box of the picture after the divide.
@@ -124,7 +129,9 @@ impl Classical {
     }
 }
 
-fn finite<A: Space, B: Space>(map: Projective<A, B>) -> Result<Projective<A, B>, ProjectionError> {
+fn check_finite_map<A: Space, B: Space>(
+    map: Projective<A, B>,
+) -> Result<Projective<A, B>, ProjectionError> {
     map.is_finite().then_some(map).ok_or(ProjectionError::Unrepresentable { what: "projection" })
 }
 

@@ -14,7 +14,7 @@
 //!               ╲___●___╱  eye, turned down into the picture plane
 //! ```
 
-use crate::error::{finite, positive};
+use crate::error::{check_finite, check_positive};
 use crate::{Frustum, ProjectionError, Window};
 use glam::DVec2;
 use homog::{Affine, Point, Vector, View, World};
@@ -48,8 +48,8 @@ impl ConstructedPerspective {
     /// # Errors
     /// If a number is not finite, or the distance not above 0.
     pub fn one_point(z: (f64, f64), distance: f64) -> Result<Self, ProjectionError> {
-        let principal = place("vanishing point of z", z)?;
-        positive("distance", distance)?;
+        let principal = check_picture_point("vanishing point of z", z)?;
+        check_positive("distance", distance)?;
         Ok(Self { principal, distance, axes: [Vector::X, Vector::Y, Vector::Z] })
     }
 
@@ -61,8 +61,11 @@ impl ConstructedPerspective {
     /// # Errors
     /// If a number is not finite, the points coincide, or the fraction is not between 0 and 1.
     pub fn two_point(x: (f64, f64), z: (f64, f64), fraction: f64) -> Result<Self, ProjectionError> {
-        let (x, z) = (place("vanishing point of x", x)?, place("vanishing point of z", z)?);
-        if finite("fraction", fraction)? <= 0.0 || fraction >= 1.0 {
+        let (x, z) = (
+            check_picture_point("vanishing point of x", x)?,
+            check_picture_point("vanishing point of z", z)?,
+        );
+        if check_finite("fraction", fraction)? <= 0.0 || fraction >= 1.0 {
             let allowed = "between 0 and 1, both excluded";
             return Err(ProjectionError::OutOfRange {
                 parameter: "fraction",
@@ -74,14 +77,14 @@ impl ConstructedPerspective {
         let horizon = z - x;
         let length = libm::hypot(horizon.x, horizon.y);
         let distance = length * libm::sqrt(fraction * (1.0 - fraction));
-        if !usable(distance) {
+        if !is_usable_distance(distance) {
             let reason = "the points coincide or lie too far apart";
             return Err(ProjectionError::ImpossibleVanishingPoints { reason });
         }
         let across = DVec2::new(-horizon.y, horizon.x) / length;
         let up = if across.y < 0.0 { -across } else { across };
         let up = Vector::new(up.x, up.y, 0.0);
-        Self::oriented(principal, distance, up, into_picture(z - principal, distance)?)
+        Self::oriented(principal, distance, up, gaze_into_picture(z - principal, distance)?)
     }
 
     /// Three-point perspective: lines along x, y and z meet at the three given points.
@@ -94,20 +97,23 @@ impl ConstructedPerspective {
         y: (f64, f64),
         z: (f64, f64),
     ) -> Result<Self, ProjectionError> {
-        let (x, y) = (place("vanishing point of x", x)?, place("vanishing point of y", y)?);
-        let z = place("vanishing point of z", z)?;
+        let (x, y) = (
+            check_picture_point("vanishing point of x", x)?,
+            check_picture_point("vanishing point of y", y)?,
+        );
+        let z = check_picture_point("vanishing point of z", z)?;
         let impossible = |reason| ProjectionError::ImpossibleVanishingPoints { reason };
-        let principal = orthocentre(x, y, z).ok_or(impossible("they lie on one line"))?;
+        let principal = orthocenter(x, y, z).ok_or(impossible("they lie on one line"))?;
         let [square_1, square_2, square_3] =
             [(x, y), (y, z), (z, x)].map(|(a, b)| -(a - principal).dot(b - principal));
         let square = (square_1 + square_2 + square_3) / 3.0;
         let distance = libm::sqrt(square);
-        if square_1.min(square_2).min(square_3) <= 0.0 || !usable(distance) {
+        if square_1.min(square_2).min(square_3) <= 0.0 || !is_usable_distance(distance) {
             return Err(impossible("their triangle has an angle of 90° or more"));
         }
-        let vertical = into_picture(y - principal, distance)?;
+        let vertical = gaze_into_picture(y - principal, distance)?;
         let up = if vertical.y() < 0.0 { -vertical } else { vertical };
-        Self::oriented(principal, distance, up, into_picture(z - principal, distance)?)
+        Self::oriented(principal, distance, up, gaze_into_picture(z - principal, distance)?)
     }
 
     /// Lets z point out of the picture and x be what makes the world right-handed.
@@ -161,22 +167,28 @@ impl ConstructedPerspective {
     }
 }
 
-fn place(parameter: &'static str, (x, y): (f64, f64)) -> Result<DVec2, ProjectionError> {
-    Ok(DVec2::new(finite(parameter, x)?, finite(parameter, y)?))
+fn check_picture_point(
+    parameter: &'static str,
+    (x, y): (f64, f64),
+) -> Result<DVec2, ProjectionError> {
+    Ok(DVec2::new(check_finite(parameter, x)?, check_finite(parameter, y)?))
 }
 
-fn usable(distance: f64) -> bool {
+fn is_usable_distance(distance: f64) -> bool {
     (1e-140..1e140).contains(&distance)
 }
 
 /// The unit direction from the eye to a place of the picture plane.
-fn into_picture(from_principal: DVec2, distance: f64) -> Result<Vector<View>, ProjectionError> {
+fn gaze_into_picture(
+    from_principal: DVec2,
+    distance: f64,
+) -> Result<Vector<View>, ProjectionError> {
     let direction = Vector::new(from_principal.x, from_principal.y, -distance);
     direction.normalized().ok_or(ProjectionError::Unrepresentable { what: "vanishing point" })
 }
 
 /// Where the heights of the triangle meet; `None` for flat ones.
-fn orthocentre(a: DVec2, b: DVec2, c: DVec2) -> Option<DVec2> {
+fn orthocenter(a: DVec2, b: DVec2, c: DVec2) -> Option<DVec2> {
     // (h − a)·(c − b) = 0 and (h − b)·(a − c) = 0
     let (u, v) = (c - b, a - c);
     let area = u.perp_dot(v);

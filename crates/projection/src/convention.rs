@@ -14,7 +14,7 @@
 //! [`Convention::convert`].
 
 use crate::ProjectionError;
-use crate::error::finite;
+use crate::error::check_finite;
 use glam::DMat4;
 use homog::{Clip, Projective, View};
 
@@ -57,26 +57,26 @@ pub struct Convention {
 impl Convention {
     /// The textbook's canonical volume in its w > 0 form (PE-3): [−1, 1]³ with near at +1 and far
     /// at −1.
-    pub const CHAPTER: Self = Self::of(Handedness::Right, NdcY::Up, 1.0, -1.0);
+    pub const CHAPTER: Self = Self::new(Handedness::Right, NdcY::Up, 1.0, -1.0);
     /// OpenGL and WebGL (GL-1): near at −1, far at +1.
-    pub const OPENGL: Self = Self::of(Handedness::Right, NdcY::Up, -1.0, 1.0);
+    pub const OPENGL: Self = Self::new(Handedness::Right, NdcY::Up, -1.0, 1.0);
     /// Vulkan: y down, near at 0, far at 1.
-    pub const VULKAN: Self = Self::of(Handedness::Right, NdcY::Down, 0.0, 1.0);
+    pub const VULKAN: Self = Self::new(Handedness::Right, NdcY::Down, 0.0, 1.0);
     /// Direct3D as its helper library had it (D3D-1): left-handed, near at 0, far at 1.
-    pub const DIRECT3D: Self = Self::of(Handedness::Left, NdcY::Up, 0.0, 1.0);
+    pub const DIRECT3D: Self = Self::new(Handedness::Left, NdcY::Up, 0.0, 1.0);
     /// Metal with a right-handed view space: near at 0, far at 1.
-    pub const METAL: Self = Self::of(Handedness::Right, NdcY::Up, 0.0, 1.0);
+    pub const METAL: Self = Self::new(Handedness::Right, NdcY::Up, 0.0, 1.0);
     /// WebGPU with a right-handed view space (D3D-2): near at 0, far at 1.
     pub const WEBGPU: Self = Self::METAL;
 
-    const fn of(handedness: Handedness, ndc_y: NdcY, near_depth: f64, far_depth: f64) -> Self {
+    const fn new(handedness: Handedness, ndc_y: NdcY, near_depth: f64, far_depth: f64) -> Self {
         Self { handedness, ndc_y, near_depth, far_depth }
     }
 
     /// The same with near and far depth exchanged.
     #[must_use]
     pub const fn reversed(self) -> Self {
-        Self::of(self.handedness, self.ndc_y, self.far_depth, self.near_depth)
+        Self::new(self.handedness, self.ndc_y, self.far_depth, self.near_depth)
     }
 
     /// The same for a view space that looks along −z.
@@ -109,7 +109,7 @@ impl Convention {
     /// Unless both depths are in [−1, 1] and at least 10⁻⁶ apart.
     pub fn with_depths(self, near_depth: f64, far_depth: f64) -> Result<Self, ProjectionError> {
         for (parameter, value) in [("near_depth", near_depth), ("far_depth", far_depth)] {
-            if finite(parameter, value)?.abs() > 1.0 {
+            if check_finite(parameter, value)?.abs() > 1.0 {
                 let allowed = "between −1 and 1";
                 return Err(ProjectionError::OutOfRange { parameter, value, allowed });
             }

@@ -15,7 +15,7 @@
 //! A matrix does not tell its convention: the OpenGL matrix of (N, F) is the zero-to-one matrix of
 //! (2FN/(F+N), F). So the convention is asked for; [`readings`] tries the named ones.
 
-use crate::placed::{self, Placement};
+use crate::placement::{self, Placement};
 use crate::{
     ApexMovedFrustum, Axonometric, Classical, Convention, Frustum, NPoint, Oblique, Orthographic,
     ProjectionError, Window,
@@ -154,28 +154,31 @@ pub enum DecomposeError {
 /// If an entry is not finite, or the matrix is no projection of this convention.
 pub fn decompose(matrix: DMat4, convention: Convention) -> Result<Decomposition, DecomposeError> {
     check_finite(matrix)?;
-    let found = recognised(matrix, convention)?;
+    let found = decompose_recognized(matrix, convention)?;
     let lost = ProjectionError::Unrepresentable { what: "projection in this matrix" };
     if found.is_finite() { Ok(found) } else { Err(lost.into()) }
 }
 
-fn recognised(matrix: DMat4, convention: Convention) -> Result<Decomposition, DecomposeError> {
+fn decompose_recognized(
+    matrix: DMat4,
+    convention: Convention,
+) -> Result<Decomposition, DecomposeError> {
     let largest = matrix.to_cols_array().iter().fold(0.0, |size: f64, entry| size.max(entry.abs()));
     if largest == 0.0 {
         return Err(DecomposeError::RankTooLow { rank: 0 });
     }
-    if let Some(rank) = placed::lost_rank(matrix * (1.0 / largest)) {
-        return flat(matrix, rank);
+    if let Some(rank) = placement::lost_rank(matrix * (1.0 / largest)) {
+        return decompose_onto_plane(matrix, rank);
     }
     if let Some((projection, factor)) = bare_npoint(matrix) {
         return Ok(Decomposition { kind: Decomposed::NPoint(projection), factor });
     }
     let last = matrix.row(3);
-    if placed::negligible(last.truncate(), DVec4::splat(last.w)) {
-        let kind = parallel(matrix * (1.0 / last.w), convention)?;
+    if placement::is_negligible(last.truncate(), DVec4::splat(last.w)) {
+        let kind = decompose_parallel(matrix * (1.0 / last.w), convention)?;
         return Ok(Decomposition { kind, factor: last.w });
     }
-    central(matrix, convention)
+    decompose_central(matrix, convention)
 }
 
 /// Every named convention in which the matrix makes sense, with the projection it then is.
@@ -215,13 +218,15 @@ fn bare_npoint(matrix: DMat4) -> Option<(NPoint, f64)> {
 }
 
 /// Rank 3: what is sent to nothing is the centre of projection.
-fn flat(matrix: DMat4, rank: usize) -> Result<Decomposition, DecomposeError> {
-    let centre =
-        placed::kernel(matrix).filter(|_| rank == 3).ok_or(DecomposeError::RankTooLow { rank })?;
+fn decompose_onto_plane(matrix: DMat4, rank: usize) -> Result<Decomposition, DecomposeError> {
+    let centre = placement::null_vector(matrix)
+        .filter(|_| rank == 3)
+        .ok_or(DecomposeError::RankTooLow { rank })?;
     let (x, y, w) = (matrix.row(0), matrix.row(1), matrix.row(3));
     let factor = if w.w == 0.0 { 1.0 } else { w.w };
     let drops_z = matrix.row(2) == DVec4::ZERO;
-    let projection = if drops_z { known_flat(x / factor, y / factor, w / factor) } else { None };
+    let projection =
+        if drops_z { recognize_onto_plane(x / factor, y / factor, w / factor) } else { None };
     Ok(Decomposition {
         kind: Decomposed::Flat { centre: HPoint::from_raw(centre), projection },
         factor,
@@ -229,7 +234,7 @@ fn flat(matrix: DMat4, rank: usize) -> Result<Decomposition, DecomposeError> {
 }
 
 /// The classical projection with these rows, z dropped.
-fn known_flat(x: DVec4, y: DVec4, w: DVec4) -> Option<Classical> {
+fn recognize_onto_plane(x: DVec4, y: DVec4, w: DVec4) -> Option<Classical> {
     if x == DVec4::X && y == DVec4::Y && w != DVec4::W {
         return NPoint::new(w.x, w.y, w.z).ok().map(Into::into).filter(|_| w.w == 1.0);
     }
@@ -247,19 +252,19 @@ fn known_flat(x: DVec4, y: DVec4, w: DVec4) -> Option<Classical> {
 /// The axonometric projection whose turn has these rows, if there is one.
 fn upright_axonometric([x, y, z]: [DVec3; 3]) -> Option<Axonometric> {
     let axonometric = Axonometric::by_normal(Normal::from_raw(z)).ok()?;
-    let turn = axonometric.depth_kept().raw();
+    let turn = axonometric.depth_preserving().raw();
     let same = |row: usize, ours: DVec3| (turn.row(row).truncate() - ours).length() < 1e-9;
     (same(0, x) && same(1, y) && same(2, z)).then_some(axonometric)
 }
 
 /// w = 1 everywhere.
-fn parallel(matrix: DMat4, convention: Convention) -> Result<Decomposed, DecomposeError> {
+fn decompose_parallel(matrix: DMat4, convention: Convention) -> Result<Decomposed, DecomposeError> {
     let mut columns = matrix;
     columns.z_axis *= -convention.ahead();
     // From here on view space looks along −z.
     let (x, y, z) = (columns.row(0), columns.row(1) * convention.top(), columns.row(2));
-    if placed::straight(x, y, z) {
-        let volume = upright_box(x.x, x.w, y.y, y.w, (-z.z, z.w), convention)?;
+    if placement::maps_axes_separately(x, y, z) {
+        let volume = decompose_upright_box(x.x, x.w, y.y, y.w, (-z.z, z.w), convention)?;
         let (slant_x, slant_y) = (x.z / x.x, y.z / y.y);
         if slant_x == 0.0 && slant_y == 0.0 {
             return Ok(Decomposed::Orthographic(volume));
@@ -268,11 +273,11 @@ fn parallel(matrix: DMat4, convention: Convention) -> Result<Decomposed, Decompo
         let projection = Oblique::by_direction(direction, 0.0)?.into();
         return Ok(Decomposed::Classical { projection, volume });
     }
-    turned_box([x, y, z], convention)
+    decompose_rotated_box([x, y, z], convention)
 }
 
 /// x' = ax x + tx, y' = ay y + ty, depth = factor D + offset.
-fn upright_box(
+fn decompose_upright_box(
     ax: f64,
     tx: f64,
     ay: f64,
@@ -286,17 +291,23 @@ fn upright_box(
     Ok(Orthographic::from_window(window, near, far)?)
 }
 
-fn turned_box(rows: [DVec4; 3], convention: Convention) -> Result<Decomposed, DecomposeError> {
+fn decompose_rotated_box(
+    rows: [DVec4; 3],
+    convention: Convention,
+) -> Result<Decomposed, DecomposeError> {
     let [x, y, z] = rows.map(DVec4::truncate);
-    let right = placed::unit(x).ok_or(DecomposeError::Sheared)?;
-    let out = placed::unit(right.cross(y)).ok_or(DecomposeError::Sheared)?;
+    let right = placement::unit_vector(x).ok_or(DecomposeError::Sheared)?;
+    let out = placement::unit_vector(right.cross(y)).ok_or(DecomposeError::Sheared)?;
     let up = out.cross(right);
-    let square = placed::across(y, right) && placed::across(z, right) && placed::across(z, up);
+    let square = placement::is_perpendicular(y, right)
+        && placement::is_perpendicular(z, right)
+        && placement::is_perpendicular(z, up);
     if !square {
         return Err(DecomposeError::Sheared);
     }
     let depth = (-z.dot(out), rows[2].w);
-    let volume = upright_box(x.dot(right), rows[0].w, y.dot(up), rows[1].w, depth, convention)?;
+    let volume =
+        decompose_upright_box(x.dot(right), rows[0].w, y.dot(up), rows[1].w, depth, convention)?;
     if let Some(axonometric) = upright_axonometric([right, up, out]) {
         return Ok(Decomposed::Classical { projection: axonometric.into(), volume });
     }
@@ -307,7 +318,10 @@ fn turned_box(rows: [DVec4; 3], convention: Convention) -> Result<Decomposed, De
 }
 
 /// w changes from place to place.
-fn central(matrix: DMat4, convention: Convention) -> Result<Decomposition, DecomposeError> {
+fn decompose_central(
+    matrix: DMat4,
+    convention: Convention,
+) -> Result<Decomposition, DecomposeError> {
     let mut columns = matrix;
     columns.z_axis *= -convention.ahead();
     // From here on view space looks along −z and y points up.
@@ -316,10 +330,11 @@ fn central(matrix: DMat4, convention: Convention) -> Result<Decomposition, Decom
     }
     let last = columns.row(3).truncate();
     let length = homog::Vector::<View>::from_raw(last).length();
-    let unturned = placed::negligible(last.with_z(0.0), DVec4::splat(last.z));
+    let unturned = placement::is_negligible(last.with_z(0.0), DVec4::splat(last.z));
     let with_factor = |factor: f64| {
-        let placement = Placement::of(columns * (1.0 / factor)).ok_or(DecomposeError::Sheared)?;
-        Ok(Decomposition { kind: lens(placement, convention)?, factor })
+        let placement =
+            Placement::from_matrix(columns * (1.0 / factor)).ok_or(DecomposeError::Sheared)?;
+        Ok(Decomposition { kind: decompose_frustum(placement, convention)?, factor })
     };
     match with_factor(if unturned && last.z > 0.0 { -length } else { length }) {
         // The sign of w is free: a turned camera with w < 0 in front of it looks the other way.
@@ -330,8 +345,11 @@ fn central(matrix: DMat4, convention: Convention) -> Result<Decomposition, Decom
     }
 }
 
-fn lens(found: Placement, convention: Convention) -> Result<Decomposed, DecomposeError> {
-    let Placement { scale, centre, depth, .. } = found;
+fn decompose_frustum(
+    found: Placement,
+    convention: Convention,
+) -> Result<Decomposed, DecomposeError> {
+    let Placement { scale, center: centre, depth, .. } = found;
     let slopes = Window::new(
         (centre.x - 1.0) / scale.x,
         (centre.x + 1.0) / scale.x,
@@ -339,18 +357,18 @@ fn lens(found: Placement, convention: Convention) -> Result<Decomposed, Decompos
         (centre.y + 1.0) / scale.y,
     )?;
     let along = depth.truncate();
-    if !placed::negligible(along.with_z(0.0), DVec4::splat(along.length())) {
-        let near_plane = inclined(depth, convention);
-        return Ok(Decomposed::ObliqueNear { placement: found.map(), slopes, near_plane });
+    if !placement::is_negligible(along.with_z(0.0), DVec4::splat(along.length())) {
+        let near_plane = inclined_near_plane(depth, convention);
+        return Ok(Decomposed::ObliqueNear { placement: found.as_affine(), slopes, near_plane });
     }
-    let (near, far) = planes(-depth.z, depth.w, convention)?;
+    let (near, far) = depth_planes(-depth.z, depth.w, convention)?;
     let frustum = Frustum::from_slopes(slopes, near, far)?;
-    Ok(named(found, frustum)
-        .unwrap_or(Decomposed::PlacedFrustum { placement: found.map(), frustum }))
+    Ok(recognize_frustum(found, frustum)
+        .unwrap_or(Decomposed::PlacedFrustum { placement: found.as_affine(), frustum }))
 }
 
 /// The near plane of a depth row: where z' = w·near depth, with w the distance ahead, −z.
-fn inclined(depth: DVec4, convention: Convention) -> Plane<View> {
+fn inclined_near_plane(depth: DVec4, convention: Convention) -> Plane<View> {
     let plane = depth + DVec4::Z * convention.near_depth();
     let inwards = (convention.far_depth() - convention.near_depth()).signum();
     Plane::from_raw(plane * (inwards / plane.truncate().length()))
@@ -358,16 +376,16 @@ fn inclined(depth: DVec4, convention: Convention) -> Plane<View> {
 
 /// The projection from an unturned camera that has a name: its eye at the origin, or beside it
 /// with a centred window.
-fn named(found: Placement, frustum: Frustum) -> Option<Decomposed> {
+fn recognize_frustum(found: Placement, frustum: Frustum) -> Option<Decomposed> {
     let (eye, w, near) = (found.eye, frustum.window(), frustum.near());
     let size = DVec4::new(w.width(), w.height(), near, 0.0);
-    if !found.is_upright() || !placed::negligible(DVec3::Z * eye.z, size) {
+    if !found.is_upright() || !placement::is_negligible(DVec3::Z * eye.z, size) {
         return None;
     }
-    if placed::negligible(eye, size) {
+    if placement::is_negligible(eye, size) {
         return Some(Decomposed::Frustum(frustum));
     }
-    let centred = placed::negligible(found.centre.extend(0.0), DVec4::ONE);
+    let centred = placement::is_negligible(found.center.extend(0.0), DVec4::ONE);
     let (l, r) = (w.left() + eye.x, w.right() + eye.x);
     let (b, t) = (w.bottom() + eye.y, w.top() + eye.y);
     let moved = ApexMovedFrustum::new(l, r, b, t, near, frustum.far()).ok()?;
@@ -375,7 +393,11 @@ fn named(found: Placement, frustum: Frustum) -> Option<Decomposed> {
 }
 
 /// The distances at which factor + offset/D is the near and the far depth.
-fn planes(factor: f64, offset: f64, convention: Convention) -> Result<(f64, f64), DecomposeError> {
+fn depth_planes(
+    factor: f64,
+    offset: f64,
+    convention: Convention,
+) -> Result<(f64, f64), DecomposeError> {
     let near = offset / (convention.near_depth() - factor);
     let gap = convention.far_depth() - factor;
     // A far plane so far that rounding hides it might as well not be there.

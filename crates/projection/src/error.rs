@@ -94,13 +94,13 @@ pub enum ProjectionError {
 }
 
 /// Passes a finite number on and refuses any other.
-pub(crate) fn finite(parameter: &'static str, value: f64) -> Result<f64, ProjectionError> {
+pub(crate) fn check_finite(parameter: &'static str, value: f64) -> Result<f64, ProjectionError> {
     if value.is_finite() { Ok(value) } else { Err(ProjectionError::NotFinite { parameter, value }) }
 }
 
 /// Passes a finite number above zero on and refuses any other.
-pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, ProjectionError> {
-    if finite(parameter, value)? > 0.0 {
+pub(crate) fn check_positive(parameter: &'static str, value: f64) -> Result<f64, ProjectionError> {
+    if check_finite(parameter, value)? > 0.0 {
         Ok(value)
     } else {
         Err(ProjectionError::OutOfRange { parameter, value, allowed: "greater than 0" })
@@ -108,9 +108,12 @@ pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, Proje
 }
 
 /// Passes an angle between 0 and π, both excluded, on and refuses any other.
-pub(crate) fn opening_angle(parameter: &'static str, value: f64) -> Result<f64, ProjectionError> {
+pub(crate) fn check_opening_angle(
+    parameter: &'static str,
+    value: f64,
+) -> Result<f64, ProjectionError> {
     let allowed = "between 0 and π radians, both excluded";
-    if finite(parameter, value)? > 0.0 && value < core::f64::consts::PI {
+    if check_finite(parameter, value)? > 0.0 && value < core::f64::consts::PI {
         Ok(value)
     } else {
         Err(ProjectionError::OutOfRange { parameter, value, allowed })

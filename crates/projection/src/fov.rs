@@ -1,7 +1,7 @@
 //! Field of view: the many ways to say how wide a lens sees.
 
 use crate::ProjectionError;
-use crate::error::{finite, opening_angle, positive};
+use crate::error::{check_finite, check_opening_angle, check_positive};
 
 /// How wide a perspective sees; angles in radians, between 0 and π (FOV-1, C33, C49).
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -17,13 +17,13 @@ pub enum Fov {
         /// The distance between lens and film.
         focal: f64,
         /// The extent of the film.
-        film: Film,
+        film: SensorSize,
     },
 }
 
 /// The extent of film or sensor that the picture fills.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Film {
+pub enum SensorSize {
     /// The height of the film is known.
     Height(f64),
     /// The width of the film is known.
@@ -32,7 +32,7 @@ pub enum Film {
     Diagonal(f64),
 }
 
-impl Film {
+impl SensorSize {
     /// The diagonal of the 36 mm × 24 mm frame to which "35 mm equivalent" focal lengths refer, in
     /// millimetres.
     pub const FULL_FRAME_MM: Self = Self::Diagonal(43.266615305567875);
@@ -63,7 +63,7 @@ impl Fov {
     /// The "35 mm equivalent" focal length in millimetres, by the film's diagonal.
     #[must_use]
     pub const fn equivalent_35mm(focal: f64) -> Self {
-        Self::FocalLength { focal, film: Film::FULL_FRAME_MM }
+        Self::FocalLength { focal, film: SensorSize::FULL_FRAME_MM }
     }
 
     /// Half the window one unit ahead of the eye, for an image of the given aspect (width /
@@ -72,45 +72,51 @@ impl Fov {
     /// # Errors
     /// If the aspect, a length or the angle is not finite or out of range.
     pub fn half_slopes(self, aspect: f64) -> Result<HalfSlopes, ProjectionError> {
-        positive("aspect", aspect)?;
+        check_positive("aspect", aspect)?;
         let half = |angle: f64| libm::tan(0.5 * angle);
         match self {
-            Self::Vertical(angle) => {
-                Ok(by_height(half(opening_angle("vertical field of view", angle)?), aspect))
-            }
-            Self::Horizontal(angle) => {
-                Ok(by_width(half(opening_angle("horizontal field of view", angle)?), aspect))
-            }
-            Self::Diagonal(angle) => {
-                Ok(by_diagonal(half(opening_angle("diagonal field of view", angle)?), aspect))
-            }
+            Self::Vertical(angle) => Ok(half_slopes_by_height(
+                half(check_opening_angle("vertical field of view", angle)?),
+                aspect,
+            )),
+            Self::Horizontal(angle) => Ok(half_slopes_by_width(
+                half(check_opening_angle("horizontal field of view", angle)?),
+                aspect,
+            )),
+            Self::Diagonal(angle) => Ok(half_slopes_by_diagonal(
+                half(check_opening_angle("diagonal field of view", angle)?),
+                aspect,
+            )),
             Self::FocalLength { focal, film } => {
-                positive("focal length", focal)?;
+                check_positive("focal length", focal)?;
                 Ok(match film {
-                    Film::Height(size) => {
-                        by_height(0.5 * positive("film height", size)? / focal, aspect)
-                    }
-                    Film::Width(size) => {
-                        by_width(0.5 * positive("film width", size)? / focal, aspect)
-                    }
-                    Film::Diagonal(size) => {
-                        by_diagonal(0.5 * positive("film diagonal", size)? / focal, aspect)
-                    }
+                    SensorSize::Height(size) => half_slopes_by_height(
+                        0.5 * check_positive("film height", size)? / focal,
+                        aspect,
+                    ),
+                    SensorSize::Width(size) => half_slopes_by_width(
+                        0.5 * check_positive("film width", size)? / focal,
+                        aspect,
+                    ),
+                    SensorSize::Diagonal(size) => half_slopes_by_diagonal(
+                        0.5 * check_positive("film diagonal", size)? / focal,
+                        aspect,
+                    ),
                 })
             }
         }
     }
 }
 
-fn by_height(y: f64, aspect: f64) -> HalfSlopes {
+fn half_slopes_by_height(y: f64, aspect: f64) -> HalfSlopes {
     HalfSlopes { x: aspect * y, y }
 }
 
-fn by_width(x: f64, aspect: f64) -> HalfSlopes {
+fn half_slopes_by_width(x: f64, aspect: f64) -> HalfSlopes {
     HalfSlopes { x, y: x / aspect }
 }
 
-fn by_diagonal(half: f64, aspect: f64) -> HalfSlopes {
+fn half_slopes_by_diagonal(half: f64, aspect: f64) -> HalfSlopes {
     let diagonal = libm::hypot(1.0, aspect);
     HalfSlopes { x: half * (aspect / diagonal), y: half / diagonal }
 }
@@ -121,8 +127,8 @@ fn by_diagonal(half: f64, aspect: f64) -> HalfSlopes {
 /// # Errors
 /// If a number is not finite, or the distance not above 0.
 pub fn opening_angle_of(low: f64, high: f64, distance: f64) -> Result<f64, ProjectionError> {
-    finite("low", low)?;
-    finite("high", high)?;
-    positive("distance", distance)?;
+    check_finite("low", low)?;
+    check_finite("high", high)?;
+    check_positive("distance", distance)?;
     Ok(libm::atan2(high, distance) - libm::atan2(low, distance))
 }

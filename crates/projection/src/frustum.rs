@@ -1,7 +1,7 @@
 //! Perspective through any window: the off-centre frustum.
 
-use crate::error::{finite, positive};
-use crate::matrix::{self, DepthRow, Fit};
+use crate::error::{check_finite, check_positive};
+use crate::matrix::{self, DepthRow, WindowFit};
 use crate::{Convention, ProjectionError, Window};
 use homog::{Clip, Projective, View};
 
@@ -57,9 +57,9 @@ impl Frustum {
     /// As for [`new`](Self::new).
     pub fn from_window(window: Window, near: f64, far: f64) -> Result<Self, ProjectionError> {
         check_planes(near, far)?;
-        window.fit(near)?;
+        window.window_fit(near)?;
         let frustum = Self { window, near, far };
-        frustum.slopes().check()?;
+        frustum.slopes().check_edges()?;
         Ok(frustum)
     }
 
@@ -76,7 +76,7 @@ impl Frustum {
     }
 
     /// A frustum whose parts have been checked.
-    pub(crate) const fn trusted(window: Window, near: f64, far: f64) -> Self {
+    pub(crate) const fn new_unchecked(window: Window, near: f64, far: f64) -> Self {
         Self { window, near, far }
     }
 
@@ -107,17 +107,17 @@ impl Frustum {
     /// The projection matrix.
     #[must_use]
     pub fn view_to_clip(self, convention: Convention) -> Projective<View, Clip> {
-        matrix::central(self.fit(), self.depth_row(convention), convention)
+        matrix::central_matrix(self.window_fit(), self.depth_row(convention), convention)
     }
 
     /// Its inverse in closed form (IV-1).
     #[must_use]
     pub fn clip_to_view(self, convention: Convention) -> Projective<Clip, View> {
-        matrix::central_inverse(self.fit(), self.depth_row(convention), convention)
+        matrix::central_inverse(self.window_fit(), self.depth_row(convention), convention)
     }
 
-    fn fit(self) -> Fit {
-        self.window.fit_unchecked(self.near)
+    fn window_fit(self) -> WindowFit {
+        self.window.window_fit_unchecked(self.near)
     }
 
     fn depth_row(self, convention: Convention) -> DepthRow {
@@ -127,9 +127,9 @@ impl Frustum {
 
 /// 0 < near < far, and usable.
 pub(crate) fn check_planes(near: f64, far: f64) -> Result<(), ProjectionError> {
-    positive("near", near)?;
+    check_positive("near", near)?;
     if far != f64::INFINITY {
-        finite("far", far)?;
+        check_finite("far", far)?;
     }
     if near == far {
         return Err(ProjectionError::EmptyDepth { value: near });

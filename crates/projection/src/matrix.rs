@@ -18,22 +18,22 @@ use homog::{Clip, Projective, View};
 
 /// What the window does to x and y: x' = `scale_x` x − `centre_x` (times D if central).
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Fit {
+pub(crate) struct WindowFit {
     pub(crate) scale_x: f64,
     pub(crate) scale_y: f64,
-    pub(crate) centre_x: f64,
-    pub(crate) centre_y: f64,
+    pub(crate) center_x: f64,
+    pub(crate) center_y: f64,
 }
 
-impl Fit {
+impl WindowFit {
     /// Refuses what would overflow in the matrix or in its inverse.
-    pub(crate) fn checked(self) -> Result<Self, ProjectionError> {
-        let usable = invertible(self.scale_x)
-            && invertible(self.scale_y)
-            && bounded(self.centre_x)
-            && bounded(self.centre_y)
-            && bounded(self.centre_x / self.scale_x)
-            && bounded(self.centre_y / self.scale_y);
+    pub(crate) fn check_fit(self) -> Result<Self, ProjectionError> {
+        let usable = is_invertible(self.scale_x)
+            && is_invertible(self.scale_y)
+            && is_bounded(self.center_x)
+            && is_bounded(self.center_y)
+            && is_bounded(self.center_x / self.scale_x)
+            && is_bounded(self.center_y / self.scale_y);
         usable.then_some(self).ok_or(ProjectionError::Unrepresentable { what: "window" })
     }
 }
@@ -73,42 +73,46 @@ impl DepthRow {
     /// Refuses planes whose central depth row or its inverse would overflow.
     pub(crate) fn check_central(near: f64, far: f64) -> Result<(), ProjectionError> {
         let row = Self::central(near, far, Convention::OPENGL);
-        let usable = invertible(row.offset) && bounded(row.factor / row.offset);
+        let usable = is_invertible(row.offset) && is_bounded(row.factor / row.offset);
         usable.then_some(()).ok_or(ProjectionError::Unrepresentable { what: "depth range" })
     }
 
     /// Refuses planes whose parallel depth row or its inverse would overflow.
     pub(crate) fn check_parallel(near: f64, far: f64) -> Result<(), ProjectionError> {
         let row = Self::parallel(near, far, Convention::OPENGL);
-        let usable = invertible(row.factor) && bounded(row.offset);
+        let usable = is_invertible(row.factor) && is_bounded(row.offset);
         usable.then_some(()).ok_or(ProjectionError::Unrepresentable { what: "depth range" })
     }
 }
 
 /// Small enough to be multiplied by what a convention adds.
-pub(crate) fn bounded(value: f64) -> bool {
+pub(crate) fn is_bounded(value: f64) -> bool {
     value.abs() < 1e280
 }
 
 /// Bounded, and so is its reciprocal.
-pub(crate) fn invertible(value: f64) -> bool {
-    bounded(value) && value.abs() > 1e-280
+pub(crate) fn is_invertible(value: f64) -> bool {
+    is_bounded(value) && value.abs() > 1e-280
 }
 
 /// The central form: w is the distance ahead.
-pub(crate) fn central(fit: Fit, depth: DepthRow, convention: Convention) -> Projective<View, Clip> {
+pub(crate) fn central_matrix(
+    fit: WindowFit,
+    depth: DepthRow,
+    convention: Convention,
+) -> Projective<View, Clip> {
     let (ahead, top) = (convention.ahead(), convention.top());
     Projective::from_raw(DMat4::from_cols(
         DVec4::new(fit.scale_x, 0.0, 0.0, 0.0),
         DVec4::new(0.0, top * fit.scale_y, 0.0, 0.0),
-        DVec4::new(-fit.centre_x, -top * fit.centre_y, depth.factor, 1.0) * ahead,
+        DVec4::new(-fit.center_x, -top * fit.center_y, depth.factor, 1.0) * ahead,
         DVec4::new(0.0, 0.0, depth.offset, 0.0),
     ))
 }
 
 /// The inverse of [`central`], by IV-1.
 pub(crate) fn central_inverse(
-    fit: Fit,
+    fit: WindowFit,
     depth: DepthRow,
     convention: Convention,
 ) -> Projective<Clip, View> {
@@ -118,8 +122,8 @@ pub(crate) fn central_inverse(
         DVec4::new(0.0, top / fit.scale_y, 0.0, 0.0),
         DVec4::new(0.0, 0.0, 0.0, 1.0 / depth.offset),
         DVec4::new(
-            fit.centre_x / fit.scale_x,
-            fit.centre_y / fit.scale_y,
+            fit.center_x / fit.scale_x,
+            fit.center_y / fit.scale_y,
             ahead,
             -depth.factor / depth.offset,
         ),
@@ -127,8 +131,8 @@ pub(crate) fn central_inverse(
 }
 
 /// The parallel form: w stays 1.
-pub(crate) fn parallel(
-    fit: Fit,
+pub(crate) fn parallel_matrix(
+    fit: WindowFit,
     depth: DepthRow,
     convention: Convention,
 ) -> Projective<View, Clip> {
@@ -137,13 +141,13 @@ pub(crate) fn parallel(
         DVec4::new(fit.scale_x, 0.0, 0.0, 0.0),
         DVec4::new(0.0, top * fit.scale_y, 0.0, 0.0),
         DVec4::new(0.0, 0.0, depth.factor * ahead, 0.0),
-        DVec4::new(-fit.centre_x, -top * fit.centre_y, depth.offset, 1.0),
+        DVec4::new(-fit.center_x, -top * fit.center_y, depth.offset, 1.0),
     ))
 }
 
 /// The inverse of [`parallel`].
 pub(crate) fn parallel_inverse(
-    fit: Fit,
+    fit: WindowFit,
     depth: DepthRow,
     convention: Convention,
 ) -> Projective<Clip, View> {
@@ -153,8 +157,8 @@ pub(crate) fn parallel_inverse(
         DVec4::new(0.0, top / fit.scale_y, 0.0, 0.0),
         DVec4::new(0.0, 0.0, ahead / depth.factor, 0.0),
         DVec4::new(
-            fit.centre_x / fit.scale_x,
-            fit.centre_y / fit.scale_y,
+            fit.center_x / fit.scale_x,
+            fit.center_y / fit.scale_y,
             -ahead * (depth.offset / depth.factor),
             1.0,
         ),
@@ -167,7 +171,10 @@ pub(crate) fn from_rows(rows: [[f64; 4]; 4]) -> DMat4 {
 }
 
 /// Refuses a matrix with an entry too large to go on computing with.
-pub(crate) fn representable(matrix: DMat4, what: &'static str) -> Result<DMat4, ProjectionError> {
-    let usable = matrix.to_cols_array().into_iter().all(bounded);
+pub(crate) fn check_representable(
+    matrix: DMat4,
+    what: &'static str,
+) -> Result<DMat4, ProjectionError> {
+    let usable = matrix.to_cols_array().into_iter().all(is_bounded);
     usable.then_some(matrix).ok_or(ProjectionError::Unrepresentable { what })
 }

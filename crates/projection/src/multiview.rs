@@ -75,7 +75,7 @@ impl PrincipalView {
     /// The turn that brings the view's own x right, y up and the viewer to +z: exact, entries 0 and
     /// ±1.
     #[must_use]
-    pub fn depth_kept(self) -> Affine<View, View> {
+    pub fn depth_preserving(self) -> Affine<View, View> {
         let (x, y, z) = match self {
             Self::Front => ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]),
             Self::Back => ([-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]),
@@ -94,7 +94,7 @@ impl PrincipalView {
     /// In third angle a view lies on the side it is seen from, in first angle on the opposite one.
     /// The back view continues the right or left side.
     #[must_use]
-    pub const fn place(self, angle: SheetAngle) -> (i32, i32) {
+    pub const fn sheet_position(self, angle: SheetAngle) -> (i32, i32) {
         let (x, y) = match self {
             Self::Front => (0, 0),
             Self::Right => (1, 0),

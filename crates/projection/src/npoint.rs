@@ -16,8 +16,8 @@
 //! and negative behind the eye (M20).
 
 use crate::ProjectionError;
-use crate::error::finite;
-use crate::matrix::{bounded, from_rows, invertible};
+use crate::error::check_finite;
+use crate::matrix::{from_rows, is_bounded, is_invertible};
 use homog::{HPoint, Projective, View};
 
 /// A perspective by p, q and r.
@@ -47,8 +47,8 @@ impl NPoint {
     /// If a number is not finite, or all are 0.
     pub fn new(p: f64, q: f64, r: f64) -> Result<Self, ProjectionError> {
         for (parameter, value) in [("p", p), ("q", q), ("r", r)] {
-            finite(parameter, value)?;
-            if value != 0.0 && !invertible(value) {
+            check_finite(parameter, value)?;
+            if value != 0.0 && !is_invertible(value) {
                 return Err(ProjectionError::Unrepresentable { what: "vanishing point" });
             }
         }
@@ -63,7 +63,7 @@ impl NPoint {
     /// # Errors
     /// If d is 0 or not finite.
     pub fn from_eye(d: f64) -> Result<Self, ProjectionError> {
-        if finite("d", d)? == 0.0 {
+        if check_finite("d", d)? == 0.0 {
             return Err(ProjectionError::CentreOnPlane);
         }
         Self::new(0.0, 0.0, -1.0 / d)
@@ -85,7 +85,7 @@ impl NPoint {
                 let allowed = "any coordinate but 0";
                 Err(ProjectionError::OutOfRange { parameter, value: 0.0, allowed })
             }
-            Some(value) => Ok(1.0 / finite(parameter, value)?),
+            Some(value) => Ok(1.0 / check_finite(parameter, value)?),
         };
         let x = reciprocal("vanishing point of x", x)?;
         let y = reciprocal("vanishing point of y", y)?;
@@ -107,7 +107,7 @@ impl NPoint {
     /// True if this is a real central projection onto z = 0: p = q = 0, so that points of that
     /// plane stay.
     #[must_use]
-    pub fn keeps_picture_plane(self) -> bool {
+    pub fn preserves_picture_plane(self) -> bool {
         self.p == 0.0 && self.q == 0.0
     }
 
@@ -131,13 +131,13 @@ impl NPoint {
 
     /// The map that keeps z before the divide; it has an inverse.
     #[must_use]
-    pub fn depth_kept(self) -> Projective<View, View> {
+    pub fn depth_preserving(self) -> Projective<View, View> {
         self.matrix(1.0, 1.0)
     }
 
     /// Its inverse: the bottom row with p, q, r turned.
     #[must_use]
-    pub fn depth_kept_inverse(self) -> Projective<View, View> {
+    pub fn depth_preserving_inverse(self) -> Projective<View, View> {
         self.matrix(1.0, -1.0)
     }
 
@@ -150,6 +150,6 @@ impl NPoint {
     /// Where the divide puts a point of the line x = y = 0; `None` in the eye's plane and behind.
     pub(crate) fn depth_on_axis(self, z: f64) -> Option<f64> {
         let h = self.r * z + 1.0;
-        (h > 0.0 && bounded(z / h)).then_some(z / h)
+        (h > 0.0 && is_bounded(z / h)).then_some(z / h)
     }
 }

@@ -11,8 +11,8 @@
 //! ½, tan α = 2.
 
 use crate::ProjectionError;
-use crate::error::finite;
-use crate::matrix::{bounded, from_rows};
+use crate::error::check_finite;
+use crate::matrix::{from_rows, is_bounded};
 use homog::{Affine, Vector, View};
 
 /// An oblique (or, with L1 = 0, the orthographic) projection onto a plane z = const.
@@ -58,7 +58,7 @@ impl Oblique {
     /// # Errors
     /// If a number is not finite, or the length below 0.
     pub fn new(length: f64, phi: f64) -> Result<Self, ProjectionError> {
-        if finite("length", length)? < 0.0 {
+        if check_finite("length", length)? < 0.0 {
             let allowed = "0 or greater";
             return Err(ProjectionError::OutOfRange {
                 parameter: "length",
@@ -66,8 +66,8 @@ impl Oblique {
                 allowed,
             });
         }
-        let (sin, cos) = libm::sincos(finite("phi", phi)?);
-        Self::checked(length * cos, length * sin, 0.0)
+        let (sin, cos) = libm::sincos(check_finite("phi", phi)?);
+        Self::new_checked(length * cos, length * sin, 0.0)
     }
 
     /// Onto z = 0, with projectors at angle `alpha` to the plane and depth drawn in direction
@@ -76,7 +76,7 @@ impl Oblique {
     /// # Errors
     /// If an angle is not finite, or α not in (0, π/2].
     pub fn by_angle(alpha: f64, phi: f64) -> Result<Self, ProjectionError> {
-        if finite("alpha", alpha)? <= 0.0 || alpha > core::f64::consts::FRAC_PI_2 {
+        if check_finite("alpha", alpha)? <= 0.0 || alpha > core::f64::consts::FRAC_PI_2 {
             let allowed = "above 0 and up to π/2 radians";
             return Err(ProjectionError::OutOfRange { parameter: "alpha", value: alpha, allowed });
         }
@@ -90,7 +90,7 @@ impl Oblique {
     /// If a number is not finite, the direction is zero or parallel to the plane.
     pub fn by_direction(direction: Vector<View>, plane_z: f64) -> Result<Self, ProjectionError> {
         for value in <[f64; 3]>::from(direction) {
-            finite("direction", value)?;
+            check_finite("direction", value)?;
         }
         if direction == Vector::ZERO {
             return Err(ProjectionError::ZeroVector { parameter: "direction" });
@@ -99,7 +99,7 @@ impl Oblique {
             return Err(ProjectionError::ParallelToPlane);
         }
         let (x, y) = (-direction.x() / direction.z(), -direction.y() / direction.z());
-        Self::checked(x, y, finite("plane z", plane_z)?)
+        Self::new_checked(x, y, check_finite("plane z", plane_z)?)
     }
 
     /// Depth in full, in direction `phi` (usually 45° or 30°).
@@ -118,9 +118,9 @@ impl Oblique {
         Self::new(0.5, phi)
     }
 
-    fn checked(slant_x: f64, slant_y: f64, plane_z: f64) -> Result<Self, ProjectionError> {
+    fn new_checked(slant_x: f64, slant_y: f64, plane_z: f64) -> Result<Self, ProjectionError> {
         let usable = [slant_x, slant_y, plane_z, slant_x * plane_z, slant_y * plane_z];
-        if usable.into_iter().all(bounded) {
+        if usable.into_iter().all(is_bounded) {
             Ok(Self { slant_x, slant_y, plane_z })
         } else {
             Err(ProjectionError::Unrepresentable { what: "slant" })
@@ -172,13 +172,13 @@ impl Oblique {
     /// The shear that makes the projectors parallel to z and keeps z: x' = x + (z − z_p) L1 cos φ,
     /// y' alike.
     #[must_use]
-    pub fn depth_kept(self) -> Affine<View, View> {
+    pub fn depth_preserving(self) -> Affine<View, View> {
         self.shear(self.slant_x, self.slant_y)
     }
 
     /// Its inverse: the opposite shear.
     #[must_use]
-    pub fn depth_kept_inverse(self) -> Affine<View, View> {
+    pub fn depth_preserving_inverse(self) -> Affine<View, View> {
         self.shear(-self.slant_x, -self.slant_y)
     }
 
@@ -197,7 +197,7 @@ impl Oblique {
     pub fn onto_plane(self) -> Affine<View, View> {
         let drop = Affine::<View, View>::scale(1.0, 1.0, 0.0);
         let lift = Affine::translation(Vector::new(0.0, 0.0, self.plane_z));
-        self.depth_kept().then(drop).then(lift)
+        self.depth_preserving().then(drop).then(lift)
     }
 }
 
@@ -226,8 +226,8 @@ impl Planometric {
     /// # Errors
     /// If a number is not finite, or the height below 0.
     pub fn new(turn: f64, height: f64) -> Result<Self, ProjectionError> {
-        finite("turn", turn)?;
-        if finite("height", height)? < 0.0 {
+        check_finite("turn", turn)?;
+        if check_finite("height", height)? < 0.0 {
             let allowed = "0 or greater";
             return Err(ProjectionError::OutOfRange {
                 parameter: "height",
@@ -235,7 +235,7 @@ impl Planometric {
                 allowed,
             });
         }
-        Ok(Self { turn, rise: Oblique::checked(0.0, height, 0.0)? })
+        Ok(Self { turn, rise: Oblique::new_checked(0.0, height, 0.0)? })
     }
 
     /// The military projection: heights in full, the plan usually turned by 45° or 30°.
@@ -260,22 +260,24 @@ impl Planometric {
 
     /// Turned, seen from above, and sheared so that heights rise: z is the height.
     #[must_use]
-    pub fn depth_kept(self) -> Affine<View, View> {
-        let from_above = crate::PrincipalView::Top.depth_kept();
-        Affine::<View, View>::rotation_y(self.turn).then(from_above).then(self.rise.depth_kept())
+    pub fn depth_preserving(self) -> Affine<View, View> {
+        let from_above = crate::PrincipalView::Top.depth_preserving();
+        Affine::<View, View>::rotation_y(self.turn)
+            .then(from_above)
+            .then(self.rise.depth_preserving())
     }
 
     /// Its inverse.
     #[must_use]
-    pub fn depth_kept_inverse(self) -> Affine<View, View> {
+    pub fn depth_preserving_inverse(self) -> Affine<View, View> {
         // The view from below turns the other way about x.
-        let from_front = crate::PrincipalView::Bottom.depth_kept();
-        self.rise.depth_kept_inverse().then(from_front).then(Affine::rotation_y(-self.turn))
+        let from_front = crate::PrincipalView::Bottom.depth_preserving();
+        self.rise.depth_preserving_inverse().then(from_front).then(Affine::rotation_y(-self.turn))
     }
 
     /// The classical projection onto the picture, z = 0. Singular.
     #[must_use]
     pub fn onto_plane(self) -> Affine<View, View> {
-        self.depth_kept().then(Affine::scale(1.0, 1.0, 0.0))
+        self.depth_preserving().then(Affine::scale(1.0, 1.0, 0.0))
     }
 }

@@ -40,18 +40,18 @@ pub fn oblique_near_plane(
     let unusable = ProjectionError::Unrepresentable { what: "projection" };
     let clip_to_view = view_to_clip.inverse().ok_or(unusable)?;
     let eye = ViewVolume::new(view_to_clip, convention).eye().ok_or(unusable)?;
-    let plane = normalised(plane)?;
+    let plane = normalized_plane(plane)?;
     let side = plane.evaluate(eye);
     if side.is_nan() || side >= 0.0 {
-        return Err(misplaced("plane at the eye", side, "below 0: the eye behind it"));
+        return Err(out_of_range("plane at the eye", side, "below 0: the eye behind it"));
     }
     // The corner that lies farthest behind the plane shall keep the far depth.
     let seen = clip_to_view.raw().transpose() * plane.raw();
     let corner = DVec4::new(seen.x.signum(), seen.y.signum(), convention.far_depth(), 1.0);
-    let farthest = plane.evaluate(clip_to_view.hpoint(HPoint::from_raw(corner)));
+    let farthest = plane.evaluate(clip_to_view.transform_hpoint(HPoint::from_raw(corner)));
     if farthest.is_nan() || farthest <= 0.0 {
         let allowed = "above 0: something visible before it";
-        return Err(misplaced("plane at the far corner", farthest, allowed));
+        return Err(out_of_range("plane at the far corner", farthest, allowed));
     }
     let depths = convention.far_depth() - convention.near_depth();
     let mut rows = view_to_clip.raw().transpose();
@@ -60,14 +60,14 @@ pub fn oblique_near_plane(
     result.is_finite().then_some(Projective::from_raw(result)).ok_or(unusable)
 }
 
-fn misplaced(parameter: &'static str, value: f64, allowed: &'static str) -> ProjectionError {
+fn out_of_range(parameter: &'static str, value: f64, allowed: &'static str) -> ProjectionError {
     ProjectionError::OutOfRange { parameter, value, allowed }
 }
 
 /// The same plane with a normal of length 1.
-fn normalised(plane: Plane<View>) -> Result<Plane<View>, ProjectionError> {
+fn normalized_plane(plane: Plane<View>) -> Result<Plane<View>, ProjectionError> {
     for value in plane.raw().to_array() {
-        crate::error::finite("plane", value)?;
+        crate::error::check_finite("plane", value)?;
     }
     let length = homog::Vector::<View>::from_raw(plane.raw().truncate()).length();
     let unit = plane.raw() / length;

@@ -1,7 +1,7 @@
 //! Orthographic projection: a box of view space becomes the picture.
 
-use crate::error::finite;
-use crate::matrix::{self, DepthRow, Fit};
+use crate::error::check_finite;
+use crate::matrix::{self, DepthRow, WindowFit};
 use crate::{Convention, ProjectionError, Window};
 use homog::{Clip, Projective, View};
 
@@ -49,13 +49,13 @@ impl Orthographic {
     /// # Errors
     /// As for [`new`](Self::new).
     pub fn from_window(window: Window, near: f64, far: f64) -> Result<Self, ProjectionError> {
-        finite("near", near)?;
-        finite("far", far)?;
+        check_finite("near", near)?;
+        check_finite("far", far)?;
         if near == far {
             return Err(ProjectionError::EmptyDepth { value: near });
         }
         DepthRow::check_parallel(near, far)?;
-        window.fit(1.0)?;
+        window.window_fit(1.0)?;
         Ok(Self { window, near, far })
     }
 
@@ -80,17 +80,17 @@ impl Orthographic {
     /// The projection matrix. It is affine: w stays 1.
     #[must_use]
     pub fn view_to_clip(self, convention: Convention) -> Projective<View, Clip> {
-        matrix::parallel(self.fit(), self.depth_row(convention), convention)
+        matrix::parallel_matrix(self.window_fit(), self.depth_row(convention), convention)
     }
 
     /// Its inverse in closed form.
     #[must_use]
     pub fn clip_to_view(self, convention: Convention) -> Projective<Clip, View> {
-        matrix::parallel_inverse(self.fit(), self.depth_row(convention), convention)
+        matrix::parallel_inverse(self.window_fit(), self.depth_row(convention), convention)
     }
 
-    fn fit(self) -> Fit {
-        self.window.fit_unchecked(1.0)
+    fn window_fit(self) -> WindowFit {
+        self.window.window_fit_unchecked(1.0)
     }
 
     fn depth_row(self, convention: Convention) -> DepthRow {

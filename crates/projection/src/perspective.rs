@@ -1,7 +1,7 @@
 //! Perspective by field of view: the window centred on the line of sight.
 
 use crate::frustum::check_planes;
-use crate::matrix::{self, DepthRow, Fit};
+use crate::matrix::{self, DepthRow, WindowFit};
 use crate::{Convention, Fov, Frustum, HalfSlopes, ProjectionError, Window};
 use homog::{Clip, Projective, View};
 
@@ -36,9 +36,10 @@ impl Perspective {
     pub fn new(fov: Fov, aspect: f64, near: f64, far: f64) -> Result<Self, ProjectionError> {
         let lens = Self { half: fov.half_slopes(aspect)?, near, far };
         check_planes(near, far)?;
-        lens.fit().checked()?;
+        lens.window_fit().check_fit()?;
         let window = lens.slopes().scaled(near);
-        Window::new(window.left(), window.right(), window.bottom(), window.top())?.fit(near)?;
+        Window::new(window.left(), window.right(), window.bottom(), window.top())?
+            .window_fit(near)?;
         Ok(lens)
     }
 
@@ -94,24 +95,24 @@ impl Perspective {
     /// aspect·top.
     #[must_use]
     pub fn to_frustum(self) -> Frustum {
-        Frustum::trusted(self.slopes().scaled(self.near), self.near, self.far)
+        Frustum::new_unchecked(self.slopes().scaled(self.near), self.near, self.far)
     }
 
     /// The projection matrix.
     #[must_use]
     pub fn view_to_clip(self, convention: Convention) -> Projective<View, Clip> {
-        matrix::central(self.fit(), self.depth_row(convention), convention)
+        matrix::central_matrix(self.window_fit(), self.depth_row(convention), convention)
     }
 
     /// Its inverse in closed form (IV-1).
     #[must_use]
     pub fn clip_to_view(self, convention: Convention) -> Projective<Clip, View> {
-        matrix::central_inverse(self.fit(), self.depth_row(convention), convention)
+        matrix::central_inverse(self.window_fit(), self.depth_row(convention), convention)
     }
 
-    fn fit(self) -> Fit {
+    fn window_fit(self) -> WindowFit {
         let HalfSlopes { x, y } = self.half;
-        Fit { scale_x: 1.0 / x, scale_y: 1.0 / y, centre_x: 0.0, centre_y: 0.0 }
+        WindowFit { scale_x: 1.0 / x, scale_y: 1.0 / y, center_x: 0.0, center_y: 0.0 }
     }
 
     fn depth_row(self, convention: Convention) -> DepthRow {

@@ -14,8 +14,8 @@
 //! the limit of an eye that goes to infinity: parallel projection is not a case of its own (PR-1).
 
 use crate::ProjectionError;
-use crate::error::finite;
-use crate::matrix::representable;
+use crate::error::check_finite;
+use crate::matrix::check_representable;
 use glam::{DMat4, DVec4};
 use homog::{HPoint, Plane, Point, Projective, Space, Vector};
 
@@ -49,9 +49,9 @@ impl<S: Space> Projector<S> {
     /// If a number is not finite, the plane has no normal, or the eye lies in it.
     pub fn from_eye(eye: Point<S>, plane: Plane<S>) -> Result<Self, ProjectionError> {
         for value in <[f64; 3]>::from(eye) {
-            finite("eye", value)?;
+            check_finite("eye", value)?;
         }
-        Self::checked(HPoint::from(eye), plane, ProjectionError::CentreOnPlane)
+        Self::new_checked(HPoint::from(eye), plane, ProjectionError::CentreOnPlane)
     }
 
     /// Parallel projection along `direction` onto `plane`.
@@ -61,27 +61,27 @@ impl<S: Space> Projector<S> {
     /// parallel.
     pub fn along(direction: Vector<S>, plane: Plane<S>) -> Result<Self, ProjectionError> {
         for value in <[f64; 3]>::from(direction) {
-            finite("direction", value)?;
+            check_finite("direction", value)?;
         }
         let unit =
             direction.normalized().ok_or(ProjectionError::ZeroVector { parameter: "direction" })?;
-        Self::checked(HPoint::from(unit), plane, ProjectionError::ParallelToPlane)
+        Self::new_checked(HPoint::from(unit), plane, ProjectionError::ParallelToPlane)
     }
 
-    fn checked(
+    fn new_checked(
         centre: HPoint<S>,
         plane: Plane<S>,
         touching: ProjectionError,
     ) -> Result<Self, ProjectionError> {
         for value in plane.raw().to_array() {
-            finite("plane", value)?;
+            check_finite("plane", value)?;
         }
         let length = Vector::<S>::from_raw(plane.raw().truncate()).length();
         if length == 0.0 {
             return Err(ProjectionError::ZeroVector { parameter: "plane normal" });
         }
         let unit = plane.raw() / length;
-        representable(DMat4::from_diagonal(unit), "plane")?;
+        check_representable(DMat4::from_diagonal(unit), "plane")?;
         let plane = Plane::from_raw(unit);
         let reach = plane.evaluate(centre);
         let projector = Self { centre, plane, reach };
@@ -89,13 +89,13 @@ impl<S: Space> Projector<S> {
         if reach.abs() <= 8.0 * f64::EPSILON * (size.x + size.y + size.z + size.w) {
             return Err(touching);
         }
-        representable(projector.depth_kept().raw(), "projector")?;
+        check_representable(projector.depth_preserving().raw(), "projector")?;
         Ok(projector)
     }
 
     /// The centre of projection; w = 0 if the projectors are parallel.
     #[must_use]
-    pub const fn centre(self) -> HPoint<S> {
+    pub const fn center(self) -> HPoint<S> {
         self.centre
     }
 
@@ -110,20 +110,20 @@ impl<S: Space> Projector<S> {
     #[must_use]
     pub fn onto_plane(self) -> Projective<S, S> {
         let toward = self.centre.raw() / self.reach;
-        Projective::from_raw(DMat4::IDENTITY - outer(toward, self.plane.raw()))
+        Projective::from_raw(DMat4::IDENTITY - outer_product(toward, self.plane.raw()))
     }
 
     /// The same image beside the plane instead of in it: the distance from the plane is kept before
     /// the divide, so that the map has an inverse and what hides what can be told (PR-1, C102).
     #[must_use]
-    pub fn depth_kept(self) -> Projective<S, S> {
+    pub fn depth_preserving(self) -> Projective<S, S> {
         let normal = self.plane.normal().raw().extend(0.0);
-        let kept = outer(normal, self.plane.raw());
+        let kept = outer_product(normal, self.plane.raw());
         Projective::from_raw(self.onto_plane().raw() + kept)
     }
 }
 
 /// a bᵀ.
-fn outer(a: DVec4, b: DVec4) -> DMat4 {
+fn outer_product(a: DVec4, b: DVec4) -> DMat4 {
     DMat4::from_cols(a * b.x, a * b.y, a * b.z, a * b.w)
 }

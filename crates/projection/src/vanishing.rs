@@ -5,7 +5,7 @@
 //! place says whether a picture is in one-, two- or three-point perspective.
 
 use crate::ProjectionError;
-use crate::error::finite;
+use crate::error::check_finite;
 use glam::DVec4;
 use homog::{Point, Projective, Space, Vector};
 
@@ -61,25 +61,25 @@ pub fn vanishing_point<A: Space, B: Space>(
     direction: Vector<A>,
 ) -> Result<VanishingPoint<B::Divided>, ProjectionError> {
     for value in <[f64; 3]>::from(direction) {
-        finite("direction", value)?;
+        check_finite("direction", value)?;
     }
     let unit =
         direction.normalized().ok_or(ProjectionError::ZeroVector { parameter: "direction" })?;
-    let image = map.direction(unit).raw();
+    let image = map.transform_direction(unit).raw();
     if !image.is_finite() {
         return Err(ProjectionError::Unrepresentable { what: "image of the direction" });
     }
-    classified(image, rounding(map, unit))
+    classify_point(image, direction_rounding(map, unit))
 }
 
 /// The largest part of each image coordinate that can be rounding only.
-fn rounding<A: Space, B: Space>(map: Projective<A, B>, direction: Vector<A>) -> DVec4 {
+fn direction_rounding<A: Space, B: Space>(map: Projective<A, B>, direction: Vector<A>) -> DVec4 {
     let m = map.raw();
     let d = direction.raw().abs();
     (m.x_axis.abs() * d.x + m.y_axis.abs() * d.y + m.z_axis.abs() * d.z) * (4.0 * f64::EPSILON)
 }
 
-fn classified<S: Space>(
+fn classify_point<S: Space>(
     image: DVec4,
     rounding: DVec4,
 ) -> Result<VanishingPoint<S>, ProjectionError> {

@@ -1,8 +1,8 @@
 //! The window: the rectangle of the view plane that becomes the picture.
 
 use crate::ProjectionError;
-use crate::error::finite;
-use crate::matrix::Fit;
+use crate::error::check_finite;
+use crate::matrix::WindowFit;
 
 /// A rectangle [left, right] × [bottom, top], in units of view space or, for slopes, without unit
 /// (C85).
@@ -24,21 +24,21 @@ impl Window {
     /// # Errors
     /// If an edge is not finite, opposite edges coincide, or they are too far apart.
     pub fn new(left: f64, right: f64, bottom: f64, top: f64) -> Result<Self, ProjectionError> {
-        finite("left", left)?;
-        finite("right", right)?;
-        finite("bottom", bottom)?;
-        finite("top", top)?;
+        check_finite("left", left)?;
+        check_finite("right", right)?;
+        check_finite("bottom", bottom)?;
+        check_finite("top", top)?;
         if left == right {
             return Err(ProjectionError::EmptyWindow { low: "left", high: "right", value: left });
         }
         if bottom == top {
             return Err(ProjectionError::EmptyWindow { low: "bottom", high: "top", value: bottom });
         }
-        Self { left, right, bottom, top }.check()
+        Self { left, right, bottom, top }.check_edges()
     }
 
     /// Refuses edges too far apart, or so near to each other that rounding made them one.
-    pub(crate) fn check(self) -> Result<Self, ProjectionError> {
+    pub(crate) fn check_edges(self) -> Result<Self, ProjectionError> {
         let usable = [self.width(), self.height()].iter().all(|d| d.is_finite() && *d != 0.0);
         usable.then_some(self).ok_or(ProjectionError::Unrepresentable { what: "window" })
     }
@@ -47,7 +47,7 @@ impl Window {
     ///
     /// # Errors
     /// If a size is not finite or 0.
-    pub fn centred(width: f64, height: f64) -> Result<Self, ProjectionError> {
+    pub fn centered(width: f64, height: f64) -> Result<Self, ProjectionError> {
         let (x, y) = (0.5 * width, 0.5 * height);
         Self::new(-x, x, -y, y)
     }
@@ -101,7 +101,7 @@ impl Window {
 
     /// The middle of the window, (x, y).
     #[must_use]
-    pub fn centre(self) -> (f64, f64) {
+    pub fn center(self) -> (f64, f64) {
         (0.5 * self.left + 0.5 * self.right, 0.5 * self.bottom + 0.5 * self.top)
     }
 
@@ -119,16 +119,16 @@ impl Window {
 
     /// What the window does to x and y, for a view plane at `distance` (1 for parallel
     /// projections).
-    pub(crate) fn fit(self, distance: f64) -> Result<Fit, ProjectionError> {
-        self.fit_unchecked(distance).checked()
+    pub(crate) fn window_fit(self, distance: f64) -> Result<WindowFit, ProjectionError> {
+        self.window_fit_unchecked(distance).check_fit()
     }
 
-    pub(crate) fn fit_unchecked(self, distance: f64) -> Fit {
-        Fit {
+    pub(crate) fn window_fit_unchecked(self, distance: f64) -> WindowFit {
+        WindowFit {
             scale_x: 2.0 * distance / self.width(),
             scale_y: 2.0 * distance / self.height(),
-            centre_x: (self.right + self.left) / self.width(),
-            centre_y: (self.top + self.bottom) / self.height(),
+            center_x: (self.right + self.left) / self.width(),
+            center_y: (self.top + self.bottom) / self.height(),
         }
     }
 }

@@ -24,7 +24,7 @@ fn c24_p_neither_turns_over_nor_reorders() {
     let p = chapter::p(N, F).expect("valid");
     let mut last = f64::INFINITY;
     for z in [-1.0, -1.5, -2.0, -3.5, -5.0] {
-        let image = divided(p.point(Point::new(0.6, -0.8, z)));
+        let image = divided(p.transform_point(Point::new(0.6, -0.8, z)));
         assert!(close(image, [N * 0.6 / z, N * -0.8 / z, N + F - F * N / z]), "{image:?}");
         assert!(image[0] > 0.0 && image[1] < 0.0, "left stays left and up stays up");
         assert!(image[2] < last, "farther is less");
@@ -41,13 +41,13 @@ fn misprint_m5_the_numerator_is_the_product_of_f_and_n() {
         assert!(image(slip, N) != N || image(slip, F) != F, "{slip}");
     }
     let p = chapter::p(N, F).expect("valid");
-    assert_eq!(divided(p.point(Point::new(0.0, 0.0, -2.0)))[2], image(F * N, -2.0));
+    assert_eq!(divided(p.transform_point(Point::new(0.0, 0.0, -2.0)))[2], image(F * N, -2.0));
 }
 
 /// P gives (nx, ny, (n + f)z − fn, z), which stands for (nx/z, …) and does not equal it.
 #[test]
 fn misprint_m11b_before_the_divide_there_is_equivalence_not_equality() {
-    let image = chapter::p(N, F).expect("valid").point(Point::new(0.5, 1.5, -2.0));
+    let image = chapter::p(N, F).expect("valid").transform_point(Point::new(0.5, 1.5, -2.0));
     assert_eq!(image.raw(), DVec4::new(N * 0.5, N * 1.5, (N + F) * -2.0 - F * N, -2.0));
     let printed = HPoint::<View>::new(N * 0.5 / -2.0, N * 1.5 / -2.0, N + F - F * N / -2.0, 1.0);
     assert_ne!(image, printed);
@@ -69,10 +69,11 @@ fn c28_the_divide_comes_once_at_the_end_of_the_chain() {
     ));
     let chain = world_to_view.then_project(p).then(m_orth).then(m_vp);
     let place = Point::<World>::new(2.5, -0.5, 1.0);
-    let squeezed = p.point(world_to_view.point(place)).divide().expect("ahead");
-    let step_by_step =
-        divided(m_vp.hpoint(HPoint::from_raw(m_orth.point(squeezed).raw().extend(1.0))));
-    assert!(close(divided(chain.point(place)), step_by_step), "{step_by_step:?}");
+    let squeezed = p.transform_point(world_to_view.transform_point(place)).divide().expect("ahead");
+    let step_by_step = divided(
+        m_vp.transform_hpoint(HPoint::from_raw(m_orth.transform_point(squeezed).raw().extend(1.0))),
+    );
+    assert!(close(divided(chain.transform_point(place)), step_by_step), "{step_by_step:?}");
 }
 
 /// Distances in a plane parallel to the picture come out at one scale, whatever the depth.
@@ -82,7 +83,8 @@ fn c34_orthographic_pictures_can_be_measured() {
         .expect("valid")
         .view_to_clip(Convention::CHAPTER);
     for z in [-1.0, -7.0, -19.0] {
-        let [a, b] = [[0.5, -1.0, z], [2.5, 1.0, z]].map(|p| divided(map.point(p.into())));
+        let [a, b] =
+            [[0.5, -1.0, z], [2.5, 1.0, z]].map(|p| divided(map.transform_point(p.into())));
         let (across, along) = ((b[0] - a[0]) * 4.0, (b[1] - a[1]) * 3.0);
         assert!((across - 2.0).abs() < 1e-15 && (along - 2.0).abs() < 1e-15, "at {z}");
     }
@@ -111,7 +113,7 @@ fn c65_two_eyes_share_a_window_and_shift_it_to_opposite_sides() {
         let window = [(-1.0 - eye) / d, (1.0 - eye) / d].map(|slope| slope * near);
         let eye_frustum = Frustum::new(window[0], window[1], -0.2, 0.2, near, far).expect("valid");
         let moved = p - Vector::new(eye, 0.0, 0.0);
-        divided(eye_frustum.view_to_clip(Convention::OPENGL).point(moved))
+        divided(eye_frustum.view_to_clip(Convention::OPENGL).transform_point(moved))
     };
     let [on_window, nearer, farther] = [-2.0, -1.0, -9.0].map(|z| Point::new(0.4, 0.1, z));
     let parallax = |p| seen(e, p)[0] - seen(-e, p)[0];
@@ -130,13 +132,13 @@ fn c86_a_slanted_prism_is_sheared_upright_and_fitted() {
     let volume = Orthographic::new(-1.0, 3.0, -2.0, 1.0, 1.0, 9.0).expect("valid");
     let factors = slant.factors(volume, Convention::OPENGL);
     let p = Point::<View>::new(0.3, 0.7, -4.0);
-    let sheared = factors.shear.point(p);
+    let sheared = factors.shear.transform_point(p);
     let due = [p.x() - a / c * p.z(), p.y() - b / c * p.z(), p.z()];
     assert!(close(sheared.into(), due), "{sheared:?}");
     assert_eq!(factors.fit, volume.view_to_clip(Convention::OPENGL));
     for (z, depth) in [(-1.0, -1.0), (-9.0, 1.0)] {
         let corner = Point::new(3.0 + a / c * z, 1.0 + b / c * z, z);
-        assert!(close(divided(factors.view_to_clip().point(corner)), [1.0, 1.0, depth]));
+        assert!(close(divided(factors.view_to_clip().transform_point(corner)), [1.0, 1.0, depth]));
     }
 }
 
@@ -155,10 +157,13 @@ fn c89_parallel_and_perspective_end_in_the_same_volume() {
         for corner in 0..8_u8 {
             let sign = |bit: u8| if corner & bit == 0 { -1.0 } else { 1.0 };
             let ndc = [sign(1), sign(2), sign(4)];
-            let seen = clip_to_view.hpoint(HPoint::new(ndc[0], ndc[1], ndc[2], 1.0));
+            let seen = clip_to_view.transform_hpoint(HPoint::new(ndc[0], ndc[1], ndc[2], 1.0));
             let seen = seen.divide().expect("a corner");
-            assert!(seen.z() < 0.0 && close(divided(view_to_clip.point(seen)), ndc), "{seen:?}");
-            assert!(view_to_clip.point(seen).w() > 0.0);
+            assert!(
+                seen.z() < 0.0 && close(divided(view_to_clip.transform_point(seen)), ndc),
+                "{seen:?}"
+            );
+            assert!(view_to_clip.transform_point(seen).w() > 0.0);
         }
     }
 }
@@ -171,12 +176,14 @@ fn misprint_m7_a_volume_of_zero_to_one_has_three_sides() {
     let unit = [Point::<Ndc>::ORIGIN, Point::new(1.0, 1.0, 1.0)];
     let to_unit = Affine::windowing(cube, unit).expect("a cube");
     let image = |x, y, z| {
-        let ndc = frustum.view_to_clip(Convention::OPENGL).point(Point::new(x, y, z)).divide();
-        to_unit.point(ndc.expect("ahead")).into()
+        let ndc =
+            frustum.view_to_clip(Convention::OPENGL).transform_point(Point::new(x, y, z)).divide();
+        to_unit.transform_point(ndc.expect("ahead")).into()
     };
     assert!(close(image(-1.0, -2.0, -2.0), [0.0; 3]) && close(image(9.0, 3.0, -6.0), [1.0; 3]));
     // Zero to one in depth alone, as the interfaces have it, is another volume.
-    let depth_only = frustum.view_to_clip(Convention::WEBGPU).point(Point::new(-1.0, -2.0, -2.0));
+    let depth_only =
+        frustum.view_to_clip(Convention::WEBGPU).transform_point(Point::new(-1.0, -2.0, -2.0));
     assert!(close(divided(depth_only), [-1.0, -1.0, 0.0]));
 }
 
@@ -190,7 +197,7 @@ fn misprint_m13_both_midpoints_are_subtracted() {
     assert_eq!(steps.move_apex, by(-mid_y));
     let top_edge = |first: Affine<View, View>| {
         let rest = steps.map_depth.then(steps.project).then(steps.scale_window);
-        divided(first.then_project(rest).point(Point::new(0.0, 1.0, -2.0)))[1]
+        divided(first.then_project(rest).transform_point(Point::new(0.0, 1.0, -2.0)))[1]
     };
     assert!((top_edge(by(-mid_y)) - 1.0).abs() < 1e-15);
     assert!((top_edge(by(mid_y)) - 1.0).abs() > 0.5, "with +mid_y the top edge misses the top");
@@ -203,8 +210,8 @@ fn misprint_m14b_a_window_has_two_different_corners() {
     let window = Window::new(-1.0, 1.0, -1.0, 1.0).expect("two by two");
     let frustum = Frustum::from_window(window, 1.0, 5.0).expect("valid");
     let map = frustum.view_to_clip(Convention::OPENGL);
-    assert!(close(divided(map.point(Point::new(-1.0, -1.0, -1.0))), [-1.0; 3]));
-    assert!(close(divided(map.point(Point::new(1.0, 1.0, -1.0))), [1.0, 1.0, -1.0]));
+    assert!(close(divided(map.transform_point(Point::new(-1.0, -1.0, -1.0))), [-1.0; 3]));
+    assert!(close(divided(map.transform_point(Point::new(1.0, 1.0, -1.0))), [1.0, 1.0, -1.0]));
 }
 
 /// Ortho is a scale after a translation, whose z entry is −((−near) + (−far))/2. Read with the

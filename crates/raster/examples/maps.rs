@@ -3,7 +3,7 @@
 //! Three hundred triangles at random places, one behind the other.
 
 use homog::Point;
-use raster::{Cover, Frame, Samples, ScreenVertex};
+use raster::{Frame, Opacity, Samples, ScreenVertex};
 
 const WIDTH: u32 = 480;
 const HEIGHT: u32 = 320;
@@ -18,10 +18,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             ScreenVertex::snap(Point::new(x + dx, y + dy, 0.2 + 0.8 * depth), 1.0)
         };
         if let (Some(p), Some(q), Some(r)) = (corner(), corner(), corner()) {
-            frame.triangle([p, q, r], id, Cover::Solid);
+            frame.add_triangle([p, q, r], id, Opacity::Opaque);
         }
     }
-    let seen = frame.visibility();
+    let seen = frame.visibility_buffer();
     write("depth.png", seen.depth.iter().map(|depth| [(depth * 255.0) as u8; 3]))?;
     // Neighbouring names get colours far apart.
     let color = |id: u32| [id.wrapping_mul(97) as u8, id.wrapping_mul(57) as u8, !(id as u8)];

@@ -4,14 +4,14 @@
 //! with, whose codes are multiplied by alpha. Where nothing is drawn the pixmap stays transparent.
 
 use homog::Point;
-use raster::{Cover, Cull, Fragment, Frame, Samples, ScreenVertex, Surface};
+use raster::{CullMode, Fragment, Frame, Opacity, Samples, ScreenVertex, Surface};
 use tiny_skia::{Paint, PathBuilder, Pixmap, PremultipliedColorU8, Stroke, Transform};
 
 /// The facets of a star, each lighter than the one before.
 struct Facets;
 
 impl Surface for Facets {
-    fn keeps(&self, _: &Fragment<'_>) -> bool {
+    fn passes_alpha_test(&self, _: &Fragment<'_>) -> bool {
         true
     }
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         std::array::from_fn(|n| [0, n as u32 + 1, (n as u32 + 1) % 10 + 1]);
 
     let mut frame = Frame::new(256, 256, Samples::Sixteen)?;
-    frame.mesh(&vertices, &triangles, 0, Cover::Solid, Cull::Nothing);
+    frame.add_mesh(&vertices, &triangles, 0, Opacity::Opaque, CullMode::Nothing);
     frame.draw(&Facets, [0.0; 4], 2, pixmap.pixels_mut(), |[r, g, b, alpha]: [f32; 4]| {
         // Light becomes codes by a square root, near enough to sRGB; then codes are multiplied by alpha.
         let code = |light: f32| ((light * alpha).sqrt() * 255.0 + 0.5) as u8;

@@ -5,7 +5,7 @@
 //! pixel covers: where that is a whole tile and more, the checker fades to its mean.
 
 use homog::{HPoint, Screen};
-use raster::{Cover, Cull, Fragment, Frame, Samples, ScreenVertex, Surface};
+use raster::{CullMode, Fragment, Frame, Opacity, Samples, ScreenVertex, Surface};
 
 /// The corners of the floor: x to the right, distance ahead.
 const FLOOR: [[f32; 2]; 4] = [[-9.0, 1.0], [9.0, 1.0], [400.0, 400.0], [-400.0, 400.0]];
@@ -14,7 +14,7 @@ const TRIANGLES: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 struct Checker;
 
 impl Surface for Checker {
-    fn keeps(&self, _: &Fragment<'_>) -> bool {
+    fn passes_alpha_test(&self, _: &Fragment<'_>) -> bool {
         true
     }
 
@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ScreenVertex::snap(image.divide()?, ahead)
     });
     let mut frame = Frame::new(width, height, Samples::Four)?;
-    frame.mesh(&vertices, &TRIANGLES, 0, Cover::Solid, Cull::Nothing);
+    frame.add_mesh(&vertices, &TRIANGLES, 0, Opacity::Opaque, CullMode::Nothing);
     let mut pixels = vec![[0_u8; 3]; (width * height) as usize];
     let sky = [0.55, 0.72, 0.9, 1.0];
     frame.draw(&Checker, sky, 2, &mut pixels, |[r, g, b, _]: [f32; 4]| {

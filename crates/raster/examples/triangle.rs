@@ -3,13 +3,13 @@
 //! Everything a frame needs: vertices on the screen, indices, and a surface that says what colour they have.
 
 use homog::Point;
-use raster::{Cover, Cull, Fragment, Frame, Samples, ScreenVertex, Surface};
+use raster::{CullMode, Fragment, Frame, Opacity, Samples, ScreenVertex, Surface};
 
 /// Red, green and blue at the corners, blended between them.
 struct Corners;
 
 impl Surface for Corners {
-    fn keeps(&self, _: &Fragment<'_>) -> bool {
+    fn passes_alpha_test(&self, _: &Fragment<'_>) -> bool {
         true
     }
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             ScreenVertex::snap(Point::new(middle + 40.0 * cos, 48.0 + 40.0 * sin, 0.5), 1.0)
         };
         let vertices = [corner(0), corner(1), corner(2)];
-        frame.mesh(&vertices, &[[0, 1, 2]], n, Cover::Solid, Cull::Nothing);
+        frame.add_mesh(&vertices, &[[0, 1, 2]], n, Opacity::Opaque, CullMode::Nothing);
     }
     let mut pixels = vec![[0_u8; 4]; (frame.width() * frame.height()) as usize];
     let to_bytes = |color: [f32; 4]| color.map(|channel| (channel * 255.0 + 0.5) as u8);

@@ -9,9 +9,9 @@ use glam::DVec3;
 use homog::{HPoint, Space};
 
 /// The most triangles of a cluster.
-const TRIANGLES: usize = 64;
+const CLUSTER_TRIANGLES: usize = 64;
 /// Normals count as one thinner cone than this part of their length: what single precision and the grid of the screen leave open.
-const DOUBT: f64 = 1e-3;
+const CONE_MARGIN: f64 = 1e-3;
 
 /// The clusters of a mesh, in the order of its triangles, in the space of its positions.
 ///
@@ -28,7 +28,7 @@ pub struct Cluster {
     vertices: [u32; 2],
     bounds: [[f32; 3]; 2],
     /// The axis of the cone around their normals, times the cosine of its half angle; zero if they are in no half-space.
-    axis: [f32; 3],
+    cone_axis: [f32; 3],
 }
 
 impl Clusters {
@@ -36,45 +36,56 @@ impl Clusters {
     ///
     /// Without `cones` none is ever [turned away](Cluster::is_turned_away), and they are made in half the time.
     #[must_use]
-    pub fn of(positions: &[[f32; 3]], triangles: &[[u32; 3]], cones: bool) -> Self {
-        let starts = (0..triangles.len()).step_by(TRIANGLES);
+    pub fn build(positions: &[[f32; 3]], triangles: &[[u32; 3]], cones: bool) -> Self {
+        let starts = (0..triangles.len()).step_by(CLUSTER_TRIANGLES);
         let cluster = |start: usize| {
-            let end = (start + TRIANGLES).min(triangles.len());
-            Cluster::of(positions, &triangles[start..end], start, cones)
+            let end = (start + CLUSTER_TRIANGLES).min(triangles.len());
+            Cluster::from_triangles(positions, &triangles[start..end], start, cones)
         };
         Self { list: starts.map(cluster).collect() }
     }
 
     /// One after the other.
     #[must_use]
-    pub fn list(&self) -> &[Cluster] {
+    pub fn as_slice(&self) -> &[Cluster] {
         &self.list
     }
 
     /// The least and the greatest coordinates of all: infinite, and the wrong way round, if there are none.
     #[must_use]
     pub fn bounds(&self) -> [[f32; 3]; 2] {
-        self.list.iter().fold(NOTHING, |bounds, cluster| around(bounds, &cluster.bounds))
+        self.list.iter().fold(EMPTY_BOUNDS, |bounds, cluster| union_bounds(bounds, &cluster.bounds))
     }
 }
 
 /// The bounds of no points.
-const NOTHING: [[f32; 3]; 2] = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
+const EMPTY_BOUNDS: [[f32; 3]; 2] = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
 
 impl Cluster {
-    fn of(positions: &[[f32; 3]], triangles: &[[u32; 3]], start: usize, cone: bool) -> Self {
-        let mut bounds = NOTHING;
+    fn from_triangles(
+        positions: &[[f32; 3]],
+        triangles: &[[u32; 3]],
+        start: usize,
+        cone: bool,
+    ) -> Self {
+        let mut bounds = EMPTY_BOUNDS;
         let (mut first, mut last) = (u32::MAX, 0);
-        let mut normals = Normals::default();
+        let mut normals = TriangleNormals::default();
         for &[a, b, c] in triangles {
             let corner = |vertex: u32| positions.get(vertex as usize).copied();
             let corners = [corner(a), corner(b), corner(c)];
             if let [Some(p), Some(q), Some(r)] = corners {
                 (first, last) = (first.min(a.min(b).min(c)), last.max(a.max(b).max(c) + 1));
-                bounds = around(bounds, &[least(p, least(q, r)), greatest(p, greatest(q, r))]);
+                bounds = union_bounds(
+                    bounds,
+                    &[
+                        min_coordinates(p, min_coordinates(q, r)),
+                        max_coordinates(p, max_coordinates(q, r)),
+                    ],
+                );
             }
             if cone {
-                normals.add(corners);
+                normals.add_triangle(corners);
             }
         }
         let end = start + triangles.len();
@@ -82,7 +93,7 @@ impl Cluster {
             triangles: [start as u32, end as u32],
             vertices: [first.min(last), last],
             bounds,
-            axis: normals.cone(),
+            cone_axis: normals.normal_cone(),
         }
     }
 
@@ -111,8 +122,8 @@ impl Cluster {
     /// `p`, the cone all `n`: the greatest product is that of the way from the box's centre with the nearest normal of the
     /// cone, and at most the box's radius more.
     #[must_use]
-    pub fn is_turned_away<S: Space>(&self, viewer: HPoint<S>) -> bool {
-        let axis = DVec3::from_array(self.axis.map(f64::from));
+    pub fn is_back_facing<S: Space>(&self, viewer: HPoint<S>) -> bool {
+        let axis = DVec3::from_array(self.cone_axis.map(f64::from));
         let cosine = axis.length();
         if cosine == 0.0 {
             return false;
@@ -126,49 +137,49 @@ impl Cluster {
         let across = (way.length_squared() - along * along).max(0.0).sqrt();
         let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
         // Angles from the axis to the way are above a right angle and the cone's below: their difference is what counts.
-        along < 0.0 && along * cosine + across * sine + radius < -DOUBT * way.length()
+        along < 0.0 && along * cosine + across * sine + radius < -CONE_MARGIN * way.length()
     }
 }
 
 /// A box with another one.
 #[inline(always)]
-fn around([low, high]: [[f32; 3]; 2], other: &[[f32; 3]; 2]) -> [[f32; 3]; 2] {
-    [least(low, other[0]), greatest(high, other[1])]
+fn union_bounds([low, high]: [[f32; 3]; 2], other: &[[f32; 3]; 2]) -> [[f32; 3]; 2] {
+    [min_coordinates(low, other[0]), max_coordinates(high, other[1])]
 }
 
 #[inline(always)]
-fn least(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+fn min_coordinates(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     // Written out, these are single instructions; `min` minds what is no number.
     [0, 1, 2].map(|k| if a[k] < b[k] { a[k] } else { b[k] })
 }
 
 #[inline(always)]
-fn greatest(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+fn max_coordinates(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     [0, 1, 2].map(|k| if a[k] > b[k] { a[k] } else { b[k] })
 }
 
 /// The unit normals of a cluster's triangles.
-struct Normals {
-    list: [[f32; 3]; TRIANGLES],
+struct TriangleNormals {
+    list: [[f32; 3]; CLUSTER_TRIANGLES],
     count: usize,
     /// Whether each triangle has one that single precision can tell.
     are_known: bool,
 }
 
-impl Default for Normals {
+impl Default for TriangleNormals {
     fn default() -> Self {
-        Self { list: [[0.0; 3]; TRIANGLES], count: 0, are_known: true }
+        Self { list: [[0.0; 3]; CLUSTER_TRIANGLES], count: 0, are_known: true }
     }
 }
 
-impl Normals {
+impl TriangleNormals {
     #[inline(always)]
-    fn add(&mut self, corners: [Option<[f32; 3]>; 3]) {
+    fn add_triangle(&mut self, corners: [Option<[f32; 3]>; 3]) {
         let ([Some(p), Some(q), Some(r)], true) = (corners, self.are_known) else {
             self.are_known = false;
             return;
         };
-        let (a, b) = (difference(q, p), difference(r, p));
+        let (a, b) = (subtract(q, p), subtract(r, p));
         let normal =
             [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
         let squared = dot(normal, normal);
@@ -181,7 +192,7 @@ impl Normals {
 
     /// The axis of the cone around them, times the cosine of its half angle; zero if the cone is no narrower than a
     /// half-space, or not all normals are known.
-    fn cone(&self) -> [f32; 3] {
+    fn normal_cone(&self) -> [f32; 3] {
         let list = if self.are_known { &self.list[..self.count] } else { &[] };
         let sum = list.iter().fold([0.0; 3], |sum, normal| [0, 1, 2].map(|k| sum[k] + normal[k]));
         let length = dot(sum, sum).sqrt();
@@ -190,13 +201,13 @@ impl Normals {
         }
         let axis = sum.map(|coordinate| coordinate / length);
         let cosine = list.iter().fold(1.0_f32, |least, &normal| least.min(dot(normal, axis)));
-        let cosine = (cosine - DOUBT as f32).max(0.0);
+        let cosine = (cosine - CONE_MARGIN as f32).max(0.0);
         axis.map(|coordinate| coordinate * cosine)
     }
 }
 
 #[inline(always)]
-fn difference(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+fn subtract(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
@@ -207,65 +218,68 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
 
 /// The part of a mesh that is to be drawn: some of its triangles, and the vertices that they need.
 #[derive(Clone, Debug, Default)]
-pub struct Selection {
+pub struct MeshSelection {
     /// Runs of triangles, in their order, none touching the next.
-    runs: Vec<Range<usize>>,
+    triangle_runs: Vec<Range<usize>>,
     /// Whether vertices are needed, by blocks of [`BLOCK`].
-    blocks: Vec<bool>,
+    vertex_blocks: Vec<bool>,
 }
 
 /// So many vertices that follow one another are needed together.
-const BLOCK: usize = 64;
+const VERTEX_BLOCK: usize = 64;
 
-impl Selection {
+impl MeshSelection {
     /// Nothing of a mesh with so many vertices.
     pub fn clear(&mut self, vertices: usize) {
-        self.runs.clear();
-        self.blocks.clear();
-        self.blocks.resize(vertices.div_ceil(BLOCK), false);
+        self.triangle_runs.clear();
+        self.vertex_blocks.clear();
+        self.vertex_blocks.resize(vertices.div_ceil(VERTEX_BLOCK), false);
     }
 
     /// Adds a cluster behind those that were added before.
-    pub fn add(&mut self, cluster: &Cluster) {
+    pub fn add_cluster(&mut self, cluster: &Cluster) {
         let triangles = cluster.triangles();
-        match self.runs.last_mut() {
+        match self.triangle_runs.last_mut() {
             Some(last) if last.end == triangles.start => last.end = triangles.end,
-            _ => self.runs.push(triangles),
+            _ => self.triangle_runs.push(triangles),
         }
         let Range { start, end } = cluster.vertices();
-        if let Some(blocks) = self.blocks.get_mut(start / BLOCK..end.div_ceil(BLOCK)) {
+        if let Some(blocks) =
+            self.vertex_blocks.get_mut(start / VERTEX_BLOCK..end.div_ceil(VERTEX_BLOCK))
+        {
             blocks.fill(true);
         }
     }
 
     /// Adds all triangles, which are so many, and all vertices.
     pub fn add_all(&mut self, triangles: usize) {
-        self.runs.clear();
-        self.runs.extend((triangles > 0).then_some(0..triangles));
-        self.blocks.fill(true);
+        self.triangle_runs.clear();
+        self.triangle_runs.extend((triangles > 0).then_some(0..triangles));
+        self.vertex_blocks.fill(true);
     }
 
     /// Whether there are no triangles.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.runs.is_empty()
+        self.triangle_runs.is_empty()
     }
 
     /// The triangles, by their places in the mesh: runs in their order.
     #[must_use]
     pub fn triangles(&self) -> &[Range<usize>] {
-        &self.runs
+        &self.triangle_runs
     }
 
     /// The needed vertices among some, by their places among these: runs in their order. `among` begins with a block.
     pub fn vertices_within(&self, among: Range<usize>) -> impl Iterator<Item = Range<usize>> {
-        let first = among.start / BLOCK;
-        let blocks = self.blocks.get(first..among.end.div_ceil(BLOCK)).unwrap_or_default();
+        let first = among.start / VERTEX_BLOCK;
+        let blocks =
+            self.vertex_blocks.get(first..among.end.div_ceil(VERTEX_BLOCK)).unwrap_or_default();
         let runs = blocks.chunk_by(|one, next| one == next);
         let placed = runs.scan(0, move |start, run| {
             let place = *start;
             *start += run.len();
-            Some((run[0], place * BLOCK..(*start * BLOCK).min(among.len())))
+            Some((run[0], place * VERTEX_BLOCK..(*start * VERTEX_BLOCK).min(among.len())))
         });
         placed.filter_map(|(is_needed, run)| is_needed.then_some(run))
     }
@@ -308,11 +322,11 @@ mod tests {
             direction in prop::array::uniform3(-1.0..1.0_f64), w in 0.0..1.0_f64,
         ) {
             let (positions, triangles) = ball(60, 400);
-            let clusters = Clusters::of(&positions, &triangles, true);
+            let clusters = Clusters::build(&positions, &triangles, true);
             let [x, y, z] = direction;
             let viewer = HPoint::<Model>::new(x, y, z, if w < 0.3 { 0.0 } else { w - 0.3 });
             let mut away = 0;
-            for cluster in clusters.list().iter().filter(|c| c.is_turned_away(viewer)) {
+            for cluster in clusters.as_slice().iter().filter(|c| c.is_back_facing(viewer)) {
                 away += cluster.triangles().len();
                 for &corners in &triangles[cluster.triangles()] {
                     prop_assert!(faces(&positions, corners, viewer) < 0.0);
@@ -327,9 +341,9 @@ mod tests {
     #[test]
     fn clusters_hold_all_triangles_and_their_vertices() {
         let (positions, triangles) = ball(9, 31);
-        let clusters = Clusters::of(&positions, &triangles, true);
+        let clusters = Clusters::build(&positions, &triangles, true);
         let mut next = 0;
-        for cluster in clusters.list() {
+        for cluster in clusters.as_slice() {
             assert_eq!(cluster.triangles().start, next);
             next = cluster.triangles().end;
             let [least, greatest] = cluster.bounds();
@@ -344,28 +358,28 @@ mod tests {
 
     #[test]
     fn corners_that_a_mesh_does_not_have_are_not_there() {
-        let clusters = Clusters::of(&[[1.0; 3]], &[[0, 7, 9], [0, 0, 0]], true);
-        let [cluster] = clusters.list() else { panic!("one cluster") };
+        let clusters = Clusters::build(&[[1.0; 3]], &[[0, 7, 9], [0, 0, 0]], true);
+        let [cluster] = clusters.as_slice() else { panic!("one cluster") };
         assert_eq!((cluster.vertices(), cluster.bounds()), (0..1, [[1.0; 3]; 2]));
-        assert!(!cluster.is_turned_away(HPoint::<Model>::new(0.0, 0.0, 1.0, 0.0)));
-        assert!(Clusters::of(&[], &[], true).list().is_empty());
-        assert_eq!(Clusters::of(&[], &[[0; 3]], true).list()[0].vertices(), 0..0);
+        assert!(!cluster.is_back_facing(HPoint::<Model>::new(0.0, 0.0, 1.0, 0.0)));
+        assert!(Clusters::build(&[], &[], true).as_slice().is_empty());
+        assert_eq!(Clusters::build(&[], &[[0; 3]], true).as_slice()[0].vertices(), 0..0);
     }
 
     #[test]
     fn a_selection_gives_runs_of_triangles_and_of_blocks() {
         let (positions, triangles) = ball(20, 50);
-        let clusters = Clusters::of(&positions, &triangles, true);
-        let mut selection = Selection::default();
+        let clusters = Clusters::build(&positions, &triangles, true);
+        let mut selection = MeshSelection::default();
         selection.clear(positions.len());
         assert!(selection.is_empty());
         for at in [3, 4, 9] {
-            selection.add(&clusters.list()[at]);
+            selection.add_cluster(&clusters.as_slice()[at]);
         }
         assert_eq!(selection.triangles(), [192..320, 576..640]);
         let all: Vec<_> = selection.vertices_within(0..positions.len()).collect();
         for at in [3, 4, 9] {
-            let needed = clusters.list()[at].vertices();
+            let needed = clusters.as_slice()[at].vertices();
             assert!(all.iter().any(|run| run.start <= needed.start && needed.end <= run.end));
         }
         // In two parts they are the same.

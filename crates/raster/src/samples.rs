@@ -1,6 +1,6 @@
 //! Where a pixel is sampled.
 
-use crate::vertex::SUBPIXELS;
+use crate::screen_vertex::SUBPIXELS;
 
 /// How many coverage samples a pixel has. Each covered surface is still shaded once per pixel.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -70,7 +70,7 @@ impl Samples {
     }
 
     /// The least and the greatest offset of a sample from its pixel's left or upper border, in grid steps.
-    pub(crate) fn reach(self) -> (i32, i32) {
+    pub(crate) fn offset_range(self) -> (i32, i32) {
         let all = self.sixteenths().iter().flat_map(|&(x, y)| [x, y]);
         let (least, greatest) =
             all.fold((0, 0), |(least, greatest), c| (c.min(least), c.max(greatest)));
@@ -78,13 +78,13 @@ impl Samples {
     }
 
     /// The samples' offsets from the pixel's upper left corner in grid steps.
-    pub(crate) fn offsets(self) -> impl Iterator<Item = (i64, i64)> {
-        (0..self.count()).map(move |sample| self.offset(sample))
+    pub(crate) fn sample_offsets(self) -> impl Iterator<Item = (i64, i64)> {
+        (0..self.count()).map(move |sample| self.sample_offset(sample))
     }
 
     /// The offset of one of the samples.
     #[inline(always)]
-    pub(crate) fn offset(self, sample: usize) -> (i64, i64) {
+    pub(crate) fn sample_offset(self, sample: usize) -> (i64, i64) {
         let (x, y) = self.sixteenths()[sample];
         let steps = |sixteenths: i32| i64::from(SUBPIXELS / 2 + sixteenths * (SUBPIXELS / 16));
         (steps(x), steps(y))
@@ -98,7 +98,7 @@ mod tests {
     #[test]
     fn samples_lie_inside_their_pixel_on_rows_and_columns_of_their_own() {
         for samples in [Samples::One, Samples::Four, Samples::Eight, Samples::Sixteen] {
-            let offsets: Vec<_> = samples.offsets().collect();
+            let offsets: Vec<_> = samples.sample_offsets().collect();
             for (i, a) in offsets.iter().enumerate() {
                 assert!((0..256).contains(&a.0) && (0..256).contains(&a.1), "{a:?}");
                 for b in &offsets[..i] {

@@ -2,7 +2,7 @@
 
 use homog::Point;
 use proptest::prelude::*;
-use raster::{Cover, Frame, Samples, ScreenVertex};
+use raster::{Frame, Opacity, Samples, ScreenVertex};
 
 const SIDE: u32 = 24;
 
@@ -27,8 +27,8 @@ fn covers(triangle: [ScreenVertex; 3], x: i64, y: i64) -> bool {
 
 fn covered(triangle: [ScreenVertex; 3]) -> Vec<bool> {
     let mut frame = Frame::new(SIDE, SIDE, Samples::One).expect("a small frame");
-    frame.triangle(triangle, 0, Cover::Solid);
-    frame.visibility().ids.iter().map(Option::is_some).collect()
+    frame.add_triangle(triangle, 0, Opacity::Opaque);
+    frame.visibility_buffer().ids.iter().map(Option::is_some).collect()
 }
 
 /// Coordinates that meet pixel centres, half pixels and arbitrary grid steps alike, inside and outside the picture.
@@ -116,10 +116,10 @@ fn a_strip_across_a_picture_of_16384_pixels_has_no_gaps_and_no_overlaps() {
         let corners =
             [vertex(left, y0 * 40), vertex(right, y0), vertex(right, y1), vertex(left, y1 * 40)];
         let [a, b, c, d] = corners;
-        frame.triangle([a, b, c], id as u32 * 2, Cover::Solid);
-        frame.triangle([a, c, d], id as u32 * 2 + 1, Cover::Solid);
+        frame.add_triangle([a, b, c], id as u32 * 2, Opacity::Opaque);
+        frame.add_triangle([a, c, d], id as u32 * 2 + 1, Opacity::Opaque);
     }
-    let first = frame.visibility();
+    let first = frame.visibility_buffer();
     assert!(first.ids.iter().all(Option::is_some), "a gap");
 }
 
@@ -132,9 +132,9 @@ fn the_nearer_wins_and_at_equal_depth_the_first() {
     let seen = |depths: &[f32]| {
         let mut frame = Frame::new(8, 8, Samples::One).expect("a small frame");
         for (id, &depth) in depths.iter().enumerate() {
-            frame.triangle(square(depth), id as u32, Cover::Solid);
+            frame.add_triangle(square(depth), id as u32, Opacity::Opaque);
         }
-        frame.visibility().ids[0]
+        frame.visibility_buffer().ids[0]
     };
     assert_eq!(seen(&[0.25, 0.75, 0.5]), Some(1));
     assert_eq!(seen(&[0.5, 0.5]), Some(0));
@@ -149,14 +149,14 @@ fn c31_depth_is_that_of_the_plane_and_weights_that_of_the_projection() {
     };
     let mut frame = Frame::new(64, 64, Samples::One).expect("a small frame");
     let (p, q, r) = ([0.0, 0.0], [64.0, 0.0], [0.0, 64.0]);
-    frame.triangle(
+    frame.add_triangle(
         [corner(p[0], p[1], 1.0), corner(q[0], q[1], 3.0), corner(r[0], r[1], 2.0)],
         0,
-        Cover::Solid,
+        Opacity::Opaque,
     );
-    let depth = frame.visibility().depth;
+    let depth = frame.visibility_buffer().depth;
     let mut checked = 0;
-    frame.fragments(|fragment| {
+    frame.for_each_fragment(|fragment| {
         let (x, y) = (f64::from(fragment.x) + 0.5, f64::from(fragment.y) + 0.5);
         let screen = [1.0 - x / 64.0 - y / 64.0, x / 64.0, y / 64.0];
         let over_w = [screen[0], screen[1] / 3.0, screen[2] / 2.0];
@@ -178,16 +178,16 @@ fn c31_depth_is_that_of_the_plane_and_weights_that_of_the_projection() {
 #[test]
 fn lines_and_points_are_rectangles_of_their_width() {
     let mut frame = Frame::new(16, 8, Samples::One).expect("a small frame");
-    frame.line([vertex(2 * 256, 4 * 256), vertex(14 * 256, 4 * 256)], 2.0, 1, Cover::Solid);
-    assert_eq!(frame.visibility().ids.iter().flatten().count(), 12 * 2);
-    frame.fragments(|fragment| {
+    frame.add_line([vertex(2 * 256, 4 * 256), vertex(14 * 256, 4 * 256)], 2.0, 1, Opacity::Opaque);
+    assert_eq!(frame.visibility_buffer().ids.iter().flatten().count(), 12 * 2);
+    frame.for_each_fragment(|fragment| {
         let along = (f64::from(fragment.x) + 0.5 - 2.0) / 12.0;
         assert!(
             (f64::from(fragment.weights[1]) - along).abs() < 1e-6 && fragment.weights[2] == 0.0
         );
     });
     let mut frame = Frame::new(8, 8, Samples::One).expect("a small frame");
-    frame.point(vertex(4 * 256, 4 * 256), 4.0, 1, Cover::Solid);
-    assert_eq!(frame.visibility().ids.iter().flatten().count(), 16);
-    frame.fragments(|fragment| assert_eq!(fragment.weights, [1.0, 0.0, 0.0]));
+    frame.add_point(vertex(4 * 256, 4 * 256), 4.0, 1, Opacity::Opaque);
+    assert_eq!(frame.visibility_buffer().ids.iter().flatten().count(), 16);
+    frame.for_each_fragment(|fragment| assert_eq!(fragment.weights, [1.0, 0.0, 0.0]));
 }

@@ -1,24 +1,24 @@
 //! Drawing: samples, layers, masks and threads.
 
-use raster::{Cover, Cull, Fragment, Frame, Instructions, Samples, ScreenVertex, Surface};
+use raster::{CullMode, Fragment, Frame, Opacity, Samples, ScreenVertex, SimdLevel, Surface};
 
 fn vertex(x: f64, y: f64, depth: f64) -> ScreenVertex {
     ScreenVertex::snap(homog::Point::new(x, y, depth), 1.0).expect("within the grid")
 }
 
 /// Adds a rectangle as two triangles of one name.
-fn rectangle(frame: &mut Frame, [x0, y0, x1, y1]: [f64; 4], depth: f64, id: u32, cover: Cover) {
+fn rectangle(frame: &mut Frame, [x0, y0, x1, y1]: [f64; 4], depth: f64, id: u32, cover: Opacity) {
     let [a, b] = [vertex(x0, y0, depth), vertex(x1, y0, depth)];
     let [c, d] = [vertex(x1, y1, depth), vertex(x0, y1, depth)];
-    frame.triangle([a, b, c], id, cover);
-    frame.triangle([a, c, d], id, cover);
+    frame.add_triangle([a, b, c], id, cover);
+    frame.add_triangle([a, c, d], id, cover);
 }
 
 /// Colours by name, and a mask that keeps every other column.
 struct Colors(Vec<[f32; 4]>);
 
 impl Surface for Colors {
-    fn keeps(&self, fragment: &Fragment<'_>) -> bool {
+    fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
         fragment.x.is_multiple_of(2)
     }
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
@@ -40,7 +40,7 @@ const CLEAR: [f32; 4] = [0.0; 4];
 fn a_pixel_is_the_mean_of_its_samples() {
     for samples in [Samples::One, Samples::Four, Samples::Eight, Samples::Sixteen] {
         let mut frame = Frame::new(3, 1, samples).expect("a small frame");
-        rectangle(&mut frame, [0.0, 0.0, 1.5, 1.0], 0.5, 0, Cover::Solid);
+        rectangle(&mut frame, [0.0, 0.0, 1.5, 1.0], 0.5, 0, Opacity::Opaque);
         let alpha: Vec<f32> = draw(&frame, &[RED], CLEAR, 1).iter().map(|c| c[3]).collect();
         assert_eq!((alpha[0], alpha[2]), (1.0, 0.0), "{samples:?}");
         let half = if samples == Samples::One { 0.0 } else { 0.5 };
@@ -57,8 +57,8 @@ fn neighbouring_triangles_show_nothing_of_the_background_between_them() {
     };
     for i in 0..10 {
         for j in 0..12 {
-            frame.triangle([at(i, j), at(i + 1, j), at(i + 1, j + 1)], 0, Cover::Solid);
-            frame.triangle([at(i, j), at(i + 1, j + 1), at(i, j + 1)], 0, Cover::Solid);
+            frame.add_triangle([at(i, j), at(i + 1, j), at(i + 1, j + 1)], 0, Opacity::Opaque);
+            frame.add_triangle([at(i, j), at(i + 1, j + 1), at(i, j + 1)], 0, Opacity::Opaque);
         }
     }
     assert!(draw(&frame, &[RED], [0.0, 1.0, 0.0, 1.0], 1).iter().all(|&color| color == RED));
@@ -75,9 +75,9 @@ fn layers_are_blended_from_the_farthest_to_the_nearest_whatever_their_order() {
             let mut frame = Frame::new(4, 4, samples).expect("a small frame");
             for id in order {
                 let depth = if id == 0 { 0.25 } else { 0.75 };
-                rectangle(&mut frame, [0.0, 0.0, 4.0, 4.0], depth, id, Cover::Translucent);
+                rectangle(&mut frame, [0.0, 0.0, 4.0, 4.0], depth, id, Opacity::Translucent);
             }
-            rectangle(&mut frame, [0.0, 0.0, 2.0, 4.0], 0.5, 2, Cover::Solid);
+            rectangle(&mut frame, [0.0, 0.0, 2.0, 4.0], 0.5, 2, Opacity::Opaque);
             let picture = draw(&frame, &colors, white, 1);
             // Blue over red over white; blue over green where the square hides the red.
             assert_eq!(picture[3], [0.5, 0.25, 0.75, 1.0]);
@@ -91,8 +91,8 @@ fn layers_are_blended_from_the_farthest_to_the_nearest_whatever_their_order() {
 #[test]
 fn a_masked_surface_is_absent_where_it_is_not_kept_and_hides_where_it_is() {
     let mut frame = Frame::new(4, 1, Samples::One).expect("a small frame");
-    rectangle(&mut frame, [0.0, 0.0, 4.0, 1.0], 0.75, 0, Cover::Masked);
-    rectangle(&mut frame, [0.0, 0.0, 4.0, 1.0], 0.5, 1, Cover::Solid);
+    rectangle(&mut frame, [0.0, 0.0, 4.0, 1.0], 0.75, 0, Opacity::Masked);
+    rectangle(&mut frame, [0.0, 0.0, 4.0, 1.0], 0.5, 1, Opacity::Opaque);
     assert_eq!(draw(&frame, &[RED, BLUE], CLEAR, 1), [RED, BLUE, RED, BLUE]);
 }
 
@@ -104,10 +104,10 @@ fn neither_threads_nor_instructions_change_a_bit() {
     for threads in [2, 3, 7, 100] {
         assert!(draw(&frame, &colors, CLEAR, threads) == once, "{threads} threads");
     }
-    for instructions in Instructions::available() {
-        let again = frame.clone().with_instructions(instructions);
+    for instructions in SimdLevel::available() {
+        let again = frame.clone().with_simd_level(instructions);
         assert!(draw(&again, &colors, CLEAR, 1) == once, "{instructions:?}");
-        assert!(again.visibility() == frame.visibility(), "{instructions:?}");
+        assert!(again.visibility_buffer() == frame.visibility_buffer(), "{instructions:?}");
     }
 }
 
@@ -116,14 +116,14 @@ fn parts_have_the_pixels_of_the_whole() {
     let mut whole = Frame::new(200, 333, Samples::Four).expect("a frame of several tiles");
     let colors = crowd(&mut whole);
     let picture = draw(&whole, &colors, CLEAR, 1);
-    let depth = whole.visibility().depth;
+    let depth = whole.visibility_buffer().depth;
     for ([x, y], [width, height]) in
         [([0, 0], [64, 64]), ([1, 1], [199, 332]), ([63, 127], [2, 2]), ([71, 200], [100, 7])]
     {
-        let mut part = Frame::part([x, y], [width, height], Samples::Four).expect("a part");
+        let mut part = Frame::for_region([x, y], [width, height], Samples::Four).expect("a part");
         crowd(&mut part);
         let shown = draw(&part, &colors, CLEAR, 3);
-        let near = part.visibility().depth;
+        let near = part.visibility_buffer().depth;
         for (row, column) in (0..height).flat_map(|row| (0..width).map(move |c| (row, c))) {
             let there = ((y + row) * 200 + x + column) as usize;
             let here = (row * width + column) as usize;
@@ -146,8 +146,8 @@ fn crowd(frame: &mut Frame) -> Vec<[f32; 4]> {
                 ((f * 17.0 + k * 29.0) % 100.0) / 100.0,
             )
         };
-        let cover = [Cover::Translucent, Cover::Solid, Cover::Masked][id as usize % 3];
-        frame.triangle([corner(0.0), corner(1.0), corner(2.0)], id, cover);
+        let cover = [Opacity::Translucent, Opacity::Opaque, Opacity::Masked][id as usize % 3];
+        frame.add_triangle([corner(0.0), corner(1.0), corner(2.0)], id, cover);
     }
     colors
 }
@@ -157,7 +157,7 @@ fn sizes_out_of_range_are_refused() {
     for (width, height) in [(0, 5), (5, 0), (raster::MAX_SIDE + 1, 1), (1, u32::MAX)] {
         let error = Frame::new(width, height, Samples::One).expect_err("refused").to_string();
         assert!(error.contains(&format!("{width} x {height}")), "{error}");
-        assert!(Frame::part([raster::MAX_SIDE, 3], [1, 1], Samples::One).is_err());
+        assert!(Frame::for_region([raster::MAX_SIDE, 3], [1, 1], Samples::One).is_err());
     }
 }
 
@@ -179,11 +179,11 @@ fn what_cannot_be_drawn_is_no_vertex_and_what_has_none_is_not_drawn() {
     let good = vertex(2.0, 2.0, 0.5);
     let vertices = [Some(good), None, Some(vertex(8.0, 0.0, 0.5))];
     let triangles = [[0, 2, 1], [0, 2, 7], [u32::MAX, 0, 2]];
-    frame.mesh(&vertices, &triangles, 0, Cover::Solid, Cull::Nothing);
+    frame.add_mesh(&vertices, &triangles, 0, Opacity::Opaque, CullMode::Nothing);
     assert!(draw(&frame, &[RED; 7], CLEAR, 1).iter().all(|&color| color == CLEAR));
     // However wide, a line is drawn within the grid.
     for width in [1e12, f64::INFINITY, f64::NAN, -3.0] {
-        frame.line([good, vertex(5.0, 3.0, 0.5)], width, 0, Cover::Solid);
+        frame.add_line([good, vertex(5.0, 3.0, 0.5)], width, 0, Opacity::Opaque);
     }
     let _ = draw(&frame, &[RED; 7], CLEAR, 1);
 }
@@ -191,13 +191,13 @@ fn what_cannot_be_drawn_is_no_vertex_and_what_has_none_is_not_drawn() {
 #[test]
 fn a_mesh_keeps_the_side_that_is_asked_for() {
     let corners = [vertex(0.0, 0.0, 0.5), vertex(8.0, 0.0, 0.5), vertex(0.0, 8.0, 0.5)].map(Some);
-    let seen = |cull: Cull| {
+    let seen = |cull: CullMode| {
         let mut frame = Frame::new(8, 8, Samples::One).expect("a small frame");
-        frame.mesh(&corners, &[[0, 1, 2], [0, 2, 1]], 5, Cover::Solid, cull);
-        frame.visibility().ids[0]
+        frame.add_mesh(&corners, &[[0, 1, 2], [0, 2, 1]], 5, Opacity::Opaque, cull);
+        frame.visibility_buffer().ids[0]
     };
-    assert_eq!([Cull::Nothing, Cull::CounterClockwise].map(seen), [Some(5); 2]);
-    assert_eq!(seen(Cull::Clockwise), Some(6));
+    assert_eq!([CullMode::Nothing, CullMode::CounterClockwise].map(seen), [Some(5); 2]);
+    assert_eq!(seen(CullMode::Clockwise), Some(6));
 }
 
 /// Found by the fuzzer: 1/w times the area of a triangle may be too large for an `f32`, and it may be 0.
@@ -208,9 +208,11 @@ fn weights_are_finite_and_whole_for_every_w() {
         let mut frame = Frame::new(8, 8, Samples::One).expect("a small frame");
         let at = |k: usize| homog::Point::new(corners[k].0, corners[k].1, 0.5);
         let vertices = [0, 1, 2].map(|k| ScreenVertex::snap(at(k), ws[k]).expect("drawable"));
-        frame.triangle(vertices, 0, Cover::Solid);
+        frame.add_triangle(vertices, 0, Opacity::Opaque);
         let mut all = Vec::new();
-        frame.fragments(|seen| all.push([seen.weights, seen.weights_dx(), seen.weights_dy()]));
+        frame.for_each_fragment(|seen| {
+            all.push([seen.weights, seen.weights_dx(), seen.weights_dy()])
+        });
         all
     };
     let usual = weights([1.0; 3]);

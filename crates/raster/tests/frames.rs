@@ -1,7 +1,7 @@
 //! Frames that are filled and drawn again and again: by any number of threads, and without asking for memory anew.
 
 use homog::Point;
-use raster::{Cover, Cull, Fragment, Frame, Samples, ScreenVertex, Surface};
+use raster::{CullMode, Fragment, Frame, Opacity, Samples, ScreenVertex, Surface};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
@@ -13,7 +13,7 @@ struct Impatient {
 }
 
 impl Surface for Impatient {
-    fn keeps(&self, _: &Fragment<'_>) -> bool {
+    fn passes_alpha_test(&self, _: &Fragment<'_>) -> bool {
         true
     }
 
@@ -28,10 +28,10 @@ impl Surface for Impatient {
 fn no_row_of_tiles_is_begun_once_drawing_is_to_stop() {
     let surface = Impatient::default();
     let frame = Frame::new(64, 1024, Samples::One).expect("a frame");
-    let mut frame = frame.with_stop(Arc::clone(&surface.stop));
+    let mut frame = frame.with_cancel_flag(Arc::clone(&surface.stop));
     let corners = [(0.0, 0.0), (64.0, 0.0), (0.0, 2048.0)]
         .map(|(x, y)| ScreenVertex::snap(Point::new(x, y, 0.5), 1.0).expect("on the grid"));
-    frame.triangle(corners, 0, Cover::Solid);
+    frame.add_triangle(corners, 0, Opacity::Opaque);
     let mut pixels = vec![[0.0_f32; 4]; 64 * 1024];
     frame.draw(&surface, [0.0; 4], 1, &mut pixels, |color: [f32; 4]| color);
     let shaded = surface.shaded.into_inner();
@@ -44,7 +44,7 @@ const SIZE: (u32, u32) = (200, 150);
 struct Lattice;
 
 impl Surface for Lattice {
-    fn keeps(&self, fragment: &Fragment<'_>) -> bool {
+    fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
         (fragment.x + fragment.y).is_multiple_of(2)
     }
 
@@ -76,15 +76,15 @@ fn draw(frame: &Frame, threads: usize, pixels: &mut [[u32; 4]]) {
 #[test]
 fn threads_change_neither_a_mesh_nor_its_picture() {
     let (vertices, triangles) = net(180);
-    for cull in [Cull::Nothing, Cull::Clockwise] {
+    for cull in [CullMode::Nothing, CullMode::Clockwise] {
         let mut first: Option<Vec<[u32; 4]>> = None;
         for threads in 1..=3 {
             let frame = Frame::new(SIZE.0, SIZE.1, Samples::Four).expect("a small frame");
             let mut frame = frame.with_threads(threads);
             // Before and behind a large mesh, which begins a chunk of its own.
-            frame.mesh(&vertices, &triangles[..100], 70_000, Cover::Solid, cull);
-            frame.mesh(&vertices, &triangles, 0, Cover::Solid, cull);
-            frame.mesh(&vertices, &triangles[100..300], 80_000, Cover::Translucent, cull);
+            frame.add_mesh(&vertices, &triangles[..100], 70_000, Opacity::Opaque, cull);
+            frame.add_mesh(&vertices, &triangles, 0, Opacity::Opaque, cull);
+            frame.add_mesh(&vertices, &triangles[100..300], 80_000, Opacity::Translucent, cull);
             let mut pixels = vec![[0; 4]; (SIZE.0 * SIZE.1) as usize];
             draw(&frame, threads, &mut pixels);
             assert!(*first.get_or_insert_with(|| pixels.clone()) == pixels, "{threads} threads");
@@ -100,8 +100,8 @@ fn a_second_frame_allocates_nothing() {
         let mut frame = Frame::new(SIZE.0, SIZE.1, samples).expect("a small frame");
         let mut fill_and_draw = || {
             frame.clear();
-            for cover in [Cover::Solid, Cover::Masked, Cover::Translucent] {
-                frame.mesh(&vertices, &triangles, 0, cover, Cull::Nothing);
+            for cover in [Opacity::Opaque, Opacity::Masked, Opacity::Translucent] {
+                frame.add_mesh(&vertices, &triangles, 0, cover, CullMode::Nothing);
             }
             draw(&frame, 1, &mut pixels);
         };

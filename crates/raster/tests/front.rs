@@ -1,7 +1,7 @@
 //! What is nearest, and how many layers there are, against frames of one primitive each.
 
 use homog::Point;
-use raster::{Cover, Fragment, Frame, Samples, ScreenVertex, Surface};
+use raster::{Fragment, Frame, Opacity, Samples, ScreenVertex, Surface};
 
 const SIZE: [u32; 2] = [150, 100];
 
@@ -9,7 +9,7 @@ const SIZE: [u32; 2] = [150, 100];
 struct Holed;
 
 impl Surface for Holed {
-    fn keeps(&self, fragment: &Fragment<'_>) -> bool {
+    fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
         (fragment.x / 3 + fragment.y / 5).is_multiple_of(2)
     }
     fn shade(&self, _: &Fragment<'_>) -> [f32; 4] {
@@ -31,26 +31,26 @@ fn triangles() -> Vec<[ScreenVertex; 3]> {
     (0..60).map(|_| [vertex(), vertex(), vertex()]).collect()
 }
 
-fn frame(primitives: &[([ScreenVertex; 3], u32, Cover)]) -> Frame {
+fn frame(primitives: &[([ScreenVertex; 3], u32, Opacity)]) -> Frame {
     let mut frame = Frame::new(SIZE[0], SIZE[1], Samples::One).expect("a small frame");
     for (corners, id, cover) in primitives {
-        frame.triangle(*corners, *id, *cover);
+        frame.add_triangle(*corners, *id, *cover);
     }
     frame
 }
 
-fn cover_of(id: u32) -> Cover {
-    [Cover::Solid, Cover::Masked, Cover::Translucent][id as usize % 3]
+fn cover_of(id: u32) -> Opacity {
+    [Opacity::Opaque, Opacity::Masked, Opacity::Translucent][id as usize % 3]
 }
 
 /// For each pixel the primitives that cover its centre, with their depths, each drawn alone.
 fn covering() -> Vec<Vec<(u32, f32)>> {
     let mut all = vec![Vec::new(); (SIZE[0] * SIZE[1]) as usize];
     for (id, corners) in (0..).zip(triangles()) {
-        let seen = frame(&[(corners, id, Cover::Solid)]).visibility();
+        let seen = frame(&[(corners, id, Opacity::Opaque)]).visibility_buffer();
         for (at, pixel) in all.iter_mut().enumerate().filter(|(at, _)| seen.ids[*at].is_some()) {
             let (x, y) = (at as u32 % SIZE[0], at as u32 / SIZE[0]);
-            let is_there = cover_of(id) != Cover::Masked || (x / 3 + y / 5).is_multiple_of(2);
+            let is_there = cover_of(id) != Opacity::Masked || (x / 3 + y / 5).is_multiple_of(2);
             if is_there {
                 pixel.push((id, seen.depth[at]));
             }
@@ -65,7 +65,7 @@ fn the_nearest_of_all_covers_is_found_for_any_number_of_threads() {
     let frame = frame(&given);
     for threads in 1..=3 {
         let mut found = vec![None; (SIZE[0] * SIZE[1]) as usize];
-        frame.front(&Holed, threads, &mut found, |fragment| {
+        frame.map_front_fragments(&Holed, threads, &mut found, |fragment| {
             let sum: f32 = fragment.weights.iter().sum();
             assert!((sum - 1.0).abs() < 1e-5, "{:?}", fragment.weights);
             Some(fragment.id)
@@ -79,20 +79,20 @@ fn the_nearest_of_all_covers_is_found_for_any_number_of_threads() {
 
 #[test]
 fn layers_are_counted_whatever_hides_them() {
-    let translucent = |(id, corners)| (corners, id, Cover::Translucent);
+    let translucent = |(id, corners)| (corners, id, Opacity::Translucent);
     let frame = frame(&(0..).zip(triangles()).map(translucent).collect::<Vec<_>>());
     /// Keeps what is not masked, and what the holes leave of the rest.
     struct Kept;
     impl Surface for Kept {
-        fn keeps(&self, fragment: &Fragment<'_>) -> bool {
-            cover_of(fragment.id) != Cover::Masked || Holed.keeps(fragment)
+        fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
+            cover_of(fragment.id) != Opacity::Masked || Holed.passes_alpha_test(fragment)
         }
         fn shade(&self, _: &Fragment<'_>) -> [f32; 4] {
             [0.0; 4]
         }
     }
     let mut counts = vec![0; (SIZE[0] * SIZE[1]) as usize];
-    frame.count_layers(&Kept, 2, &mut counts);
+    frame.count_overdraw(&Kept, 2, &mut counts);
     let due: Vec<u32> = covering().iter().map(|pixel| pixel.len() as u32).collect();
     assert!(due.iter().any(|count| *count > 8), "they lie over each other");
     assert_eq!(counts, due);

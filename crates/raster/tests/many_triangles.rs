@@ -3,7 +3,7 @@
 //! Pictures of forty triangles each; for every sample it is found by brute force, in integers, which of them cover it, and
 //! the nearest must be the one that is seen. Each triangle has one depth, so that nothing is rounded.
 
-use raster::{Cover, Frame, Instructions, Samples, ScreenVertex};
+use raster::{Frame, Opacity, Samples, ScreenVertex, SimdLevel};
 
 /// The pictures that are drawn, and the triangles of each.
 const PICTURES: usize = 25_000;
@@ -66,19 +66,19 @@ fn covers(mut corners: [[i32; 2]; 3], x: i32, y: i32) -> bool {
 #[test]
 fn a_million_triangles_cover_what_the_definition_says() {
     let mut dice = Dice(1);
-    let instructions = Instructions::available();
+    let instructions = SimdLevel::available();
     let mut covered = 0_u64;
     for picture in 0..PICTURES {
         let triangles: Vec<_> =
             (0..TRIANGLES).map(|_| (dice.triangle(), dice.below(8) as f32 / 8.0)).collect();
         let frame = Frame::new(SIDE, SIDE, Samples::One).expect("a small frame");
-        let mut frame = frame.with_instructions(instructions[picture % instructions.len()]);
+        let mut frame = frame.with_simd_level(instructions[picture % instructions.len()]);
         for (id, (corners, depth)) in (0..).zip(&triangles) {
             let vertex = |[x, y]: [i32; 2]| ScreenVertex::new(x, y, *depth, 1.0);
             let [Some(p), Some(q), Some(r)] = corners.map(vertex) else { panic!("off the grid") };
-            frame.triangle([p, q, r], id, Cover::Solid);
+            frame.add_triangle([p, q, r], id, Opacity::Opaque);
         }
-        let seen = frame.visibility();
+        let seen = frame.visibility_buffer();
         for (y, x) in WINDOW.flat_map(|y| WINDOW.map(move |x| (y, x))) {
             let at = [x, y].map(|c| c as i32 * 256 + 128);
             let covering = (0..).zip(&triangles).filter(|(_, (c, _))| covers(*c, at[0], at[1]));

@@ -2,27 +2,27 @@
 //!
 //! Both directions go by tables that are computed once with `libm`, so the bits are the same everywhere.
 
-mod deep;
+mod srgb16;
 
-pub use deep::DeepEncoder;
+pub use srgb16::Srgb16Encoder;
 
-use raster::{Eight, Encode, WIDE};
+use raster::{Encode, F32x8, LANES};
 use std::sync::OnceLock;
 
 /// Linear light of an sRGB value between 0 and 1.
-pub fn linear_of(srgb: f64) -> f64 {
+pub fn srgb_to_linear(srgb: f64) -> f64 {
     if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
 }
 
 /// The linear light, 0 to 1, of each 8-bit sRGB value.
 #[must_use]
-pub fn linear_table() -> &'static [f32; 256] {
+pub fn srgb_to_linear_table() -> &'static [f32; 256] {
     static TABLE: OnceLock<[f32; 256]> = OnceLock::new();
-    TABLE.get_or_init(|| std::array::from_fn(|code| linear_of(code as f64 / 255.0) as f32))
+    TABLE.get_or_init(|| std::array::from_fn(|code| srgb_to_linear(code as f64 / 255.0) as f32))
 }
 
 /// The bits of the least light that the encoder tells from 0: 2⁻¹³, which is less than half of the value 1.
-const LEAST: u32 = 0x3900_0000;
+const MIN_LIGHT_BITS: u32 = 0x3900_0000;
 
 /// Finds the nearest 8-bit sRGB value of linear light.
 ///
@@ -31,7 +31,7 @@ const LEAST: u32 = 0x3900_0000;
 /// upper half, and what the float's lower bits must be added to so that they carry into the upper half from the border on.
 #[derive(Debug)]
 pub struct SrgbEncoder {
-    steps: Box<[u32; 2048]>,
+    step_table: Box<[u32; 2048]>,
 }
 
 impl SrgbEncoder {
@@ -43,34 +43,34 @@ impl SrgbEncoder {
     }
 
     fn new() -> Self {
-        let thresholds = thresholds();
+        let thresholds = code_thresholds();
         let entry = |step: usize| {
-            let start = LEAST + ((step as u32) << 16);
+            let start = MIN_LIGHT_BITS + ((step as u32) << 16);
             let next = thresholds.partition_point(|&least| least <= f32::from_bits(start));
             let code = (next as u32 - 1) << 16;
             let border = thresholds.get(next).map_or(u32::MAX, |least| least.to_bits()) - start;
             code + 0x1_0000_u32.saturating_sub(border)
         };
-        Self { steps: Box::new(std::array::from_fn(entry)) }
+        Self { step_table: Box::new(std::array::from_fn(entry)) }
     }
 
     /// The nearest 8-bit sRGB value; light beyond [0, 1] (and NaN, as 0) is cut off.
     #[must_use]
     pub fn encode(&self, light: f32) -> u8 {
-        self.code(light) as u8
+        self.encode_to_code(light) as u8
     }
 
     #[inline(always)]
-    fn code(&self, light: f32) -> u32 {
-        let least = f32::from_bits(LEAST);
+    fn encode_to_code(&self, light: f32) -> u32 {
+        let least = f32::from_bits(MIN_LIGHT_BITS);
         let bits = if light > least { light.min(1.0) } else { least }.to_bits();
-        let step = self.steps[((bits - LEAST) >> 16 & 2047) as usize];
+        let step = self.step_table[((bits - MIN_LIGHT_BITS) >> 16 & 2047) as usize];
         (step + (bits & 0xffff)) >> 16
     }
 
     /// Pixels for a file: sRGB with straight alpha, from linear light multiplied by alpha. Red is in the lowest byte.
     #[inline(always)]
-    fn pixels<const N: usize>(&self, [r, g, b, alpha]: &[[f32; N]; 4]) -> [u32; N] {
+    fn encode_pixels<const N: usize>(&self, [r, g, b, alpha]: &[[f32; N]; 4]) -> [u32; N] {
         let mut is_solid = true;
         for alpha in alpha {
             is_solid &= *alpha >= 1.0;
@@ -85,7 +85,7 @@ impl SrgbEncoder {
                 }
             }
             for lane in 0..N {
-                pixels[lane] |= self.code(straight[lane]) << shift;
+                pixels[lane] |= self.encode_to_code(straight[lane]) << shift;
             }
         }
         for lane in 0..N {
@@ -98,39 +98,39 @@ impl SrgbEncoder {
 
     /// A pixel for a file: sRGB with straight alpha, from linear light multiplied by alpha.
     #[must_use]
-    pub fn pixel(&self, color: [f32; 4]) -> [u8; 4] {
-        let [pixel] = self.pixels(&color.map(|channel| [channel]));
+    pub fn encode_pixel(&self, color: [f32; 4]) -> [u8; 4] {
+        let [pixel] = self.encode_pixels(&color.map(|channel| [channel]));
         pixel.to_le_bytes()
     }
 }
 
 impl Encode<[u8; 4]> for &SrgbEncoder {
     #[inline(always)]
-    fn pixel(&self, color: [f32; 4]) -> [u8; 4] {
-        SrgbEncoder::pixel(self, color)
+    fn encode_pixel(&self, color: [f32; 4]) -> [u8; 4] {
+        SrgbEncoder::encode_pixel(self, color)
     }
 
     #[inline(always)]
-    fn eight(&self, colors: &[Eight; 4]) -> [[u8; 4]; WIDE] {
-        self.pixels(colors).map(u32::to_le_bytes)
+    fn encode_eight(&self, colors: &[F32x8; 4]) -> [[u8; 4]; LANES] {
+        self.encode_pixels(colors).map(u32::to_le_bytes)
     }
 }
 
 /// The least linear light whose nearest value is the index; the first is never reached.
-fn thresholds() -> [f32; 256] {
-    let threshold = |code: usize| linear_of((code as f64 - 0.5) / 255.0) as f32;
+fn code_thresholds() -> [f32; 256] {
+    let threshold = |code: usize| srgb_to_linear((code as f64 - 0.5) / 255.0) as f32;
     std::array::from_fn(|code| if code == 0 { f32::MIN } else { threshold(code) })
 }
 
 /// Linear red, green and blue of a colour written `#rgb` or `#rrggbb`; `None` if it is written otherwise.
 #[must_use]
-pub fn parse_hex(text: &str) -> Option<[f32; 3]> {
-    Some(parse_hex_codes(text)?.map(|code| linear_table()[usize::from(code)]))
+pub fn parse_hex_color(text: &str) -> Option<[f32; 3]> {
+    Some(parse_hex_srgb(text)?.map(|code| srgb_to_linear_table()[usize::from(code)]))
 }
 
 /// The 8-bit sRGB values of a colour written `#rgb` or `#rrggbb`; `None` if it is written otherwise.
 #[must_use]
-pub fn parse_hex_codes(text: &str) -> Option<[u8; 3]> {
+pub fn parse_hex_srgb(text: &str) -> Option<[u8; 3]> {
     let digits = text.strip_prefix('#').filter(|d| d.bytes().all(|b| b.is_ascii_hexdigit()))?;
     let wide: String = match digits.len() {
         3 => digits.chars().flat_map(|digit| [digit, digit]).collect(),
@@ -149,7 +149,7 @@ mod tests {
     #[test]
     fn every_value_survives_the_way_to_linear_light_and_back() {
         for code in 0..=255_u8 {
-            let light = linear_table()[usize::from(code)];
+            let light = srgb_to_linear_table()[usize::from(code)];
             assert_eq!(SrgbEncoder::shared().encode(light), code);
         }
     }
@@ -169,7 +169,7 @@ mod tests {
 
     #[test]
     fn codes_change_at_their_borders_and_nowhere_else() {
-        let (encoder, thresholds) = (SrgbEncoder::shared(), thresholds());
+        let (encoder, thresholds) = (SrgbEncoder::shared(), code_thresholds());
         let right = |light: f32| thresholds.partition_point(|&least| least <= light) - 1;
         let agrees = |bits: u32| {
             let light = f32::from_bits(bits);
@@ -189,10 +189,10 @@ mod tests {
             let lane = |k: usize| [light, light * 0.5, light * 0.25, alphas[k]];
             let channel = |n: usize| std::array::from_fn(|k| lane(k)[n]);
             let eight = [0, 1, 2, 3].map(channel);
-            let one_by_one: [_; 8] = std::array::from_fn(|k| encoder.pixel(lane(k)));
-            assert_eq!((&encoder).eight(&eight), one_by_one);
+            let one_by_one: [_; 8] = std::array::from_fn(|k| encoder.encode_pixel(lane(k)));
+            assert_eq!((&encoder).encode_eight(&eight), one_by_one);
         }
-        assert_eq!(encoder.pixel([0.5, 0.25, 0.0, 0.5]), [255, 188, 0, 128]);
+        assert_eq!(encoder.encode_pixel([0.5, 0.25, 0.0, 0.5]), [255, 188, 0, 128]);
     }
 
     fn srgb_of(light: f64) -> f64 {
@@ -205,10 +205,10 @@ mod tests {
 
     #[test]
     fn colours_are_read_as_on_a_web_page() {
-        assert_eq!(parse_hex("#fff"), Some([1.0; 3]));
-        assert_eq!(parse_hex("#ff0000"), Some([1.0, 0.0, 0.0]));
+        assert_eq!(parse_hex_color("#fff"), Some([1.0; 3]));
+        assert_eq!(parse_hex_color("#ff0000"), Some([1.0, 0.0, 0.0]));
         for wrong in ["", "#", "fff", "#ff", "#ffffg0", "#+12345", "#äöü"] {
-            assert_eq!(parse_hex(wrong), None, "{wrong}");
+            assert_eq!(parse_hex_color(wrong), None, "{wrong}");
         }
     }
 }

@@ -3,10 +3,10 @@
 //! The rasteriser knows a triangle by a number and says how much each corner counts at a pixel. A draw holds what the
 //! corners carry, for a run of such numbers: one primitive of one instance of one mesh.
 
-use super::Maps;
-use super::corners::{Corners, Items, UV, Vertex, blend};
-use super::seen::Seen;
-use model::{Material, Primitive, TextureUse, Topology};
+use super::MaterialTextures;
+use super::attributes::{PrimitiveIndices, UV, Vertex, VertexIndices, interpolate};
+use super::fragment_lanes::FragmentLanes;
+use model::{Material, Primitive, TextureInfo, Topology};
 use std::borrow::Cow;
 
 /// One primitive of a mesh at one place of the world.
@@ -15,43 +15,43 @@ pub struct Draw<'a> {
     /// The name of its first point, line or triangle; the others follow.
     pub first_id: u32,
     /// Its number among the primitives of the scene, as often as they are shown.
-    pub part: u32,
+    pub part_id: u32,
     /// Indices, and what else the vertices carry.
     pub primitive: &'a Primitive,
     /// What it is made of.
     pub material: &'a Material,
     /// The textures of the material.
-    pub maps: Maps<'a>,
+    pub textures: MaterialTextures<'a>,
     /// What its vertices carry; nothing where nothing of it counts.
     pub vertices: Vec<Vertex>,
     /// Which way textures of slopes lie on the surface.
     pub tangents: Tangents,
     /// Whether the vertices have normals that are to be seen; otherwise each triangle has one of its own.
-    pub smooth: bool,
+    pub is_smooth: bool,
     /// The set of the texture coordinates that the vertices carry, if they carry any.
     pub uv_set: Option<usize>,
     /// The vertex colours, if there are any.
     pub colors: Option<Cow<'a, [[f32; 4]]>>,
     /// What it stands for.
-    pub role: Role,
+    pub kind: DrawKind,
     /// Whether the way to the world mirrors, so that triangles run the other way round.
-    pub mirrored: bool,
+    pub flips_winding: bool,
     /// How much longer things are in the world than in the mesh; the mean of all directions where they differ.
-    pub scale: f32,
+    pub world_scale: f32,
 }
 
 /// What a draw stands for.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
-pub enum Role {
+pub enum DrawKind {
     /// A surface of a model.
     #[default]
     Surface,
     /// The environment behind everything, blurred so much, from 0 to 1.
-    Backdrop(f32),
+    Environment(f32),
     /// What is painted behind everything; places are parts of the picture's width and height.
-    Painting,
+    Backdrop,
     /// The ground, of which only shadows are seen.
-    Ground,
+    ShadowCatcher,
 }
 
 /// Which way the u of textures runs on a surface: unit vectors in the world, and in w the side of the bitangent, 1 or −1.
@@ -61,9 +61,9 @@ pub enum Tangents {
     #[default]
     None,
     /// One for each vertex.
-    OfVertices(Vec<[f32; 4]>),
+    PerVertex(Vec<[f32; 4]>),
     /// One for each corner of each triangle.
-    OfCorners(Vec<[f32; 4]>),
+    PerCorner(Vec<[f32; 4]>),
 }
 
 /// All draws of a frame, in the order of their names.
@@ -76,7 +76,7 @@ pub struct DrawList<'a> {
 impl<'a> DrawList<'a> {
     /// The draw that a name belongs to, and the first name that does not belong to it any more.
     #[inline(always)]
-    pub(crate) fn of(&self, id: u32) -> (&Draw<'a>, u32) {
+    pub(crate) fn find_draw(&self, id: u32) -> (&Draw<'a>, u32) {
         let after = self.draws.partition_point(|draw| draw.first_id <= id);
         let end = self.draws.get(after).map_or(u32::MAX, |next| next.first_id);
         (&self.draws[after - 1], end)
@@ -86,83 +86,95 @@ impl<'a> DrawList<'a> {
 impl Draw<'_> {
     /// The vertices of a point, line or triangle. Corners that it lacks repeat its last one; their weights are 0.
     #[inline(always)]
-    fn vertices_of(&self, item: usize) -> [usize; 3] {
+    fn primitive_vertices(&self, item: usize) -> [usize; 3] {
         let indices = &self.primitive.indices;
         if self.primitive.topology == Topology::Triangles {
             let [a, b, c] = indices.as_chunks::<3>().0[item];
             return [a as usize, b as usize, c as usize];
         }
-        let count = self.primitive.topology.corners();
+        let count = self.primitive.topology.vertices_per_item();
         [0, 1, 2].map(|k: usize| indices[item * count + k.min(count - 1)] as usize)
     }
 
     /// The primitives with these names, all of this draw.
     #[inline(always)]
-    pub(super) fn items<const N: usize>(&self, ids: &[u32; N], are_of_one: bool) -> Items<N> {
+    pub(super) fn primitive_indices<const N: usize>(
+        &self,
+        ids: &[u32; N],
+        are_of_one: bool,
+    ) -> PrimitiveIndices<N> {
         if are_of_one {
-            return Items::One((ids[0] - self.first_id) as usize);
+            return PrimitiveIndices::One((ids[0] - self.first_id) as usize);
         }
         let mut items = [0; N];
         for lane in 0..N {
             items[lane] = (ids[lane] - self.first_id) as usize;
         }
-        Items::Each(items)
+        PrimitiveIndices::Each(items)
     }
 
     /// The vertices of fragments of these primitives.
     #[inline(always)]
-    pub(super) fn corners<const N: usize>(&self, items: &Items<N>) -> Corners<N> {
-        items.corners(|item| self.vertices_of(item))
+    pub(super) fn vertex_indices<const N: usize>(
+        &self,
+        items: &PrimitiveIndices<N>,
+    ) -> VertexIndices<N> {
+        items.vertex_indices(|item| self.primitive_vertices(item))
     }
 
     /// The tangents at fragments of these primitives, of any length; none where nothing is known of them.
     #[inline(always)]
-    pub(super) fn tangents<const N: usize>(
+    pub(super) fn interpolate_tangents<const N: usize>(
         &self,
-        items: &Items<N>,
+        items: &PrimitiveIndices<N>,
         weights: &[[f32; N]; 3],
     ) -> [[f32; N]; 4] {
         match &self.tangents {
             Tangents::None => [[0.0; N]; 4],
-            Tangents::OfVertices(all) => blend(&self.corners(items).carried(all, 0), weights),
-            Tangents::OfCorners(all) => {
-                let corners = items.corners(|item| [3 * item, 3 * item + 1, 3 * item + 2]);
-                blend(&corners.carried(all, 0), weights)
+            Tangents::PerVertex(all) => {
+                interpolate(&self.vertex_indices(items).fetch_attributes(all, 0), weights)
+            }
+            Tangents::PerCorner(all) => {
+                let corners = items.vertex_indices(|item| [3 * item, 3 * item + 1, 3 * item + 2]);
+                interpolate(&corners.fetch_attributes(all, 0), weights)
             }
         }
     }
 
     /// The texture's coordinates, and their derivatives by the pixel's column and row.
     #[inline(always)]
-    pub(super) fn uvs<const N: usize>(
+    pub(super) fn texture_coordinates<const N: usize>(
         &self,
-        corners: &Corners<N>,
-        seen: &impl Seen<N>,
-        used: &TextureUse,
+        corners: &VertexIndices<N>,
+        seen: &impl FragmentLanes<N>,
+        used: &TextureInfo,
     ) -> [[[f32; N]; 2]; 3] {
         let mut uvs = [[[0.0; N]; 2]; 3];
         let carried = if self.uv_set == Some(used.uv_set) {
-            corners.carried(&self.vertices, UV)
+            corners.fetch_attributes(&self.vertices, UV)
         } else if let Some(set) = self.primitive.uvs.get(used.uv_set) {
-            corners.carried(set, 0)
+            corners.fetch_attributes(set, 0)
         } else {
             return uvs;
         };
-        let [u, v] = blend(&carried, &seen.weights());
-        for (axis, map) in used.uv_map.iter().enumerate() {
+        let [u, v] = interpolate(&carried, &seen.weights());
+        for (axis, map) in used.uv_matrix.iter().enumerate() {
             for lane in 0..N {
                 uvs[0][axis][lane] = map[0] * u[lane] + map[1] * v[lane] + map[2];
             }
         }
-        uvs[1] = turned(&used.uv_map, &blend(&carried, &seen.weights_dx()));
-        uvs[2] = turned(&used.uv_map, &blend(&carried, &seen.weights_dy()));
+        uvs[1] = transform_uv_step(&used.uv_matrix, &interpolate(&carried, &seen.weights_dx()));
+        uvs[2] = transform_uv_step(&used.uv_matrix, &interpolate(&carried, &seen.weights_dy()));
         uvs
     }
 }
 
 /// A step of texture coordinates after their map, which moves places but not steps.
 #[inline(always)]
-fn turned<const N: usize>(uv_map: &[[f32; 3]; 2], [u, v]: &[[f32; N]; 2]) -> [[f32; N]; 2] {
+fn transform_uv_step<const N: usize>(
+    uv_map: &[[f32; 3]; 2],
+    [u, v]: &[[f32; N]; 2],
+) -> [[f32; N]; 2] {
     let mut turned = [[0.0; N]; 2];
     for (axis, map) in uv_map.iter().enumerate() {
         for lane in 0..N {

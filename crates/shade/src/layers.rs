@@ -1,84 +1,84 @@
 //! Layers over and in a surface: clear coat, fibres, long highlights and thin films, as the KHR_materials extensions have them.
 
 use super::environment::Environment;
-use super::fibres::{charlie, sheen_albedo};
-use super::inputs::{Inputs, Layers};
-use super::light::Arriving;
-use super::microfacet::{Meeting, alpha_of, fifth};
-use super::normal::Facing;
-use super::seen::{dot, lane_of};
+use super::fragment_lanes::{dot, lane_vector};
+use super::light::IncidentLight;
+use super::material_inputs::{LayerInputs, MaterialInputs};
+use super::microfacet::{ShadingAngles, pow5, roughness_to_alpha};
+use super::sheen::{charlie_lobe, sheen_albedo};
+use super::surface_geometry::SurfaceGeometry;
 use std::f32::consts::{FRAC_1_PI, PI};
 
 /// A clear coat: a smooth layer of index of refraction 1.5 that reflects before anything below does
 /// (KHR_materials_clearcoat).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Coat<const N: usize> {
-    facing: Facing<N>,
+pub(super) struct Clearcoat<const N: usize> {
+    geometry: SurfaceGeometry<N>,
     /// The perceptual roughness.
     roughness: [f32; N],
     alpha: [f32; N],
     /// The share of light that it reflects: its strength times Schlick's Fresnel for the normal.
-    share: [f32; N],
+    reflectance: [f32; N],
     /// What it reflects.
-    sums: [[f32; N]; 3],
+    specular_light: [[f32; N]; 3],
 }
 
-impl<const N: usize> Coat<N> {
+impl<const N: usize> Clearcoat<N> {
     /// The coat over a surface; `facing` has the coat's own normals.
     #[inline(always)]
-    pub(super) fn of(layers: &Layers<N>, facing: Facing<N>) -> Self {
+    pub(super) fn new(layers: &LayerInputs<N>, facing: SurfaceGeometry<N>) -> Self {
         let mut coat = Self {
-            facing,
-            roughness: layers.coat_roughness,
+            geometry: facing,
+            roughness: layers.clearcoat_roughness,
             alpha: [0.0; N],
-            share: [0.0; N],
-            sums: [[0.0; N]; 3],
+            reflectance: [0.0; N],
+            specular_light: [[0.0; N]; 3],
         };
         for lane in 0..N {
             coat.roughness[lane] =
-                (layers.coat_roughness[lane] + facing.turns[lane]).clamp(0.0, 1.0);
-            coat.alpha[lane] = alpha_of(coat.roughness[lane]);
-            let fresnel = 0.04 + 0.96 * fifth(1.0 - facing.cosines[lane]);
-            coat.share[lane] = layers.coat[lane] * fresnel;
+                (layers.clearcoat_roughness[lane] + facing.normal_variation[lane]).clamp(0.0, 1.0);
+            coat.alpha[lane] = roughness_to_alpha(coat.roughness[lane]);
+            let fresnel = 0.04 + 0.96 * pow5(1.0 - facing.n_dot_v[lane]);
+            coat.reflectance[lane] = layers.clearcoat[lane] * fresnel;
         }
         coat
     }
 
     /// Adds what it reflects of the light from one direction.
     #[inline(always)]
-    pub(super) fn reflect(&mut self, arriving: &Arriving<N>) {
+    pub(super) fn add_direct_light(&mut self, arriving: &IncidentLight<N>) {
         for lane in 0..N {
-            let meeting = Meeting::of(
-                lane_of(&self.facing.normals, lane),
-                lane_of(&self.facing.views, lane),
-                lane_of(&arriving.towards, lane),
+            let meeting = ShadingAngles::new(
+                lane_vector(&self.geometry.normals, lane),
+                lane_vector(&self.geometry.views, lane),
+                lane_vector(&arriving.to_light, lane),
             );
-            let lobe = meeting.lobe(self.alpha[lane]);
+            let lobe = meeting.ggx_lobe(self.alpha[lane]);
             for channel in 0..3 {
-                self.sums[channel][lane] += arriving.lux[channel][lane] * lobe;
+                self.specular_light[channel][lane] += arriving.lux[channel][lane] * lobe;
             }
         }
     }
 
     /// Adds what it mirrors of the surroundings.
     #[inline(always)]
-    pub(super) fn mirror(&mut self, environment: &Environment) {
-        let Facing { normals, views, .. } = &self.facing;
-        let light = environment.mirrored(normals, views, &self.roughness);
+    pub(super) fn add_environment(&mut self, environment: &Environment) {
+        let SurfaceGeometry { normals, views, .. } = &self.geometry;
+        let light = environment.specular_radiance(normals, views, &self.roughness);
         for channel in 0..3 {
             for lane in 0..N {
-                self.sums[channel][lane] += light[channel][lane];
+                self.specular_light[channel][lane] += light[channel][lane];
             }
         }
     }
 
     /// Lays it over what is below.
     #[inline(always)]
-    pub(super) fn cover(&self, below: &mut [[f32; N]; 3]) {
+    pub(super) fn composite_over(&self, below: &mut [[f32; N]; 3]) {
         for channel in 0..3 {
             for lane in 0..N {
                 let color = &mut below[channel][lane];
-                *color += (self.sums[channel][lane] - *color) * self.share[lane];
+                *color += (self.specular_light[channel][lane] - *color) * self.reflectance[lane];
             }
         }
     }
@@ -91,46 +91,46 @@ pub(super) struct Sheen<const N: usize> {
     color: [[f32; N]; 3],
     roughness: [f32; N],
     /// The largest channel of the colour.
-    most: [f32; N],
+    max_color: [f32; N],
     /// The share of white surroundings that white fibres reflect to the viewer.
     albedo: [f32; N],
 }
 
 impl<const N: usize> Sheen<N> {
     #[inline(always)]
-    pub(super) fn of(layers: &Layers<N>, facing: &Facing<N>) -> Self {
-        let [r, g, b] = &layers.sheen;
+    pub(super) fn new(layers: &LayerInputs<N>, facing: &SurfaceGeometry<N>) -> Self {
+        let [r, g, b] = &layers.sheen_color;
         let mut sheen = Self {
-            color: layers.sheen,
+            color: layers.sheen_color,
             roughness: layers.sheen_roughness,
-            most: [0.0; N],
+            max_color: [0.0; N],
             albedo: [0.0; N],
         };
         for lane in 0..N {
             sheen.roughness[lane] = sheen.roughness[lane].clamp(0.07, 1.0);
-            sheen.most[lane] = r[lane].max(g[lane]).max(b[lane]);
-            sheen.albedo[lane] = sheen_albedo(facing.cosines[lane], sheen.roughness[lane]);
+            sheen.max_color[lane] = r[lane].max(g[lane]).max(b[lane]);
+            sheen.albedo[lane] = sheen_albedo(facing.n_dot_v[lane], sheen.roughness[lane]);
         }
         sheen
     }
 
     /// Takes its share of the light from one direction, and adds what it reflects of it.
     #[inline(always)]
-    pub(super) fn reflect(
+    pub(super) fn add_direct_light(
         &self,
-        facing: &Facing<N>,
-        arriving: &mut Arriving<N>,
+        facing: &SurfaceGeometry<N>,
+        arriving: &mut IncidentLight<N>,
         sums: &mut [[f32; N]; 3],
     ) {
         for lane in 0..N {
-            let meeting = Meeting::of(
-                lane_of(&facing.normals, lane),
-                lane_of(&facing.views, lane),
-                lane_of(&arriving.towards, lane),
+            let meeting = ShadingAngles::new(
+                lane_vector(&facing.normals, lane),
+                lane_vector(&facing.views, lane),
+                lane_vector(&arriving.to_light, lane),
             );
-            let lobe = charlie(self.roughness[lane], &meeting);
+            let lobe = charlie_lobe(self.roughness[lane], &meeting);
             let other = sheen_albedo(meeting.nl, self.roughness[lane]);
-            let left = 1.0 - self.most[lane] * self.albedo[lane].max(other);
+            let left = 1.0 - self.max_color[lane] * self.albedo[lane].max(other);
             for channel in 0..3 {
                 let lux = &mut arriving.lux[channel][lane];
                 sums[channel][lane] += *lux * self.color[channel][lane] * lobe;
@@ -141,45 +141,45 @@ impl<const N: usize> Sheen<N> {
 
     /// What of light from everywhere is left for what is below.
     #[inline(always)]
-    pub(super) fn left(&self) -> [f32; N] {
+    pub(super) fn base_scale(&self) -> [f32; N] {
         let mut left = [1.0; N];
         for lane in 0..N {
-            left[lane] = 1.0 - self.most[lane] * self.albedo[lane];
+            left[lane] = 1.0 - self.max_color[lane] * self.albedo[lane];
         }
         left
     }
 
     /// The share of light from everywhere that it reflects.
     #[inline(always)]
-    pub(super) fn share(&self, channel: usize, lane: usize) -> f32 {
+    pub(super) fn reflectance(&self, channel: usize, lane: usize) -> f32 {
         self.color[channel][lane] * self.albedo[lane]
     }
 }
 
 /// Which way highlights are long, and how rough the surface is along and across (KHR_materials_anisotropy).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Grain<const N: usize> {
-    along: [[f32; N]; 3],
-    across: [[f32; N]; 3],
+pub(super) struct Anisotropy<const N: usize> {
+    tangents: [[f32; N]; 3],
+    bitangents: [[f32; N]; 3],
     /// α along the grain.
-    stretched: [f32; N],
+    tangent_alpha: [f32; N],
 }
 
-impl<const N: usize> Grain<N> {
+impl<const N: usize> Anisotropy<N> {
     /// The grain of a surface whose tangents lie so, turned by an angle.
     #[inline(always)]
-    pub(super) fn of(
-        inputs: &Inputs<N>,
-        facing: &Facing<N>,
+    pub(super) fn new(
+        inputs: &MaterialInputs<N>,
+        facing: &SurfaceGeometry<N>,
         tangents: &[[f32; N]; 4],
         rotation: f32,
         alpha: &[f32; N],
     ) -> Self {
         let (sin, cos) = (libm::sinf(rotation), libm::cosf(rotation));
         let zero = [[0.0; N]; 3];
-        let mut grain = Self { along: zero, across: zero, stretched: *alpha };
+        let mut grain = Self { tangents: zero, bitangents: zero, tangent_alpha: *alpha };
         for lane in 0..N {
-            let n = lane_of(&facing.normals, lane);
+            let n = lane_vector(&facing.normals, lane);
             let t = [tangents[0][lane], tangents[1][lane], tangents[2][lane]];
             let up = dot(n, t);
             let flat = [t[0] - n[0] * up, t[1] - n[1] * up, t[2] - n[2] * up];
@@ -187,33 +187,33 @@ impl<const N: usize> Grain<N> {
             let per = if square > 1e-12 { 1.0 / square.sqrt() } else { 0.0 };
             let t = [flat[0] * per, flat[1] * per, flat[2] * per];
             let side = if tangents[3][lane] < 0.0 { -1.0 } else { 1.0 };
-            let b = super::seen::cross(n, t).map(|c| c * side);
+            let b = super::fragment_lanes::cross(n, t).map(|c| c * side);
             let [x, y] = [inputs.layers.anisotropy[0][lane], inputs.layers.anisotropy[1][lane]];
             let length = (x * x + y * y).sqrt().max(1e-6);
             let (x, y) = ((cos * x - sin * y) / length, (sin * x + cos * y) / length);
             for axis in 0..3 {
-                grain.along[axis][lane] = t[axis] * x + b[axis] * y;
-                grain.across[axis][lane] = b[axis] * x - t[axis] * y;
+                grain.tangents[axis][lane] = t[axis] * x + b[axis] * y;
+                grain.bitangents[axis][lane] = b[axis] * x - t[axis] * y;
             }
             let strength = inputs.layers.anisotropy[2][lane].clamp(0.0, 1.0);
             let kept = if per > 0.0 { strength * strength } else { 0.0 };
-            grain.stretched[lane] = alpha[lane] + (1.0 - alpha[lane]) * kept;
+            grain.tangent_alpha[lane] = alpha[lane] + (1.0 - alpha[lane]) * kept;
         }
         grain
     }
 
     /// D · V · n·l where light meets the surface (Burley 2012; Heitz 2014).
     #[inline(always)]
-    pub(super) fn lobe(
+    pub(super) fn specular_lobe(
         &self,
-        meeting: &Meeting,
+        meeting: &ShadingAngles,
         alpha: f32,
         v: [f32; 3],
         l: [f32; 3],
         lane: usize,
     ) -> f32 {
-        let (t, b) = (lane_of(&self.along, lane), lane_of(&self.across, lane));
-        let (wide, narrow) = (self.stretched[lane], alpha);
+        let (t, b) = (lane_vector(&self.tangents, lane), lane_vector(&self.bitangents, lane));
+        let (wide, narrow) = (self.tangent_alpha[lane], alpha);
         let sum = [l[0] + v[0], l[1] + v[1], l[2] + v[2]];
         let per = 1.0 / dot(sum, sum).max(1e-12).sqrt();
         let (th, bh) = (dot(t, sum) * per / wide, dot(b, sum) * per / narrow);
@@ -232,12 +232,12 @@ impl<const N: usize> Grain<N> {
 /// Barla, *A practical extension to microfacet theory for the modeling of varying iridescence*, 2017.
 ///
 /// `f0` is that of the surface below, `thickness` in nanometres, `cosine` that of the view.
-pub(super) fn film_f0(f0: [f32; 3], ior: f32, thickness: f32, cosine: f32) -> [f32; 3] {
+pub(super) fn thin_film_f0(f0: [f32; 3], ior: f32, thickness: f32, cosine: f32) -> [f32; 3] {
     let start = (thickness / 0.03).clamp(0.0, 1.0);
     let ior = 1.0 + (ior - 1.0) * start * start * (3.0 - 2.0 * start);
     let sine_squared = (1.0 - cosine * cosine) / (ior * ior);
     let inside = (1.0 - sine_squared).max(0.0).sqrt();
-    let schlick = |f0: f32, cosine: f32| f0 + (1.0 - f0) * fifth(1.0 - cosine);
+    let schlick = |f0: f32, cosine: f32| f0 + (1.0 - f0) * pow5(1.0 - cosine);
     let mirrored = |a: f32, b: f32| {
         let root = (a - b) / (a + b);
         root * root
@@ -262,18 +262,18 @@ pub(super) fn film_f0(f0: [f32; 3], ior: f32, thickness: f32, cosine: f32) -> [f
     }
     for (order, terms) in series.iter().enumerate() {
         let order = (order + 1) as f32;
-        let seen = sensitivity(order * path, shifts.map(|shift| order * shift));
+        let seen = spectral_sensitivity(order * path, shifts.map(|shift| order * shift));
         for channel in 0..3 {
             shares[channel] += 2.0 * terms[channel] * seen[channel];
         }
     }
-    let grazing = fifth(1.0 - cosine).clamp(0.0, 0.9999);
+    let grazing = pow5(1.0 - cosine).clamp(0.0, 0.9999);
     shares.map(|share| ((share.clamp(0.0, 1.0) - grazing) / (1.0 - grazing)).clamp(0.0, 1.0))
 }
 
 /// How the eye sees waves with this difference of paths in nanometres: the Fourier transform of the CIE's curves, as Gaussians, in
 /// linear sRGB.
-fn sensitivity(path: f32, shifts: [f32; 3]) -> [f32; 3] {
+fn spectral_sensitivity(path: f32, shifts: [f32; 3]) -> [f32; 3] {
     let phase = 2.0 * PI * path * 1e-9;
     let bell = |value: f32, place: f32, variance: f32, shift: f32| {
         let wave = libm::cosf(place * phase + shift) * libm::expf(-phase * phase * variance);
@@ -297,12 +297,12 @@ mod tests {
     #[test]
     fn no_film_changes_nothing_and_no_film_makes_light() {
         for f0 in [0.02, 0.04, 0.3, 0.9] {
-            let bare = film_f0([f0; 3], 1.3, 0.0, 0.8);
+            let bare = thin_film_f0([f0; 3], 1.3, 0.0, 0.8);
             assert!(bare.iter().all(|found| (found - f0).abs() < 0.03), "{f0} {bare:?}");
             for step in 0..200 {
                 let thickness = step as f32 * 6.0;
                 for cosine in [1.0, 0.7, 0.3, 0.05, 0.0] {
-                    let found = film_f0([f0, f0 * 0.5, 0.0], 1.4, thickness, cosine);
+                    let found = thin_film_f0([f0, f0 * 0.5, 0.0], 1.4, thickness, cosine);
                     assert!(found.iter().all(|share| (0.0..=1.0).contains(share)), "{found:?}");
                 }
             }

@@ -1,8 +1,8 @@
 //! Lights, resolved: in the world, in the units of photometry.
 
-use super::receiver::Receivers;
-use super::seen::{dot, in_all, lane_of};
-use super::shadow::{Shadow, ShadowMap};
+use super::fragment_lanes::{dot, lane_vector, splat};
+use super::shadow_map::{Shadow, ShadowMap};
+use super::shadow_receiver::ShadowReceiver;
 
 /// A light of the resolved scene. Colours are linear and already multiplied by the light's strength.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -10,7 +10,7 @@ pub enum Light {
     /// Parallel light from very far away.
     Sun {
         /// The unit direction towards the light.
-        towards: [f32; 3],
+        to_light: [f32; 3],
         /// The illuminance of a surface that faces it, in lux.
         lux: [f32; 3],
         /// Its shadows, if it casts any.
@@ -49,16 +49,16 @@ pub enum Light {
 
 /// Light that arrives at some fragments.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Arriving<const N: usize> {
+pub(super) struct IncidentLight<const N: usize> {
     /// The unit vectors to where it comes from.
-    pub(super) towards: [[f32; N]; 3],
+    pub(super) to_light: [[f32; N]; 3],
     /// The illuminance of surfaces that face it, in lux.
     pub(super) lux: [[f32; N]; 3],
 }
 
 impl Light {
     /// The illuminance that it gives every surface alike.
-    pub(crate) const fn ambient(&self) -> Option<[f32; 3]> {
+    pub(crate) const fn ambient_lux(&self) -> Option<[f32; 3]> {
         match self {
             Self::Ambient { lux } => Some(*lux),
             _ => None,
@@ -76,36 +76,42 @@ impl Light {
 
     /// What of a light with a direction arrives at places in the world.
     #[inline(always)]
-    pub(super) fn at<const N: usize>(&self, places: &[[f32; N]; 3]) -> Arriving<N> {
+    pub(super) fn incident_at<const N: usize>(&self, places: &[[f32; N]; 3]) -> IncidentLight<N> {
         match *self {
-            Self::Sun { towards, lux, .. } => {
-                Arriving { towards: in_all(towards), lux: in_all(lux) }
+            Self::Sun { to_light: towards, lux, .. } => {
+                IncidentLight { to_light: splat(towards), lux: splat(lux) }
             }
             Self::Point { position, candela, range } => {
-                from(position, places, candela, range, |_| 1.0)
+                light_from_point(position, places, candela, range, |_| 1.0)
             }
             Self::Spot { position, axis, candela, range, cosines: [full, end], .. } => {
                 // The share between the two angles is the square of a line over the cosine (KHR_lights_punctual).
                 let per = 1.0 / (full - end).max(0.001);
-                from(position, places, candela, range, |towards| {
+                light_from_point(position, places, candela, range, |towards| {
                     let share = ((-dot(axis, towards) - end) * per).clamp(0.0, 1.0);
                     share * share
                 })
             }
-            Self::Ambient { .. } => Arriving { towards: in_all([0.0; 3]), lux: in_all([0.0; 3]) },
+            Self::Ambient { .. } => {
+                IncidentLight { to_light: splat([0.0; 3]), lux: splat([0.0; 3]) }
+            }
         }
     }
 }
 
-impl<const N: usize> Arriving<N> {
+impl<const N: usize> IncidentLight<N> {
     /// Takes away what does not arrive because something is in the way.
     #[inline(always)]
-    pub(super) fn shade(&mut self, map: &ShadowMap, receivers: &Receivers<N>) {
+    pub(super) fn apply_shadow(&mut self, map: &ShadowMap, receivers: &ShadowReceiver<N>) {
         for lane in 0..N {
-            let normal = lane_of(&receivers.normals, lane);
+            let normal = lane_vector(&receivers.normals, lane);
             // From behind nothing arrives that a shadow could take away, but where slopes pretend otherwise.
-            let faces = dot(normal, lane_of(&self.towards, lane)) > 0.0;
-            let lit = if faces { map.lit(lane_of(&receivers.places, lane), normal) } else { 0.0 };
+            let faces = dot(normal, lane_vector(&self.to_light, lane)) > 0.0;
+            let lit = if faces {
+                map.visibility(lane_vector(&receivers.positions, lane), normal)
+            } else {
+                0.0
+            };
             for channel in &mut self.lux {
                 channel[lane] *= lit;
             }
@@ -116,17 +122,17 @@ impl<const N: usize> Arriving<N> {
 /// What arrives from a point: less with the square of the distance, and nothing from the range on, to which it falls off smoothly
 /// (KHR_lights_punctual). `share` is how much goes this way.
 #[inline(always)]
-fn from<const N: usize>(
+fn light_from_point<const N: usize>(
     position: [f32; 3],
     places: &[[f32; N]; 3],
     candela: [f32; 3],
     range: f32,
     share: impl Fn([f32; 3]) -> f32,
-) -> Arriving<N> {
-    let mut arriving = Arriving { towards: in_all([0.0; 3]), lux: in_all([0.0; 3]) };
+) -> IncidentLight<N> {
+    let mut arriving = IncidentLight { to_light: splat([0.0; 3]), lux: splat([0.0; 3]) };
     let per_range = 1.0 / range;
     for lane in 0..N {
-        let place = lane_of(places, lane);
+        let place = lane_vector(places, lane);
         let way = [position[0] - place[0], position[1] - place[1], position[2] - place[2]];
         let square = dot(way, way);
         let per = if square > 0.0 { 1.0 / square.sqrt() } else { 0.0 };
@@ -135,7 +141,7 @@ fn from<const N: usize>(
         let window = (1.0 - reach * reach).clamp(0.0, 1.0);
         let strength = window * per * per * share(towards);
         for axis in 0..3 {
-            arriving.towards[axis][lane] = towards[axis];
+            arriving.to_light[axis][lane] = towards[axis];
             arriving.lux[axis][lane] = candela[axis] * strength;
         }
     }
@@ -147,7 +153,7 @@ mod tests {
     use super::*;
 
     fn at(light: &Light, place: [f32; 3]) -> f32 {
-        light.at(&place.map(|c| [c])).lux[0][0]
+        light.incident_at(&place.map(|c| [c])).lux[0][0]
     }
 
     #[test]

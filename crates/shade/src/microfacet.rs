@@ -9,15 +9,15 @@
 //!  F = F0 + (F90 − F0)(1 − v·h)⁵                                               Schlick 1994
 //! ```
 
-use super::seen::{cross, dot};
+use super::fragment_lanes::{cross, dot};
 use std::f32::consts::FRAC_1_PI;
 
 /// The least perceptual roughness: below it the highlight of a light without size would have no size either.
-pub(super) const LEAST_ROUGHNESS: f32 = 0.045;
+pub(super) const MIN_ROUGHNESS: f32 = 0.045;
 
 /// The directions that meet where a light is reflected.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Meeting {
+pub(super) struct ShadingAngles {
     /// n·l, not below 0.
     pub(super) nl: f32,
     /// n·v, not below 0.
@@ -30,9 +30,9 @@ pub(super) struct Meeting {
     pub(super) sin_squared: f32,
 }
 
-impl Meeting {
+impl ShadingAngles {
     #[inline(always)]
-    pub(super) fn of(n: [f32; 3], v: [f32; 3], l: [f32; 3]) -> Self {
+    pub(super) fn new(n: [f32; 3], v: [f32; 3], l: [f32; 3]) -> Self {
         let sum = [l[0] + v[0], l[1] + v[1], l[2] + v[2]];
         let per = 1.0 / dot(sum, sum).max(1e-12).sqrt();
         let h = [sum[0] * per, sum[1] * per, sum[2] * per];
@@ -48,7 +48,7 @@ impl Meeting {
 
     /// D · V · n·l for α.
     #[inline(always)]
-    pub(super) fn lobe(&self, alpha: f32) -> f32 {
+    pub(super) fn ggx_lobe(&self, alpha: f32) -> f32 {
         let square = alpha * alpha;
         let width = (self.sin_squared + self.nh * self.nh * square).max(1e-9);
         let distribution = FRAC_1_PI * square / (width * width);
@@ -61,15 +61,15 @@ impl Meeting {
 
 /// x⁵.
 #[inline(always)]
-pub(super) fn fifth(x: f32) -> f32 {
+pub(super) fn pow5(x: f32) -> f32 {
     let square = x * x;
     square * square * x
 }
 
 /// α of a perceptual roughness.
 #[inline(always)]
-pub(super) fn alpha_of(roughness: f32) -> f32 {
-    let kept = roughness.clamp(LEAST_ROUGHNESS, 1.0);
+pub(super) fn roughness_to_alpha(roughness: f32) -> f32 {
+    let kept = roughness.clamp(MIN_ROUGHNESS, 1.0);
     kept * kept
 }
 
@@ -104,7 +104,7 @@ mod tests {
                 let wide = |a: [f32; 3]| a.map(f64::from);
                 let (v, l) = (narrow(v), narrow(l));
                 let due = by_the_book([0.0, 0.0, 1.0], wide(v), wide(l), alpha);
-                let found = Meeting::of([0.0, 0.0, 1.0], v, l).lobe(alpha as f32);
+                let found = ShadingAngles::new([0.0, 0.0, 1.0], v, l).ggx_lobe(alpha as f32);
                 assert!(
                     (f64::from(found) - due).abs() <= due * 2e-3 + 1e-6,
                     "{alpha} {t}: {found} {due}"
@@ -117,8 +117,8 @@ mod tests {
     fn no_meeting_makes_a_number_that_is_none() {
         let n = [0.0, 0.0, 1.0];
         for (v, l) in [(n, [0.0, 0.0, -1.0]), ([1.0, 0.0, 0.0], [1.0, 0.0, 0.0]), (n, n)] {
-            for alpha in [alpha_of(0.0), 1.0] {
-                let lobe = Meeting::of(n, v, l).lobe(alpha);
+            for alpha in [roughness_to_alpha(0.0), 1.0] {
+                let lobe = ShadingAngles::new(n, v, l).ggx_lobe(alpha);
                 assert!(lobe.is_finite() && lobe >= 0.0, "{lobe}");
             }
         }

@@ -26,7 +26,7 @@ impl<C: Channel> Picture<C> {
         let mut bytes = Vec::with_capacity(self.pixels.len());
         let (size, opaque) = ([self.width, self.height], self.is_opaque());
         let written =
-            encode_png(&mut bytes, size, opaque, C::BITS, |rows| rows.write(&self.pixels));
+            encode_png(&mut bytes, size, opaque, C::BITS, |rows| rows.write_pixels(&self.pixels));
         debug_assert!(written.is_ok(), "a picture always has width x height pixels: {written:?}");
         bytes
     }
@@ -45,32 +45,32 @@ impl<C: Channel> Picture<C> {
 /// # Errors
 /// If the file cannot be written; a file that was there before is then as it was.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
-    let mut draft = Draft::of(path)?;
+    let mut draft = AtomicFile::create(path)?;
     draft.write_all(bytes).map_err(|cause| OutputError { path: path.to_owned(), cause })?;
     draft.finish()
 }
 
 /// A file that is being written beside its place. It is gone if it is dropped before it is finished.
 #[derive(Debug)]
-pub struct Draft {
-    place: PathBuf,
-    beside: PathBuf,
+pub struct AtomicFile {
+    target_path: PathBuf,
+    partial_path: PathBuf,
     file: File,
-    finished: bool,
+    is_finished: bool,
 }
 
-impl Draft {
+impl AtomicFile {
     /// Begins to write what is to be the file at `place`.
     ///
     /// # Errors
     /// If no file can be made there.
-    pub fn of(place: &Path) -> Result<Self, OutputError> {
+    pub fn create(place: &Path) -> Result<Self, OutputError> {
         let mut name = place.file_name().unwrap_or_default().to_owned();
         name.push(format!(".{}.part", std::process::id()));
         let beside = place.with_file_name(name);
         let file =
             File::create(&beside).map_err(|cause| OutputError { path: place.to_owned(), cause })?;
-        Ok(Self { place: place.to_owned(), beside, file, finished: false })
+        Ok(Self { target_path: place.to_owned(), partial_path: beside, file, is_finished: false })
     }
 
     /// Puts the file in its place, whole.
@@ -78,13 +78,16 @@ impl Draft {
     /// # Errors
     /// If it cannot be put there; a file that was there before is then as it was.
     pub fn finish(mut self) -> Result<(), OutputError> {
-        let put = self.file.sync_all().and_then(|()| std::fs::rename(&self.beside, &self.place));
-        self.finished = put.is_ok();
-        put.map_err(|cause| OutputError { path: self.place.clone(), cause })
+        let put = self
+            .file
+            .sync_all()
+            .and_then(|()| std::fs::rename(&self.partial_path, &self.target_path));
+        self.is_finished = put.is_ok();
+        put.map_err(|cause| OutputError { path: self.target_path.clone(), cause })
     }
 }
 
-impl Write for Draft {
+impl Write for AtomicFile {
     fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
         self.file.write(bytes)
     }
@@ -94,11 +97,11 @@ impl Write for Draft {
     }
 }
 
-impl Drop for Draft {
+impl Drop for AtomicFile {
     fn drop(&mut self) {
-        if !self.finished {
+        if !self.is_finished {
             // Whether there is anything to remove does not matter here.
-            let _ = std::fs::remove_file(&self.beside);
+            let _ = std::fs::remove_file(&self.partial_path);
         }
     }
 }

@@ -4,28 +4,28 @@
 //! picture covers many texels, a level is read in which it covers about one, so that the texture neither shimmers nor
 //! costs more than a few fetches.
 
+mod addressing;
+mod filtering;
 mod footprint;
-mod layout;
-mod sample;
 
-use crate::color::linear_table;
-use layout::Layout;
-use model::{Image, Mipmap, Sampler};
+use crate::color::srgb_to_linear_table;
+use addressing::TexelAddressing;
+use model::{Image, MipmapMode, Sampler};
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
 /// An image at all its sizes, with the way to read it.
 #[derive(Clone, Debug)]
 pub struct MipChain<'a> {
-    levels: Vec<Level<'a>>,
-    layout: Layout,
+    levels: Vec<MipLevel<'a>>,
+    addressing: TexelAddressing,
     /// The light that the codes of colours stand for.
-    to_linear: Option<&'static [f32; 256]>,
+    srgb_table: Option<&'static [f32; 256]>,
 }
 
 /// What the codes of texels mean.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Texels {
+pub enum TexelEncoding {
     /// Red, green and blue are sRGB, alpha is linear.
     Srgb,
     /// All four are linear, from 0 to 1.
@@ -34,7 +34,7 @@ pub enum Texels {
 
 /// One size of an image: texels with straight alpha, rows from the top.
 #[derive(Clone, Debug)]
-struct Level<'a> {
+struct MipLevel<'a> {
     width: i32,
     height: i32,
     texels: Cow<'a, [[u8; 4]]>,
@@ -43,39 +43,46 @@ struct Level<'a> {
 impl<'a> MipChain<'a> {
     /// Builds the chain; only the full image if the sampler asks for no others.
     #[must_use]
-    pub fn new(image: &'a Image, sampler: Sampler, texels: Texels) -> Self {
-        let full = Level {
+    pub fn new(image: &'a Image, sampler: Sampler, texels: TexelEncoding) -> Self {
+        let full = MipLevel {
             width: image.width as i32,
             height: image.height as i32,
             texels: Cow::Borrowed(&image.rgba),
         };
         let mut levels = vec![full];
-        if sampler.mipmap != Mipmap::None {
-            let half = |level: &Level<'a>| match texels {
-                Texels::Srgb => level.half(|four| ColorMeans::shared().mean(four)),
-                Texels::Linear => level.half(mean),
+        if sampler.mipmap_mode != MipmapMode::None {
+            let half = |level: &MipLevel<'a>| match texels {
+                TexelEncoding::Srgb => {
+                    level.downsample(|four| SrgbAverager::shared().average(four))
+                }
+                TexelEncoding::Linear => level.downsample(average_texels),
             };
             while let Some(half) = levels.last().and_then(half) {
                 levels.push(half);
             }
         }
         let last = levels.len() as i32 - 1;
-        let layout = Layout { width: levels[0].width, height: levels[0].height, last, sampler };
-        let to_linear = (texels == Texels::Srgb).then(linear_table);
-        Self { levels, layout, to_linear }
+        let addressing = TexelAddressing {
+            width: levels[0].width,
+            height: levels[0].height,
+            last_level: last,
+            sampler,
+        };
+        let srgb_table = (texels == TexelEncoding::Srgb).then(srgb_to_linear_table);
+        Self { levels, addressing, srgb_table }
     }
 
     /// What decides where it is read.
     #[inline(always)]
-    pub(super) const fn layout(&self) -> &Layout {
-        &self.layout
+    pub(super) const fn addressing(&self) -> &TexelAddressing {
+        &self.addressing
     }
 }
 
-impl Level<'_> {
+impl MipLevel<'_> {
     /// This level at half size: each texel the mean of four; `None` if it is a single texel. Of an odd number of rows or
     /// columns the last one is left out.
-    fn half<'b>(&self, mean: impl Fn([[u8; 4]; 4]) -> [u8; 4]) -> Option<Level<'b>> {
+    fn downsample<'b>(&self, mean: impl Fn([[u8; 4]; 4]) -> [u8; 4]) -> Option<MipLevel<'b>> {
         if self.width == 1 && self.height == 1 {
             return None;
         }
@@ -94,12 +101,12 @@ impl Level<'_> {
             let pairs = upper.as_chunks::<2>().0.iter().zip(lower.as_chunks::<2>().0);
             texels.extend(pairs.map(|(&[a, b], &[c, d])| mean([a, b, c, d])));
         }
-        Some(Level { width, height, texels: Cow::Owned(texels) })
+        Some(MipLevel { width, height, texels: Cow::Owned(texels) })
     }
 }
 
 /// The mean of four texels of numbers.
-fn mean(four: [[u8; 4]; 4]) -> [u8; 4] {
+fn average_texels(four: [[u8; 4]; 4]) -> [u8; 4] {
     [0, 1, 2, 3].map(|k: usize| {
         let sum: u16 = four.iter().map(|texel| u16::from(texel[k])).sum();
         ((sum + 2) / 4) as u8
@@ -108,16 +115,16 @@ fn mean(four: [[u8; 4]; 4]) -> [u8; 4] {
 
 /// Tables for means of colours: 16-bit linear light of each code, and back.
 #[derive(Debug)]
-struct ColorMeans {
+struct SrgbAverager {
     linear: [u32; 256],
     codes: Vec<u8>,
 }
 
-impl ColorMeans {
+impl SrgbAverager {
     fn shared() -> &'static Self {
-        static TABLES: OnceLock<ColorMeans> = OnceLock::new();
+        static TABLES: OnceLock<SrgbAverager> = OnceLock::new();
         TABLES.get_or_init(|| {
-            let linear = linear_table().map(|light| (light * 65535.0 + 0.5) as u32);
+            let linear = srgb_to_linear_table().map(|light| (light * 65535.0 + 0.5) as u32);
             let encoder = crate::color::SrgbEncoder::shared();
             let code = |light: u16| encoder.encode(f32::from(light) / 65535.0);
             Self { linear, codes: (0..=65535).map(code).collect() }
@@ -125,12 +132,12 @@ impl ColorMeans {
     }
 
     /// The mean of four colours, in linear light.
-    fn mean(&self, four: [[u8; 4]; 4]) -> [u8; 4] {
+    fn average(&self, four: [[u8; 4]; 4]) -> [u8; 4] {
         let color = |k: usize| {
             let sum: u32 = four.iter().map(|texel| self.linear[usize::from(texel[k])]).sum();
             self.codes[((sum + 2) / 4) as usize]
         };
-        let [.., alpha] = mean(four);
+        let [.., alpha] = average_texels(four);
         [color(0), color(1), color(2), alpha]
     }
 }
@@ -138,7 +145,7 @@ impl ColorMeans {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use model::{Filter, Wrap};
+    use model::{TextureFilter, WrapMode};
 
     fn checker(size: u32) -> Image {
         let texel = |n: u32| {
@@ -155,7 +162,7 @@ mod tests {
     #[test]
     fn a_checker_from_afar_is_grey_in_linear_light() {
         let image = checker(16);
-        let chain = MipChain::new(&image, Sampler::default(), Texels::Srgb);
+        let chain = MipChain::new(&image, Sampler::default(), TexelEncoding::Srgb);
         let uvs = [[0.4, 0.4], [1.0, 0.0], [0.0, 1.0]];
         let [r, g, b, a] = sample(&chain, uvs);
         assert!((r - 0.5).abs() < 0.003 && r == g && g == b && a == 1.0, "{r}");
@@ -164,8 +171,8 @@ mod tests {
     #[test]
     fn linear_filtering_passes_through_texel_centres_and_halves_between() {
         let image = Image { width: 2, height: 1, rgba: vec![[0, 0, 0, 0], [255; 4]] };
-        let sampler = Sampler { wrap_u: Wrap::Clamp, ..Sampler::default() };
-        let chain = MipChain::new(&image, sampler, Texels::Srgb);
+        let sampler = Sampler { wrap_u: WrapMode::ClampToEdge, ..Sampler::default() };
+        let chain = MipChain::new(&image, sampler, TexelEncoding::Srgb);
         let at = |u: f32| sample(&chain, [[u, 0.5], [0.0; 2], [0.0; 2]])[0];
         assert_eq!([at(0.25), at(0.5), at(0.75), at(1.5)], [0.0, 0.5, 1.0, 1.0]);
     }
@@ -173,7 +180,7 @@ mod tests {
     #[test]
     fn coordinates_that_are_no_numbers_read_some_texel() {
         let image = checker(4);
-        let chain = MipChain::new(&image, Sampler::default(), Texels::Srgb);
+        let chain = MipChain::new(&image, Sampler::default(), TexelEncoding::Srgb);
         for u in [f32::NAN, f32::INFINITY, f32::MAX] {
             let texel = sample(&chain, [[u, 0.5]; 3]);
             assert!(texel.iter().all(|c| c.is_nan() || c.is_finite()));
@@ -185,13 +192,19 @@ mod tests {
         let texel = |n: u32| [n * 7, n * 31, n * 101, n * 59].map(|code| code as u8);
         let rgba = (0..24 * 16).map(texel).collect();
         let image = Image { width: 24, height: 16, rgba };
-        let filters = [Filter::Nearest, Filter::Linear];
-        let wraps = [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp];
-        for mipmap in [Mipmap::None, Mipmap::Nearest, Mipmap::Linear] {
+        let filters = [TextureFilter::Nearest, TextureFilter::Linear];
+        let wraps = [WrapMode::Repeat, WrapMode::MirroredRepeat, WrapMode::ClampToEdge];
+        for mipmap in [MipmapMode::None, MipmapMode::Nearest, MipmapMode::Linear] {
             for (magnify, minify) in filters.into_iter().flat_map(|a| filters.map(|b| (a, b))) {
                 for (wrap_u, wrap_v) in wraps.into_iter().flat_map(|a| wraps.map(|b| (a, b))) {
-                    let sampler = Sampler { wrap_u, wrap_v, magnify, minify, mipmap };
-                    eight_are_as_one_by_one(&MipChain::new(&image, sampler, Texels::Srgb));
+                    let sampler = Sampler {
+                        wrap_u,
+                        wrap_v,
+                        mag_filter: magnify,
+                        min_filter: minify,
+                        mipmap_mode: mipmap,
+                    };
+                    eight_are_as_one_by_one(&MipChain::new(&image, sampler, TexelEncoding::Srgb));
                 }
             }
         }

@@ -10,16 +10,16 @@
 //! shows, laid over something, that grey; where Alberti draws what is behind, it has the tint.
 
 use super::Shading;
-use super::inputs::Inputs;
-use super::seen::Wide;
+use super::fragment_lanes::FragmentPacket;
+use super::material_inputs::MaterialInputs;
 use model::{AlphaMode, MaterialExtensions};
-use raster::{Eight, Fragments, WIDE, Work};
+use raster::{F32x8, Fragments, Kernel, LANES};
 
 /// What of white light a body leaves; `scale` is how much longer things are in the world than in its mesh.
 #[inline(always)]
-pub(super) fn tint<const N: usize>(
+pub(super) fn transmission_tint<const N: usize>(
     extensions: &MaterialExtensions,
-    inputs: &Inputs<N>,
+    inputs: &MaterialInputs<N>,
     scale: f32,
     lane: usize,
 ) -> [f32; 3] {
@@ -35,41 +35,42 @@ pub(super) fn tint<const N: usize>(
 
 /// The grey that is as bright as a colour (Rec. 709).
 #[inline(always)]
-pub(super) fn grey_of([r, g, b]: [f32; 3]) -> f32 {
+pub(super) fn luminance([r, g, b]: [f32; 3]) -> f32 {
     0.2126 * r + 0.7152 * g + 0.0722 * b
 }
 
 /// What eight translucent fragments with these alphas let through.
-pub(super) struct ThroughEight<'a> {
+pub(super) struct TransmitEight<'a> {
     pub(super) shading: &'a Shading<'a>,
     pub(super) fragments: &'a Fragments<'a>,
-    pub(super) alphas: &'a Eight,
+    pub(super) alphas: &'a F32x8,
 }
 
-impl Work for ThroughEight<'_> {
-    type Output = [Eight; 3];
+impl Kernel for TransmitEight<'_> {
+    type Output = [F32x8; 3];
 
     #[inline(always)]
-    fn run(self) -> [Eight; 3] {
+    fn run(self) -> [F32x8; 3] {
         let Self { shading, fragments, alphas } = self;
         let mut through = [alphas.map(|alpha| 1.0 - alpha); 3];
-        let mut done = [false; WIDE];
+        let mut done = [false; LANES];
         while let Some(first) = done.iter().position(|&is_done| !is_done) {
-            let (draw, ids, own) = shading.draws.lanes_of(fragments, first);
-            for lane in 0..WIDE {
+            let (draw, ids, own) = shading.draws.select_draw_lanes(fragments, first);
+            for lane in 0..LANES {
                 done[lane] |= own[lane];
             }
-            if !draw.material.transmits() {
+            if !draw.material.is_transmissive() {
                 continue;
             }
-            let items = draw.items(&ids, fragments.are_of_one());
+            let items = draw.primitive_indices(&ids, fragments.is_single_primitive());
             let is_blended = draw.material.alpha_mode == AlphaMode::Blend;
-            let corners = draw.corners(&items);
-            let inputs = Inputs::of(draw, &corners, &Wide::new(fragments));
-            for lane in (0..WIDE).filter(|&lane| own[lane]) {
+            let corners = draw.vertex_indices(&items);
+            let inputs = MaterialInputs::evaluate(draw, &corners, &FragmentPacket::new(fragments));
+            for lane in (0..LANES).filter(|&lane| own[lane]) {
                 let there = if is_blended { inputs.base[3][lane] } else { 1.0 };
-                let tint = tint(&draw.material.extensions, &inputs, draw.scale, lane);
-                let passing = (there - alphas[lane]) / grey_of(tint);
+                let tint =
+                    transmission_tint(&draw.material.extensions, &inputs, draw.world_scale, lane);
+                let passing = (there - alphas[lane]) / luminance(tint);
                 // Grey passes as it is, and so does what no number tells.
                 if passing.is_finite() && (tint[0] != tint[1] || tint[1] != tint[2]) {
                     for channel in 0..3 {

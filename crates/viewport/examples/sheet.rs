@@ -5,7 +5,7 @@
 
 use homog::Point;
 use viewport::{
-    DepthRange, DrawingScale, Fit, Paper, PixelConvention, Rectangle, Resolution, Viewport,
+    DepthRange, DrawingScale, FitPolicy, Paper, PixelConvention, Rectangle, Resolution, Viewport,
     ViewportError,
 };
 
@@ -15,10 +15,10 @@ const VIEWS: [(&str, [f64; 2]); 3] =
 
 fn main() -> Result<(), ViewportError> {
     let print = Resolution::dots_per_inch(150.0)?;
-    let sheet = Paper::A4.turned();
-    let cells: Vec<Rectangle> = sheet.area().shrunk(10.0)?.grid(3, 1, 5.0)?.collect();
+    let sheet = Paper::A4.rotated();
+    let cells: Vec<Rectangle> = sheet.to_rectangle().shrink(10.0)?.split_grid(3, 1, 5.0)?.collect();
     println!("A4 on its side, {} by {} mm", sheet.width(), sheet.height());
-    if let Some([width, height]) = sheet.pixels(print) {
+    if let Some([width, height]) = sheet.pixel_size(print) {
         println!("at 150 dots per inch: {width} by {height} pixels\n");
     }
 
@@ -30,16 +30,19 @@ fn main() -> Result<(), ViewportError> {
         println!("the house is too large for the sheet");
         return Ok(());
     };
-    println!("scale {scale}: the front, 9 m wide, is {} mm on paper\n", scale.to_paper(9_000.0));
+    println!(
+        "scale {scale}: the front, 9 m wide, is {} mm on paper\n",
+        scale.to_paper_length(9_000.0)
+    );
 
     for ((name, size), cell) in VIEWS.iter().zip(cells) {
         // The window that fills the cell at this scale, and the viewport it is drawn on.
-        let window = [scale.to_thing(cell.width()), scale.to_thing(cell.height())];
-        let on_paper = size.map(|length| scale.to_paper(length));
-        let place = Fit::Contain.place(window, cell, [0.5, 0.5])?;
-        let pixels = print.rectangle(place)?.snapped()?;
+        let window = [scale.to_object_length(cell.width()), scale.to_object_length(cell.height())];
+        let on_paper = size.map(|length| scale.to_paper_length(length));
+        let place = FitPolicy::Contain.place_picture(window, cell, [0.5, 0.5])?;
+        let pixels = print.to_pixel_rectangle(place)?.snap_to_pixels()?;
         let view = Viewport::new(pixels, PixelConvention::IMAGE, DepthRange::ZERO_ONE);
-        let corner = view.ndc_to_screen().point(Point::new(-1.0, 1.0, 0.0));
+        let corner = view.ndc_to_screen().transform_point(Point::new(-1.0, 1.0, 0.0));
         println!(
             "{name:>6}: {:5.1} by {:5.1} mm of {:5.1} by {:5.1} mm,",
             on_paper[0],

@@ -48,19 +48,22 @@ pub enum ViewportError {
     },
 }
 
-pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64, ViewportError> {
+pub(crate) fn check_finite(name: &'static str, value: f64) -> Result<f64, ViewportError> {
     if value.is_finite() { Ok(value) } else { Err(ViewportError::NotFinite { name, value }) }
 }
 
-pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, ViewportError> {
-    finite(name, value)?;
+pub(crate) fn check_positive(name: &'static str, value: f64) -> Result<f64, ViewportError> {
+    check_finite(name, value)?;
     if value > 0.0 { Ok(value) } else { Err(ViewportError::NotPositive { name, value }) }
 }
 
 /// Both ends of an interval, which must differ.
-pub(crate) fn interval(name: &'static str, ends: [f64; 2]) -> Result<[f64; 2], ViewportError> {
+pub(crate) fn check_interval(
+    name: &'static str,
+    ends: [f64; 2],
+) -> Result<[f64; 2], ViewportError> {
     let [start, end] = ends;
-    finite(name, start)?;
-    finite(name, end)?;
+    check_finite(name, start)?;
+    check_finite(name, end)?;
     if start == end { Err(ViewportError::Empty { name, value: start }) } else { Ok(ends) }
 }

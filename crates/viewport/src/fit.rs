@@ -15,12 +15,12 @@
 //!                 margins      the sides
 //! ```
 
-use crate::error::{finite, positive};
+use crate::error::{check_finite, check_positive};
 use crate::{Rectangle, ViewportError};
 
 /// How a picture is fitted into a place of another shape.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub enum Fit {
+pub enum FitPolicy {
     /// Fill the place and let circles become ellipses.
     Stretch,
     /// As large as possible with nothing cut off; margins remain (letterbox). Default.
@@ -34,7 +34,7 @@ pub enum Fit {
     FixedHeight,
 }
 
-impl Fit {
+impl FitPolicy {
     /// The rectangle to draw a picture of this size (only its shape counts) on, so that it fits `place`.
     ///
     /// `align` says where the spare room goes, as fractions of it on x and y: `[0.5, 0.5]` centres, `[0.0, 0.0]` puts
@@ -50,15 +50,15 @@ impl Fit {
     ///
     /// # Errors
     /// If a number is not finite, or a size not greater than 0.
-    pub fn place(
+    pub fn place_picture(
         self,
         picture: [f64; 2],
         place: Rectangle,
         align: [f64; 2],
     ) -> Result<Rectangle, ViewportError> {
-        finite("horizontal alignment", align[0])?;
-        finite("vertical alignment", align[1])?;
-        let (sx, sy) = factors(picture, place)?;
+        check_finite("horizontal alignment", align[0])?;
+        check_finite("vertical alignment", align[1])?;
+        let (sx, sy) = scale_factors(picture, place)?;
         let [sx, sy] = match self {
             Self::Stretch => [sx, sy],
             Self::Contain => [sx.min(sy); 2],
@@ -87,8 +87,8 @@ impl Fit {
     ///
     /// # Errors
     /// If a size is not finite or not greater than 0.
-    pub fn window(self, window: [f64; 2], place: Rectangle) -> Result<[f64; 2], ViewportError> {
-        let (sx, sy) = factors(window, place)?;
+    pub fn fit_window(self, window: [f64; 2], place: Rectangle) -> Result<[f64; 2], ViewportError> {
+        let (sx, sy) = scale_factors(window, place)?;
         let factor = match self {
             Self::Stretch => return Ok(window),
             Self::Contain => sx.min(sy),
@@ -97,15 +97,15 @@ impl Fit {
             Self::FixedHeight => sy,
         };
         let size = [place.width() / factor, place.height() / factor];
-        Ok([positive("window width", size[0])?, positive("window height", size[1])?])
+        Ok([check_positive("window width", size[0])?, check_positive("window height", size[1])?])
     }
 }
 
 /// What takes the picture's width and height to those of the place.
-fn factors(picture: [f64; 2], place: Rectangle) -> Result<(f64, f64), ViewportError> {
-    let sx = place.width() / positive("picture width", picture[0])?;
-    let sy = place.height() / positive("picture height", picture[1])?;
-    Ok((positive("horizontal factor", sx)?, positive("vertical factor", sy)?))
+fn scale_factors(picture: [f64; 2], place: Rectangle) -> Result<(f64, f64), ViewportError> {
+    let sx = place.width() / check_positive("picture width", picture[0])?;
+    let sy = place.height() / check_positive("picture height", picture[1])?;
+    Ok((check_positive("horizontal factor", sx)?, check_positive("vertical factor", sy)?))
 }
 
 #[cfg(test)]
@@ -117,30 +117,31 @@ mod tests {
         let tall = Rectangle::new(10.0, 20.0, 100.0, 200.0).expect("a place");
         // (policy, the picture 4:2 on the place, the window 4 by 2 made to fill it)
         let table = [
-            (Fit::Stretch, [10.0, 20.0, 100.0, 200.0], [4.0, 2.0]),
-            (Fit::Contain, [10.0, 95.0, 100.0, 50.0], [4.0, 8.0]),
-            (Fit::Cover, [-140.0, 20.0, 400.0, 200.0], [1.0, 2.0]),
-            (Fit::FixedWidth, [10.0, 95.0, 100.0, 50.0], [4.0, 8.0]),
-            (Fit::FixedHeight, [-140.0, 20.0, 400.0, 200.0], [1.0, 2.0]),
+            (FitPolicy::Stretch, [10.0, 20.0, 100.0, 200.0], [4.0, 2.0]),
+            (FitPolicy::Contain, [10.0, 95.0, 100.0, 50.0], [4.0, 8.0]),
+            (FitPolicy::Cover, [-140.0, 20.0, 400.0, 200.0], [1.0, 2.0]),
+            (FitPolicy::FixedWidth, [10.0, 95.0, 100.0, 50.0], [4.0, 8.0]),
+            (FitPolicy::FixedHeight, [-140.0, 20.0, 400.0, 200.0], [1.0, 2.0]),
         ];
         for (fit, [x, y, width, height], window) in table {
             let expected = Rectangle::new(x, y, width, height);
-            assert_eq!(fit.place([4.0, 2.0], tall, [0.5, 0.5]), expected, "{fit:?}");
-            assert_eq!(fit.window([4.0, 2.0], tall), Ok(window), "{fit:?}");
+            assert_eq!(fit.place_picture([4.0, 2.0], tall, [0.5, 0.5]), expected, "{fit:?}");
+            assert_eq!(fit.fit_window([4.0, 2.0], tall), Ok(window), "{fit:?}");
         }
     }
 
     #[test]
     fn spare_room_goes_where_it_is_told() {
-        let wide = Rectangle::of_size(300.0, 100.0).expect("a place");
+        let wide = Rectangle::from_size(300.0, 100.0).expect("a place");
         for (align, x) in [(0.0, 0.0), (0.5, 100.0), (1.0, 200.0)] {
-            let square = Fit::Contain.place([1.0, 1.0], wide, [align, 0.5]).expect("fits");
+            let square =
+                FitPolicy::Contain.place_picture([1.0, 1.0], wide, [align, 0.5]).expect("fits");
             assert_eq!((square.x(), square.width(), square.height()), (x, 100.0, 100.0));
         }
         for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(Fit::Contain.place([bad, 1.0], wide, [0.5, 0.5]).is_err());
-            assert!(Fit::Cover.window([1.0, bad], wide).is_err());
+            assert!(FitPolicy::Contain.place_picture([bad, 1.0], wide, [0.5, 0.5]).is_err());
+            assert!(FitPolicy::Cover.fit_window([1.0, bad], wide).is_err());
         }
-        assert!(Fit::Contain.place([1.0, 1.0], wide, [f64::NAN, 0.5]).is_err());
+        assert!(FitPolicy::Contain.place_picture([1.0, 1.0], wide, [f64::NAN, 0.5]).is_err());
     }
 }

@@ -58,27 +58,27 @@
 #[cfg(test)]
 extern crate std;
 
-mod convention;
-mod depth;
+mod depth_range;
 mod error;
 mod fit;
-mod grid;
-mod page;
+mod page_layout;
 mod paper;
-mod pick;
+mod pixel_convention;
+mod point_grid;
 mod rectangle;
 mod tile;
-mod view;
-mod window;
+mod unproject;
+mod viewport;
+mod window_to_viewport;
 
-pub use convention::{PixelCentres, PixelConvention, YAxis};
-pub use depth::DepthRange;
+pub use depth_range::DepthRange;
 pub use error::ViewportError;
-pub use fit::Fit;
-pub use grid::Grid;
-pub use paper::{DrawingScale, MILLIMETRES_PER_INCH, Paper, Resolution};
-pub use pick::{Ray, Unprojector};
+pub use fit::FitPolicy;
+pub use paper::{DrawingScale, MILLIMETERS_PER_INCH, Paper, Resolution};
+pub use pixel_convention::{PixelCenters, PixelConvention, YAxis};
+pub use point_grid::PointGrid;
 pub use rectangle::Rectangle;
 pub use tile::{Tile, tiles};
-pub use view::Viewport;
-pub use window::{Limits, WindowToViewport};
+pub use unproject::{Ray, Unprojector};
+pub use viewport::Viewport;
+pub use window_to_viewport::{Limits, WindowToViewport};

@@ -1,11 +1,11 @@
 //! Paper: millimetres, dots per inch, and drawings to scale 1:n.
 
-use crate::error::positive;
+use crate::error::check_positive;
 use crate::{Rectangle, ViewportError};
 use core::fmt;
 
 /// Millimetres in an inch, by definition.
-pub const MILLIMETRES_PER_INCH: f64 = 25.4;
+pub const MILLIMETERS_PER_INCH: f64 = 25.4;
 
 /// How many dots a device has on a length.
 #[derive(Clone, Copy, PartialEq, PartialOrd, Debug)]
@@ -19,28 +19,28 @@ impl Resolution {
     /// # Errors
     /// If it is not finite or not greater than 0.
     pub fn dots_per_inch(dpi: f64) -> Result<Self, ViewportError> {
-        Ok(Self { dots_per_inch: positive("dots per inch", dpi)? })
+        Ok(Self { dots_per_inch: check_positive("dots per inch", dpi)? })
     }
 
     /// The dots on this many millimetres.
     #[must_use]
-    pub fn dots(self, millimetres: f64) -> f64 {
-        millimetres * self.dots_per_inch / MILLIMETRES_PER_INCH
+    pub fn to_dots(self, millimetres: f64) -> f64 {
+        millimetres * self.dots_per_inch / MILLIMETERS_PER_INCH
     }
 
     /// The millimetres this many dots take.
     #[must_use]
-    pub fn millimetres(self, dots: f64) -> f64 {
-        dots * MILLIMETRES_PER_INCH / self.dots_per_inch
+    pub fn to_millimeters(self, dots: f64) -> f64 {
+        dots * MILLIMETERS_PER_INCH / self.dots_per_inch
     }
 
     /// A rectangle of millimetres in dots.
     ///
     /// # Errors
     /// If the result is no finite rectangle.
-    pub fn rectangle(self, millimetres: Rectangle) -> Result<Rectangle, ViewportError> {
-        let [x, y] = [millimetres.x(), millimetres.y()].map(|mm| self.dots(mm));
-        Rectangle::new(x, y, self.dots(millimetres.width()), self.dots(millimetres.height()))
+    pub fn to_pixel_rectangle(self, millimetres: Rectangle) -> Result<Rectangle, ViewportError> {
+        let [x, y] = [millimetres.x(), millimetres.y()].map(|mm| self.to_dots(mm));
+        Rectangle::new(x, y, self.to_dots(millimetres.width()), self.to_dots(millimetres.height()))
     }
 }
 
@@ -75,14 +75,14 @@ impl Paper {
     /// If a size is not finite or not greater than 0.
     pub fn new(width: f64, height: f64) -> Result<Self, ViewportError> {
         Ok(Self {
-            width: positive("paper width", width)?,
-            height: positive("paper height", height)?,
+            width: check_positive("paper width", width)?,
+            height: check_positive("paper height", height)?,
         })
     }
 
     /// The same sheet turned by a right angle.
     #[must_use]
-    pub const fn turned(self) -> Self {
+    pub const fn rotated(self) -> Self {
         Self { width: self.height, height: self.width }
     }
 
@@ -100,15 +100,15 @@ impl Paper {
 
     /// The sheet as a rectangle of millimetres with its corner at the origin.
     #[must_use]
-    pub fn area(self) -> Rectangle {
-        Rectangle::trusted(0.0, 0.0, self.width, self.height)
+    pub fn to_rectangle(self) -> Rectangle {
+        Rectangle::new_unchecked(0.0, 0.0, self.width, self.height)
     }
 
     /// The whole pixels that come nearest to the sheet, at least one; `None` if they are too many to count.
     #[must_use]
-    pub fn pixels(self, resolution: Resolution) -> Option<[u32; 2]> {
+    pub fn pixel_size(self, resolution: Resolution) -> Option<[u32; 2]> {
         let count = |millimetres: f64| {
-            let dots = libm::round(resolution.dots(millimetres)).max(1.0);
+            let dots = libm::round(resolution.to_dots(millimetres)).max(1.0);
             (dots <= f64::from(u32::MAX)).then_some(dots as u32)
         };
         Some([count(self.width)?, count(self.height)?])
@@ -133,27 +133,27 @@ pub struct DrawingScale {
 impl DrawingScale {
     /// The scales of technical drawing, largest first (ISO 5455).
     pub const STANDARD: [Self; 18] = [
-        Self::of(50, 1),
-        Self::of(20, 1),
-        Self::of(10, 1),
-        Self::of(5, 1),
-        Self::of(2, 1),
-        Self::of(1, 1),
-        Self::of(1, 2),
-        Self::of(1, 5),
-        Self::of(1, 10),
-        Self::of(1, 20),
-        Self::of(1, 50),
-        Self::of(1, 100),
-        Self::of(1, 200),
-        Self::of(1, 500),
-        Self::of(1, 1000),
-        Self::of(1, 2000),
-        Self::of(1, 5000),
-        Self::of(1, 10_000),
+        Self::from_ratio(50, 1),
+        Self::from_ratio(20, 1),
+        Self::from_ratio(10, 1),
+        Self::from_ratio(5, 1),
+        Self::from_ratio(2, 1),
+        Self::from_ratio(1, 1),
+        Self::from_ratio(1, 2),
+        Self::from_ratio(1, 5),
+        Self::from_ratio(1, 10),
+        Self::from_ratio(1, 20),
+        Self::from_ratio(1, 50),
+        Self::from_ratio(1, 100),
+        Self::from_ratio(1, 200),
+        Self::from_ratio(1, 500),
+        Self::from_ratio(1, 1000),
+        Self::from_ratio(1, 2000),
+        Self::from_ratio(1, 5000),
+        Self::from_ratio(1, 10_000),
     ];
 
-    const fn of(paper: u32, thing: u32) -> Self {
+    const fn from_ratio(paper: u32, thing: u32) -> Self {
         Self { paper, thing }
     }
 
@@ -162,8 +162,8 @@ impl DrawingScale {
     /// # Errors
     /// If one of them is 0.
     pub fn new(paper: u32, thing: u32) -> Result<Self, ViewportError> {
-        positive("scale on paper", paper.into())?;
-        positive("scale of the thing", thing.into())?;
+        check_positive("scale on paper", paper.into())?;
+        check_positive("scale of the thing", thing.into())?;
         Ok(Self { paper, thing })
     }
 
@@ -172,7 +172,7 @@ impl DrawingScale {
     #[must_use]
     pub fn largest_standard(thing: [f64; 2], room: [f64; 2]) -> Option<Self> {
         let fits = |scale: &&Self| {
-            scale.to_paper(thing[0]) <= room[0] && scale.to_paper(thing[1]) <= room[1]
+            scale.to_paper_length(thing[0]) <= room[0] && scale.to_paper_length(thing[1]) <= room[1]
         };
         Self::STANDARD.iter().find(fits).copied()
     }
@@ -185,14 +185,14 @@ impl DrawingScale {
 
     /// How long a length of the thing is on paper, in the same unit.
     #[must_use]
-    pub fn to_paper(self, length: f64) -> f64 {
+    pub fn to_paper_length(self, length: f64) -> f64 {
         length * f64::from(self.paper) / f64::from(self.thing)
     }
 
     /// How long what is this long on paper is in truth, in the same unit. The size of a viewport, taken so, is the
     /// window an orthographic projection needs to be drawn to scale.
     #[must_use]
-    pub fn to_thing(self, length: f64) -> f64 {
+    pub fn to_object_length(self, length: f64) -> f64 {
         length * f64::from(self.thing) / f64::from(self.paper)
     }
 }
@@ -210,12 +210,12 @@ mod tests {
     #[test]
     fn an_inch_has_its_dots_and_a_sheet_its_pixels() {
         let print = Resolution::dots_per_inch(300.0).expect("positive");
-        assert_eq!(print.dots(25.4), 300.0);
-        assert_eq!(print.millimetres(300.0), 25.4);
-        assert_eq!(Paper::A4.pixels(print), Some([2480, 3508]));
-        assert_eq!(Paper::A4.turned().pixels(print), Some([3508, 2480]));
+        assert_eq!(print.to_dots(25.4), 300.0);
+        assert_eq!(print.to_millimeters(300.0), 25.4);
+        assert_eq!(Paper::A4.pixel_size(print), Some([2480, 3508]));
+        assert_eq!(Paper::A4.rotated().pixel_size(print), Some([3508, 2480]));
         let absurd = Resolution::dots_per_inch(1e12).expect("positive");
-        assert_eq!(Paper::A4.pixels(absurd), None);
+        assert_eq!(Paper::A4.pixel_size(absurd), None);
         for bad in [0.0, -300.0, f64::NAN, f64::INFINITY] {
             assert!(Resolution::dots_per_inch(bad).is_err() && Paper::new(bad, 1.0).is_err());
         }
@@ -224,9 +224,12 @@ mod tests {
     #[test]
     fn a_hundred_millimetres_measure_a_hundred_at_one_to_one() {
         let one = DrawingScale::new(1, 1).expect("not 0");
-        assert_eq!(one.to_paper(100.0), 100.0);
+        assert_eq!(one.to_paper_length(100.0), 100.0);
         for scale in DrawingScale::STANDARD {
-            assert!((scale.to_thing(scale.to_paper(0.3)) - 0.3).abs() < 1e-16, "{scale}");
+            assert!(
+                (scale.to_object_length(scale.to_paper_length(0.3)) - 0.3).abs() < 1e-16,
+                "{scale}"
+            );
         }
         assert!(DrawingScale::STANDARD.windows(2).all(|pair| pair[0].ratio() > pair[1].ratio()));
     }
@@ -235,10 +238,10 @@ mod tests {
     fn the_largest_standard_scale_that_fits() {
         let room = [190.0, 277.0];
         let scale = |thing| DrawingScale::largest_standard(thing, room);
-        assert_eq!(scale([190.0, 277.0]), Some(DrawingScale::of(1, 1)));
-        assert_eq!(scale([190.1, 277.0]), Some(DrawingScale::of(1, 2)));
-        assert_eq!(scale([30.0, 30.0]), Some(DrawingScale::of(5, 1)));
-        assert_eq!(scale([8000.0, 12_000.0]), Some(DrawingScale::of(1, 50)));
+        assert_eq!(scale([190.0, 277.0]), Some(DrawingScale::from_ratio(1, 1)));
+        assert_eq!(scale([190.1, 277.0]), Some(DrawingScale::from_ratio(1, 2)));
+        assert_eq!(scale([30.0, 30.0]), Some(DrawingScale::from_ratio(5, 1)));
+        assert_eq!(scale([8000.0, 12_000.0]), Some(DrawingScale::from_ratio(1, 50)));
         assert_eq!(scale([1e9, 1.0]), None);
         assert_eq!(scale([f64::NAN, 1.0]), None);
         assert!(DrawingScale::new(1, 0).is_err() && DrawingScale::new(0, 1).is_err());

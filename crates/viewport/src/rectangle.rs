@@ -1,7 +1,7 @@
 //! Rectangles of pixels, of paper, of windows.
 
 use crate::ViewportError;
-use crate::error::{finite, positive};
+use crate::error::{check_finite, check_positive};
 
 /// A rectangle with sides along the axes, by its corner of least coordinates and its size.
 ///
@@ -16,8 +16,8 @@ pub struct Rectangle {
     height: f64,
 }
 
-const LARGEST: f64 = 1e100;
-const SMALLEST: f64 = 1e-100;
+const MAX_EXTENT: f64 = 1e100;
+const MIN_EXTENT: f64 = 1e-100;
 
 impl Rectangle {
     /// The rectangle [x, x + width] × [y, y + height].
@@ -26,12 +26,12 @@ impl Rectangle {
     /// If a number is not finite or too large, or a size is not greater than 0 or too small.
     pub fn new(x: f64, y: f64, width: f64, height: f64) -> Result<Self, ViewportError> {
         for (name, value) in [("x", x), ("y", y)] {
-            if finite(name, value)?.abs() > LARGEST {
+            if check_finite(name, value)?.abs() > MAX_EXTENT {
                 return Err(ViewportError::OutOfRange { name });
             }
         }
         for (name, value) in [("width", width), ("height", height)] {
-            if !(SMALLEST..=LARGEST).contains(&positive(name, value)?) {
+            if !(MIN_EXTENT..=MAX_EXTENT).contains(&check_positive(name, value)?) {
                 return Err(ViewportError::OutOfRange { name });
             }
         }
@@ -42,12 +42,12 @@ impl Rectangle {
     ///
     /// # Errors
     /// If a size is not finite or not greater than 0.
-    pub fn of_size(width: f64, height: f64) -> Result<Self, ViewportError> {
+    pub fn from_size(width: f64, height: f64) -> Result<Self, ViewportError> {
         Self::new(0.0, 0.0, width, height)
     }
 
     /// The rectangle of numbers that are known to be right.
-    pub(crate) const fn trusted(x: f64, y: f64, width: f64, height: f64) -> Self {
+    pub(crate) const fn new_unchecked(x: f64, y: f64, width: f64, height: f64) -> Self {
         Self { x, y, width, height }
     }
 
@@ -83,7 +83,7 @@ impl Rectangle {
 
     /// The point in the middle.
     #[must_use]
-    pub fn centre(&self) -> [f64; 2] {
+    pub fn center(&self) -> [f64; 2] {
         [self.x + self.width / 2.0, self.y + self.height / 2.0]
     }
 

@@ -21,7 +21,7 @@ impl Tile {
     pub fn area(self) -> Rectangle {
         let [x, y, width, height] =
             [self.x, self.y, self.width.max(1), self.height.max(1)].map(f64::from);
-        Rectangle::trusted(x, y, width, height)
+        Rectangle::new_unchecked(x, y, width, height)
     }
 }
 
@@ -64,16 +64,16 @@ impl Viewport {
     pub fn for_tile(&self, tile: Tile) -> Self {
         let (area, part) = (self.area(), tile.area());
         let (x, y) = (area.x() - part.x(), area.y() - part.y());
-        let moved = Rectangle::trusted(x, y, area.width(), area.height());
+        let moved = Rectangle::new_unchecked(x, y, area.width(), area.height());
         Self::new(moved, self.convention(), self.depth())
     }
 
     /// The tile's borders in the coordinates of this viewport's convention, for [`Self::pick_matrix`].
     #[must_use]
     pub fn tile_area(&self, tile: Tile) -> Rectangle {
-        let PixelConvention { centres, .. } = self.convention();
+        let PixelConvention { centers: centres, .. } = self.convention();
         let area = tile.area();
-        let (x, y) = (area.x() + centres.border(), area.y() + centres.border());
-        Rectangle::trusted(x, y, area.width(), area.height())
+        let (x, y) = (area.x() + centres.image_border(), area.y() + centres.image_border());
+        Rectangle::new_unchecked(x, y, area.width(), area.height())
     }
 }

@@ -2,8 +2,10 @@
 //! one passes.
 
 use glam::{DMat3, DMat4, DVec2, DVec4};
-use homog::{Affine, Hom2, Homography, Ndc, Point, Projective, Vector, View};
-use viewport::{DepthRange, Grid, Limits, PixelConvention, Rectangle, Viewport, WindowToViewport};
+use homog::{Affine, HPoint2, Homography, Ndc, Point, Projective, Vector, View};
+use viewport::{
+    DepthRange, Limits, PixelConvention, PointGrid, Rectangle, Viewport, WindowToViewport,
+};
 
 fn rows(rows: [[f64; 4]; 4]) -> DMat4 {
     DMat4::from_cols_array_2d(&rows).transpose()
@@ -29,8 +31,8 @@ fn exercise_1_y_counts_from_the_top() {
         [0.0, 0.0, 0.0, 1.0],
     ]);
     assert_eq!(down.raw(), expected);
-    assert_eq!(down.point(Point::new(0.0, 1.0, 0.0)).y(), -0.5);
-    assert_eq!(down.point(Point::new(0.0, -1.0, 0.0)).y(), 479.5);
+    assert_eq!(down.transform_point(Point::new(0.0, 1.0, 0.0)).y(), -0.5);
+    assert_eq!(down.transform_point(Point::new(0.0, -1.0, 0.0)).y(), 479.5);
 }
 
 /// C39: viewport after orthographic projection is one windowing from the view volume to the image.
@@ -55,11 +57,14 @@ fn misprint_m18_the_chain_moves_the_window_to_the_origin_by_minus_and_minus() {
     let window = Limits { x: [-1.0, 3.0], y: [2.0, 4.0] };
     let map =
         WindowToViewport::new(window, Limits { x: [0.0, 8.0], y: [0.0, 4.0] }).expect("not empty");
-    let corner = Hom2::place(-1.0, 2.0);
-    assert_eq!(map.homography().apply(corner).divide(), Some([0.0, 0.0]));
-    let [_, scale, to_place] = map.chain();
+    let corner = HPoint2::from_xy(-1.0, 2.0);
+    assert_eq!(map.homography().transform_point(corner).divide(), Some([0.0, 0.0]));
+    let [_, scale, to_place] = map.factor_chain();
     let printed = Homography::from_raw(DMat3::from_translation(DVec2::new(1.0, 2.0)));
-    assert_ne!(printed.then(scale).then(to_place).apply(corner).divide(), Some([0.0, 0.0]));
+    assert_ne!(
+        printed.then(scale).then(to_place).transform_point(corner).divide(),
+        Some([0.0, 0.0])
+    );
 }
 
 /// M21: gluOrtho2D takes the four borders of a window; the box of six is glOrtho's. With near −1 and far 1 they are
@@ -69,27 +74,33 @@ fn misprint_m21_four_borders_make_a_window_and_six_a_box() {
     let flat = orthographic([-2.0, 4.0], [-1.0, 2.0], [1.0, -1.0]);
     let deep = orthographic([-2.0, 4.0], [-1.0, 2.0], [-1.0, -5.0]);
     let p = Point::new(0.5, 0.75, -2.0);
-    assert_eq!((flat.point(p).x(), flat.point(p).y()), (deep.point(p).x(), deep.point(p).y()));
-    assert_eq!(flat.point(p).z(), p.z());
-    assert_ne!(deep.point(p).z(), p.z());
+    assert_eq!(
+        (flat.transform_point(p).x(), flat.transform_point(p).y()),
+        (deep.transform_point(p).x(), deep.transform_point(p).y())
+    );
+    assert_eq!(flat.transform_point(p).z(), p.z());
+    assert_ne!(deep.transform_point(p).z(), p.z());
 }
 
 /// M22, C100, DP-1: (1 − Z)/2 takes the chapter's near plane (+1) to 0; on OpenGL's (−1) it gives 1, and (1 + Z)/2 is due.
 #[test]
 fn misprint_m22_which_depth_formula_fits_depends_on_where_near_is() {
     let (chapter_near, opengl_near) = (1.0, -1.0);
-    assert_eq!(DepthRange::ZERO_ONE_FLIPPED.of(chapter_near), 0.0);
-    assert_eq!(DepthRange::ZERO_ONE_FLIPPED.of(opengl_near), 1.0, "near would be far");
-    assert_eq!(DepthRange::ZERO_ONE.of(opengl_near), 0.0);
-    let negate = DepthRange::NEGATED.of(chapter_near);
-    assert_eq!(DepthRange::ZERO_ONE.of(negate), DepthRange::ZERO_ONE_FLIPPED.of(chapter_near));
+    assert_eq!(DepthRange::ZERO_ONE_FLIPPED.ndc_to_depth(chapter_near), 0.0);
+    assert_eq!(DepthRange::ZERO_ONE_FLIPPED.ndc_to_depth(opengl_near), 1.0, "near would be far");
+    assert_eq!(DepthRange::ZERO_ONE.ndc_to_depth(opengl_near), 0.0);
+    let negate = DepthRange::NEGATED.ndc_to_depth(chapter_near);
+    assert_eq!(
+        DepthRange::ZERO_ONE.ndc_to_depth(negate),
+        DepthRange::ZERO_ONE_FLIPPED.ndc_to_depth(chapter_near)
+    );
 }
 
 /// M23, C98, WV-4: rows divide by rows − 1 and columns by columns − 1, and the last index is one less than the count.
 #[test]
 fn misprint_m23_counts_are_not_paired_crosswise() {
     let (rows, columns) = (3, 5);
-    let grid = Grid::new(rows, columns).expect("two at least");
+    let grid = PointGrid::new(rows, columns).expect("two at least");
     assert_eq!(grid.xz(rows - 1, columns - 1), Some([1.0, 1.0]));
     assert_eq!(grid.xz(rows, columns), None);
     let crosswise = 2.0 * (rows - 1) as f64 / (columns - 1) as f64 - 1.0;
@@ -101,11 +112,11 @@ fn misprint_m23_counts_are_not_paired_crosswise() {
 /// C99: an orthographic box on a viewport with its own origin and size, two of them on one image.
 #[test]
 fn several_viewports_on_one_image() {
-    let page = Rectangle::of_size(800.0, 300.0).expect("a page");
-    let cells: Vec<Rectangle> = page.grid(2, 1, 0.0).expect("room").collect();
+    let page = Rectangle::from_size(800.0, 300.0).expect("a page");
+    let cells: Vec<Rectangle> = page.split_grid(2, 1, 0.0).expect("room").collect();
     let right_edge = |area| {
         let view = Viewport::new(area, PixelConvention::OPENGL, DepthRange::ZERO_ONE);
-        view.ndc_to_screen().point(Point::new(1.0, -1.0, -1.0))
+        view.ndc_to_screen().transform_point(Point::new(1.0, -1.0, -1.0))
     };
     assert_eq!(
         cells.into_iter().map(right_edge).collect::<Vec<_>>(),
@@ -119,9 +130,9 @@ fn rays_of_a_parallel_projection_are_parallel() {
     let to_ndc = orthographic([-2.0, 4.0], [-1.0, 2.0], [-1.0, -5.0]).raw();
     let clip_to_view = Projective::from_raw(to_ndc).inverse().expect("regular");
     let back = Viewport::image(640, 480).expect("has pixels").unprojector::<View>(clip_to_view);
-    assert_eq!(back.centre().w(), 0.0);
+    assert_eq!(back.center_of_projection().w(), 0.0);
     for pixel in [[0.0, 0.0], [320.0, 240.0], [640.0, 480.0]] {
-        let ray = back.ray(pixel, [1.0, -1.0]).expect("there is one");
+        let ray = back.pick_ray(pixel, [1.0, -1.0]).expect("there is one");
         assert_eq!(ray.direction, -Vector::Z);
         assert_eq!(ray.origin, ray.near);
         assert_eq!(ray.near.z(), -1.0);
@@ -134,16 +145,16 @@ fn rays_reach_to_infinity() {
     // Reversed infinite perspective (IF-3): depth 1 at the near plane, 0 at infinity.
     let raw = DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::NEG_W, DVec4::new(0.0, 0.0, 0.5, 0.0));
     let back = Viewport::new(
-        Rectangle::of_size(100.0, 100.0).expect("positive"),
+        Rectangle::from_size(100.0, 100.0).expect("positive"),
         PixelConvention::IMAGE,
         DepthRange::KEEP,
     )
     .unprojector::<View>(Projective::from_raw(raw).inverse().expect("regular"));
-    let ray = back.ray([50.0, 50.0], [1.0, 0.0]).expect("there is one");
+    let ray = back.pick_ray([50.0, 50.0], [1.0, 0.0]).expect("there is one");
     assert_eq!(ray.far.w(), 0.0);
     assert_eq!((ray.direction, ray.origin, ray.near.z()), (-Vector::Z, Point::ORIGIN, -0.5));
-    assert_eq!(back.ray([f64::NAN, 0.0], [1.0, 0.0]), None);
-    assert_eq!(back.ray([50.0, 50.0], [1.0, -1.7e308]), None, "the far point is no number");
+    assert_eq!(back.pick_ray([f64::NAN, 0.0], [1.0, 0.0]), None);
+    assert_eq!(back.pick_ray([50.0, 50.0], [1.0, -1.7e308]), None, "the far point is no number");
 }
 
 #[test]
@@ -157,11 +168,11 @@ fn what_has_no_size_is_refused_by_name() {
     assert!(Rectangle::new(0.0, f64::INFINITY, 1.0, 1.0).is_err());
     assert!(DepthRange::new([0.5, 0.5], [0.0, 1.0]).is_err());
     assert!(DepthRange::new([0.0, 1.0], [0.0, f64::NAN]).is_err());
-    assert!(PixelConvention::IMAGE.to(PixelConvention::CHAPTER, 0.0).is_err());
+    assert!(PixelConvention::IMAGE.convert_to(PixelConvention::CHAPTER, 0.0).is_err());
     let unit = Limits { x: [0.0, 1.0], y: [0.0, 1.0] };
     let flat = Limits { x: [0.0, 1.0], y: [2.0, 2.0] };
     let error = WindowToViewport::new(flat, unit).map_err(message).unwrap_err();
     assert_eq!(error, "window's y is empty: both its ends are 2");
-    let tiny = Rectangle::of_size(1e-100, 1.0).expect("allowed");
+    let tiny = Rectangle::from_size(1e-100, 1.0).expect("allowed");
     assert!(Viewport::image(4, 4).expect("has pixels").pick_matrix(tiny).is_err());
 }

@@ -24,7 +24,7 @@ fn c6_the_viewport_matrix_keeps_z() {
 fn c5_pixels_have_their_centres_at_integers() {
     for nx in [1_u32, 2, 7, 1920] {
         let map = Viewport::chapter(nx, 3).expect("has pixels").ndc_to_screen();
-        let x = |ndc: f64| map.point(Point::<Ndc>::new(ndc, 0.0, 0.0)).x();
+        let x = |ndc: f64| map.transform_point(Point::<Ndc>::new(ndc, 0.0, 0.0)).x();
         let (width, half_a_pixel) = (f64::from(nx), 1.0 / f64::from(nx));
         assert_eq!((x(-1.0), x(1.0)), (-0.5, width - 0.5));
         assert!(x(-1.0 + half_a_pixel).abs() < 1e-12);
@@ -39,7 +39,8 @@ fn c59_an_image_of_the_windows_aspect_undoes_the_squeeze() {
     let window = [2.0, 1.0];
     let stretch = |nx: u32, ny: u32| {
         let map = Viewport::image(nx, ny).expect("has pixels").ndc_to_screen();
-        let at = |x: f64, y: f64| map.point(Point::new(x / window[0], y / window[1], 0.0));
+        let at =
+            |x: f64, y: f64| map.transform_point(Point::new(x / window[0], y / window[1], 0.0));
         let (right, up) = (at(0.5, 0.0) - at(0.0, 0.0), at(0.0, 0.5) - at(0.0, 0.0));
         right.length() / up.length()
     };
@@ -51,12 +52,12 @@ fn c59_an_image_of_the_windows_aspect_undoes_the_squeeze() {
 /// the views.
 #[test]
 fn c75_front_top_and_side_line_up_on_a_sheet() {
-    let sheet = Rectangle::of_size(900.0, 900.0).expect("a sheet");
-    let cells: Vec<Rectangle> = sheet.grid(2, 2, 20.0).expect("room").collect();
+    let sheet = Rectangle::from_size(900.0, 900.0).expect("a sheet");
+    let cells: Vec<Rectangle> = sheet.split_grid(2, 2, 20.0).expect("room").collect();
     let [top, _, front, side] = cells.as_slice() else { panic!("four cells") };
     let drawn = |cell: &Rectangle, x: f64, y: f64| {
         let view = Viewport::new(*cell, PixelConvention::IMAGE, DepthRange::KEEP);
-        view.ndc_to_screen().point(Point::<Ndc>::new(x, y, 0.0))
+        view.ndc_to_screen().transform_point(Point::<Ndc>::new(x, y, 0.0))
     };
     let (width, height, depth) = (0.4, 0.7, -0.3);
     let front = drawn(front, width, height);

@@ -4,7 +4,8 @@ use glam::{DMat4, DVec4};
 use homog::{Clip, HPoint, Ndc, Point, Projective, Screen, View};
 use proptest::prelude::*;
 use viewport::{
-    DepthRange, Fit, Limits, PixelConvention, Rectangle, Tile, Viewport, WindowToViewport, tiles,
+    DepthRange, FitPolicy, Limits, PixelConvention, Rectangle, Tile, Viewport, WindowToViewport,
+    tiles,
 };
 
 fn rectangle() -> impl Strategy<Value = Rectangle> {
@@ -48,15 +49,15 @@ proptest! {
     /// C97, WV-3.
     #[test]
     fn what_goes_to_the_screen_comes_back(viewport in viewport(), p in ndc()) {
-        let there = viewport.ndc_to_screen().point(p);
-        let back = viewport.screen_to_ndc().point(there);
+        let there = viewport.ndc_to_screen().transform_point(p);
+        let back = viewport.screen_to_ndc().transform_point(there);
         prop_assert!((back - p).length() < 1e-10, "{p:?} came back as {back:?}");
     }
 
     #[test]
     fn upper_stays_upper_and_left_stays_left(viewport in viewport()) {
         let map = viewport.ndc_to_screen();
-        let [low, high] = [-1.0, 1.0].map(|c| map.point(Point::new(c, c, 0.0)));
+        let [low, high] = [-1.0, 1.0].map(|c| map.transform_point(Point::new(c, c, 0.0)));
         prop_assert!(low.x() < high.x());
         let upwards = high.y() > low.y();
         prop_assert_eq!(upwards, viewport.convention().y == viewport::YAxis::Up);
@@ -71,13 +72,13 @@ proptest! {
         p in ndc(),
     ) {
         let image = Viewport::chapter(size.0, size.1).expect("has pixels");
-        let convert = from.to(to, size.1.into()).expect("has rows");
-        let converted = convert.point(image.with_convention(from).ndc_to_screen().point(p));
-        let direct = image.with_convention(to).ndc_to_screen().point(p);
+        let convert = from.convert_to(to, size.1.into()).expect("has rows");
+        let converted = convert.transform_point(image.with_convention(from).ndc_to_screen().transform_point(p));
+        let direct = image.with_convention(to).ndc_to_screen().transform_point(p);
         prop_assert!((converted - direct).length() < 1e-11 * 4000.0);
-        let back = to.to(from, size.1.into()).expect("has rows");
+        let back = to.convert_to(from, size.1.into()).expect("has rows");
         let q = Point::<Screen>::new(17.0, 3.25, 0.5);
-        prop_assert!((back.point(convert.point(q)) - q).length() < 1e-12 * 4000.0);
+        prop_assert!((back.transform_point(convert.transform_point(q)) - q).length() < 1e-12 * 4000.0);
     }
 
     /// C53, C95, C96: also beyond the window.
@@ -91,11 +92,11 @@ proptest! {
         let wide = (window.x[1] - window.x[0]).abs().min((window.y[1] - window.y[0]).abs());
         prop_assume!(wide > 0.1);
         let map = WindowToViewport::new(window, viewport).expect("not empty");
-        let (ratio, chain) = (map.by_ratio(p), map.by_chain(p));
+        let (ratio, chain) = (map.map_by_ratio(p), map.map_by_chain(p));
         for i in 0..2 {
             prop_assert!((ratio[i] - chain[i]).abs() < 1e-9, "{ratio:?} is not {chain:?}");
-            let off = (map.inverse().by_ratio(ratio)[i] - p[i]).abs();
-            prop_assert!(off < 1e-6 * map.factors()[i].abs().recip().max(1.0));
+            let off = (map.inverse().map_by_ratio(ratio)[i] - p[i]).abs();
+            prop_assert!(off < 1e-6 * map.scale_factors()[i].abs().recip().max(1.0));
         }
     }
 
@@ -124,15 +125,15 @@ proptest! {
     ) {
         let tile = Tile { x: tile.0, y: tile.1, width: tile.2, height: tile.3 };
         let whole = Viewport::chapter(800, 600).expect("has pixels").with_convention(convention);
-        let in_whole = whole.ndc_to_screen().point(p);
+        let in_whole = whole.ndc_to_screen().transform_point(p);
         let corner = Point::<Screen>::new(tile.x.into(), tile.y.into(), 0.0) - Point::ORIGIN;
-        let in_tile = whole.for_tile(tile).ndc_to_screen().point(p);
+        let in_tile = whole.for_tile(tile).ndc_to_screen().transform_point(p);
         prop_assert!((in_tile + corner - in_whole).length() < 1e-10);
 
         let pick = whole.pick_matrix(whole.tile_area(tile)).expect("not too small");
-        let picked = pick.hpoint(HPoint::from_raw(p.raw().extend(1.0))).divide().expect("w is 1");
+        let picked = pick.transform_hpoint(HPoint::from_raw(p.raw().extend(1.0))).divide().expect("w is 1");
         let small = Viewport::chapter(tile.width, tile.height).expect("has pixels").with_convention(convention);
-        let by_pick = small.ndc_to_screen().point(picked);
+        let by_pick = small.ndc_to_screen().transform_point(picked);
         prop_assert!((by_pick - in_tile).length() < 1e-9, "{by_pick:?} is not {in_tile:?}");
     }
 
@@ -146,12 +147,12 @@ proptest! {
     ) {
         let view_to_clip = frustum(near, near * reach);
         let back = viewport.unprojector(view_to_clip.inverse().expect("regular"));
-        let screen = viewport.ndc_to_screen().point(p);
-        let point = back.point(screen).expect("finite");
-        let again = viewport.source_to_screen(view_to_clip).point(point).divide().expect("in front");
+        let screen = viewport.ndc_to_screen().transform_point(p);
+        let point = back.unproject_point(screen).expect("finite");
+        let again = viewport.source_to_screen(view_to_clip).transform_point(point).divide().expect("in front");
         prop_assert!((again - screen).length() < 1e-8 * 1e4, "{again:?} is not {screen:?}");
 
-        let ray = back.ray([screen.x(), screen.y()], [-1.0, 1.0]).expect("there is one");
+        let ray = back.pick_ray([screen.x(), screen.y()], [-1.0, 1.0]).expect("there is one");
         prop_assert!((ray.origin - Point::ORIGIN).length() < 1e-9 * near);
         prop_assert!((ray.near.z() + near).abs() < 1e-9 * near);
         let along = (point - Point::ORIGIN).normalized().expect("not the eye");
@@ -164,8 +165,8 @@ proptest! {
         place in rectangle(),
         align in [0.0..1.0, 0.0..1.0],
     ) {
-        for fit in [Fit::Contain, Fit::Cover] {
-            let drawn = fit.place(picture, place, align).expect("positive sizes");
+        for fit in [FitPolicy::Contain, FitPolicy::Cover] {
+            let drawn = fit.place_picture(picture, place, align).expect("positive sizes");
             prop_assert!((drawn.aspect() - picture[0] / picture[1]).abs() < 1e-10 * drawn.aspect());
             let spare = [place.width() - drawn.width(), place.height() - drawn.height()];
             let [mut tight, mut loose] = spare;
@@ -173,9 +174,9 @@ proptest! {
                 core::mem::swap(&mut tight, &mut loose);
             }
             prop_assert!(tight.abs() < 1e-9);
-            let spared = if fit == Fit::Contain { loose } else { -loose };
+            let spared = if fit == FitPolicy::Contain { loose } else { -loose };
             prop_assert!(spared > -1e-9, "{fit:?} leaves {loose}");
-            let window = fit.window(picture, place).expect("positive sizes");
+            let window = fit.fit_window(picture, place).expect("positive sizes");
             prop_assert!((window[0] / window[1] - place.aspect()).abs() < 1e-10 * place.aspect());
         }
     }

@@ -12,9 +12,9 @@
 mod figures;
 
 use crate::Outcome;
-use crate::program::{Build, Program, cargo, output, succeed};
-use crate::workspace::{make_folder, root, target};
-use figures::{Figure, Figures};
+use crate::program::{Build, Program, capture_output, cargo_command, run_command};
+use crate::workspace::{create_folder, project_root, target_folder};
+use figures::{CountTable, InstructionCount};
 use std::path::PathBuf;
 use std::process::Command;
 
@@ -29,44 +29,44 @@ const SCENES: [&str; 3] = ["teapot", "floor", "panes"];
 /// `tests/bench/workload.rs`.
 const SAMPLES: [(&str, &str); 2] = [("raster-1", "1"), ("raster-4", "4")];
 
-pub fn run(arguments: &[String]) -> Outcome {
-    let request = Request::read(arguments)?;
-    if let Some(reason) = missing() {
+pub fn run_instructions(arguments: &[String]) -> Outcome {
+    let request = Request::parse_request(arguments)?;
+    if let Some(reason) = missing_tool() {
         println!("SKIPPED instructions: {reason}");
         return Ok(());
     }
-    let (mut figures, compiler) = (Figures::read()?, compiler()?);
+    let (mut figures, compiler) = (CountTable::read_table()?, compiler_version()?);
     let other = !figures.compiler.is_empty() && figures.compiler != compiler;
     let counted_by =
         format!("the stored counts are those of {}, and this is {compiler}", figures.compiler);
     match request {
         Request::Compare if other => println!("SKIPPED instructions: {counted_by}"),
-        Request::Compare => judge(&count_all()?, &figures)?,
-        Request::Update { names: Names::These(_), .. } if other => {
+        Request::Compare => judge_counts(&count_all()?, &figures)?,
+        Request::Update { names: NameSelection::These(_), .. } if other => {
             return Err(format!("{counted_by}: update all of them"));
         }
         Request::Update { names, reason } => {
             let counts = count_all()?;
             figures.compiler = compiler;
-            for Count { name, instructions } in counts.iter().filter(|c| names.takes(&c.name)) {
-                figures.set(name, *instructions, &reason);
+            for Count { name, instructions } in counts.iter().filter(|c| names.includes(&c.name)) {
+                figures.set_count(name, *instructions, &reason);
             }
-            figures.write()?;
-            judge(&counts, &figures)?;
+            figures.write_table()?;
+            judge_counts(&counts, &figures)?;
         }
     }
     Ok(())
 }
 
 /// Name and number of the compiler, without its date: another one makes other instructions.
-fn compiler() -> Result<String, String> {
+fn compiler_version() -> Result<String, String> {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let version = output(Command::new(rustc).arg("--version").current_dir(root()))?;
+    let version = capture_output(Command::new(rustc).arg("--version").current_dir(project_root()))?;
     Ok(version.split_whitespace().take(2).collect::<Vec<_>>().join(" "))
 }
 
 /// Why nothing can be counted here.
-fn missing() -> Option<&'static str> {
+fn missing_tool() -> Option<&'static str> {
     let valgrind = Command::new("valgrind").arg("--version").output();
     if !valgrind.is_ok_and(|output| output.status.success()) {
         return Some("valgrind is not installed");
@@ -87,17 +87,17 @@ fn has_avx2() -> bool {
 /// What the person asks for.
 enum Request {
     Compare,
-    Update { names: Names, reason: String },
+    Update { names: NameSelection, reason: String },
 }
 
 /// Which figures are to be stored.
-enum Names {
+enum NameSelection {
     All,
     These(Vec<String>),
 }
 
-impl Names {
-    fn takes(&self, name: &str) -> bool {
+impl NameSelection {
+    fn includes(&self, name: &str) -> bool {
         match self {
             Self::All => true,
             Self::These(names) => names.iter().any(|known| known == name),
@@ -106,7 +106,7 @@ impl Names {
 }
 
 impl Request {
-    fn read(arguments: &[String]) -> Result<Self, String> {
+    fn parse_request(arguments: &[String]) -> Result<Self, String> {
         const USAGE: &str = "--instructions [--update NAME…|all --reason \"…\"]";
         let Some((first, rest)) = arguments.split_first() else { return Ok(Self::Compare) };
         let at = rest.iter().position(|word| word == "--reason");
@@ -115,25 +115,25 @@ impl Request {
         if names.is_empty() || reason.trim().is_empty() || reason.contains('\n') {
             return Err(USAGE.into());
         }
-        if let Some(strange) = names.iter().find(|name| *name != "all" && !is_known(name)) {
+        if let Some(strange) = names.iter().find(|name| *name != "all" && !is_known_name(name)) {
             return Err(format!(
                 "there is no figure `{strange}`; these are: {}",
-                known().join(", ")
+                known_names().join(", ")
             ));
         }
         let all = names.iter().any(|name| name == "all");
-        let names = if all { Names::All } else { Names::These(names.to_vec()) };
+        let names = if all { NameSelection::All } else { NameSelection::These(names.to_vec()) };
         Ok(Self::Update { names, reason: reason.trim().to_owned() })
     }
 }
 
 /// The names of all figures.
-fn known() -> Vec<&'static str> {
+fn known_names() -> Vec<&'static str> {
     SCENES.into_iter().chain(SAMPLES.map(|(name, _)| name)).collect()
 }
 
-fn is_known(name: &str) -> bool {
-    known().contains(&name)
+fn is_known_name(name: &str) -> bool {
+    known_names().contains(&name)
 }
 
 /// A piece of work and what it took.
@@ -143,31 +143,33 @@ struct Count {
 }
 
 fn count_all() -> Result<Vec<Count>, String> {
-    let program = Program::built(Build::Release)?;
+    let program = Program::build(Build::Release)?;
     let example = ["--package", "alberti-tests", "--example", "workload"];
-    succeed(cargo(&["build", "--quiet", "--release"]).args(example))?;
-    let workload = target().join("release/examples/workload");
-    make_folder(&target().join("bench"))?;
-    let picture = target().join("bench/instructions.png");
+    run_command(cargo_command(&["build", "--quiet", "--release"]).args(example))?;
+    let workload = target_folder().join("release/examples/workload");
+    create_folder(&target_folder().join("bench"))?;
+    let picture = target_folder().join("bench/instructions.png");
     let scene = |name: &str| {
         let mut command = Command::new(program.path());
         command.arg("render").arg(format!("scenes/{name}.ron")).arg("-o").arg(&picture);
         command.args(["--size", "320x240", "--threads", "1"]);
-        count(name, &command)
+        count_instructions(name, &command)
     };
-    let alone = |(name, samples): (&str, &str)| count(name, Command::new(&workload).arg(samples));
+    let alone = |(name, samples): (&str, &str)| {
+        count_instructions(name, Command::new(&workload).arg(samples))
+    };
     SCENES.into_iter().map(scene).chain(SAMPLES.into_iter().map(alone)).collect()
 }
 
 /// Runs a command under callgrind, without an environment that could change the count.
-fn count(name: &str, command: &Command) -> Result<Count, String> {
-    let profile = profile(name);
+fn count_instructions(name: &str, command: &Command) -> Result<Count, String> {
+    let profile = profile_path(name);
     let mut valgrind = Command::new("valgrind");
     valgrind.arg("--tool=callgrind").arg(format!("--callgrind-out-file={}", profile.display()));
     valgrind.arg(command.get_program()).args(command.get_args());
     let path = std::env::var_os("PATH").unwrap_or_default();
-    output(valgrind.current_dir(root()).env_clear().env("PATH", path))?;
-    let text = crate::workspace::read(&profile)?;
+    capture_output(valgrind.current_dir(project_root()).env_clear().env("PATH", path))?;
+    let text = crate::workspace::read_text(&profile)?;
     let total = text.lines().find_map(|line| line.strip_prefix("summary: "));
     let total = total.and_then(|total| total.split_whitespace().next()?.parse().ok());
     let instructions = total.ok_or_else(|| format!("{}: no summary", profile.display()))?;
@@ -175,17 +177,18 @@ fn count(name: &str, command: &Command) -> Result<Count, String> {
 }
 
 /// Where callgrind leaves what it found, for `callgrind_annotate` and the like.
-fn profile(name: &str) -> PathBuf {
-    target().join("bench").join(format!("{name}.callgrind"))
+fn profile_path(name: &str) -> PathBuf {
+    target_folder().join("bench").join(format!("{name}.callgrind"))
 }
 
 /// Compares counts with the stored figures and prints both.
-fn judge(counts: &[Count], figures: &Figures) -> Outcome {
+fn judge_counts(counts: &[Count], figures: &CountTable) -> Outcome {
     let mut faults = Vec::new();
     for Count { name, instructions } in counts {
-        let stored = figures.find(name);
-        let change = stored.map(|Figure { count, .. }| *instructions as f64 / *count as f64 - 1.0);
-        let verdict = verdict(change);
+        let stored = figures.count_for(name);
+        let change =
+            stored.map(|InstructionCount { count, .. }| *instructions as f64 / *count as f64 - 1.0);
+        let verdict = change_verdict(change);
         let percent = change.map_or(String::new(), |change| format!("{:+.2} %", change * 100.0));
         println!("{name:12} {instructions:>14} {percent:>10}  {verdict}");
         if change.is_none_or(|change| change > TOLERANCE) {
@@ -201,7 +204,7 @@ fn judge(counts: &[Count], figures: &Figures) -> Outcome {
     ))
 }
 
-fn verdict(change: Option<f64>) -> &'static str {
+fn change_verdict(change: Option<f64>) -> &'static str {
     match change {
         None => "is not stored",
         Some(change) if change > TOLERANCE => "has risen by more than 3 %",
@@ -216,7 +219,7 @@ mod tests {
 
     fn request(line: &str) -> Result<Request, String> {
         let words: Vec<String> = line.split_whitespace().map(str::to_owned).collect();
-        Request::read(&words)
+        Request::parse_request(&words)
     }
 
     #[test]
@@ -225,7 +228,7 @@ mod tests {
         else {
             panic!("a good request")
         };
-        assert!(names.takes("panes") && !names.takes("floor"));
+        assert!(names.includes("panes") && !names.includes("floor"));
         assert_eq!(reason, "more glass");
         assert!(matches!(request(""), Ok(Request::Compare)));
         for wrong in [
@@ -241,8 +244,8 @@ mod tests {
 
     #[test]
     fn three_per_cent_are_the_border_both_ways() {
-        assert_eq!(verdict(Some(0.029)), verdict(Some(-0.029)));
-        assert_ne!(verdict(Some(0.031)), verdict(Some(0.029)));
-        assert_ne!(verdict(Some(-0.031)), verdict(Some(0.029)));
+        assert_eq!(change_verdict(Some(0.029)), change_verdict(Some(-0.029)));
+        assert_ne!(change_verdict(Some(0.031)), change_verdict(Some(0.029)));
+        assert_ne!(change_verdict(Some(-0.031)), change_verdict(Some(0.029)));
     }
 }

@@ -4,20 +4,20 @@
 //! and leaves `raster.json` and `raster.svg` in `target/bench`; it judges nothing.
 
 use crate::Outcome;
-use crate::program::{Build, Program, cargo, watch};
-use crate::workspace::{make_folder, target};
+use crate::program::{Build, Program, cargo_command, run_visibly};
+use crate::workspace::{create_folder, target_folder};
 
 /// The arguments are parts of the names of what is to be measured, and `--rounds N`.
-pub fn run(arguments: &[String]) -> Outcome {
-    let program = Program::built(Build::Release)?;
-    let out = target().join("bench");
-    make_folder(&out)?;
+pub fn bench_raster(arguments: &[String]) -> Outcome {
+    let program = Program::build(Build::Release)?;
+    let out = target_folder().join("bench");
+    create_folder(&out)?;
     let call = ["run", "--quiet", "--release", "--manifest-path", "tests/peers/Cargo.toml", "--"];
-    let mut peers = cargo(&call);
+    let mut peers = cargo_command(&call);
     peers.arg("--out").arg(&out).arg("--alberti").arg(program.path()).args(arguments);
     // Mesa draws with the calling thread alone: CPU times can then be compared.
-    peers.env("LP_NUM_THREADS", "0").env("CARGO_TARGET_DIR", target().join("peers"));
-    watch(&mut peers)?;
+    peers.env("LP_NUM_THREADS", "0").env("CARGO_TARGET_DIR", target_folder().join("peers"));
+    run_visibly(&mut peers)?;
     println!("{} and raster.svg hold the same figures", out.join("raster.json").display());
     Ok(())
 }

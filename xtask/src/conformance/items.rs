@@ -25,8 +25,8 @@ impl Item {
 
 /// What the sources teach or ask for, and what is printed wrong in them: a test of a misprint shows
 /// that the printed form fails.
-pub static ITEMS: LazyLock<Vec<Item>> = LazyLock::new(|| rows(ITEM_ROWS));
-pub static MISPRINTS: LazyLock<Vec<Item>> = LazyLock::new(|| rows(MISPRINT_ROWS));
+pub static ITEMS: LazyLock<Vec<Item>> = LazyLock::new(|| parse_rows(ITEM_ROWS));
+pub static MISPRINTS: LazyLock<Vec<Item>> = LazyLock::new(|| parse_rows(MISPRINT_ROWS));
 
 /// The exercises: each asks for an item, and whatever proves the exercise proves the item.
 pub static EXERCISES: LazyLock<Vec<Item>> = LazyLock::new(|| {
@@ -44,17 +44,17 @@ const EXERCISE_ITEMS: [&str; 11] =
     ["C38", "C39", "C40", "C41", "C42", "C43", "C44", "C45", "C45", "C46", "C47"];
 
 /// The item that an exercise asks for.
-pub fn asked_by(exercise: &str) -> Option<&'static str> {
+pub fn exercise_item(exercise: &str) -> Option<&'static str> {
     let number: usize = exercise.strip_prefix("exercise ")?.parse().ok()?;
     EXERCISE_ITEMS.get(number.checked_sub(1)?).copied()
 }
 
 /// Every item, exercise and misprint.
-pub fn all() -> impl Iterator<Item = &'static Item> {
+pub fn all_items() -> impl Iterator<Item = &'static Item> {
     ITEMS.iter().chain(EXERCISES.iter()).chain(MISPRINTS.iter())
 }
 
-fn rows(table: &'static str) -> Vec<Item> {
+fn parse_rows(table: &'static str) -> Vec<Item> {
     let row = |line: &'static str| {
         let mut cells = line.splitn(3, '|').map(str::trim);
         Some(Item::new(cells.next()?, cells.next()?, cells.next()?))
@@ -210,7 +210,7 @@ mod tests {
 
     #[test]
     fn every_number_is_there_once_and_every_owner_is_known() {
-        let ids: Vec<&str> = all().map(|item| item.id.as_str()).collect();
+        let ids: Vec<&str> = all_items().map(|item| item.id.as_str()).collect();
         let known = ["homog", "camera", "projection", "clip", "viewport", "raster", "pipeline"];
         for (prefix, count) in [("C", 104), ("exercise ", 11), ("M", 28)] {
             for number in 1..=count {
@@ -218,11 +218,11 @@ mod tests {
                 assert_eq!(ids.iter().filter(|known| **known == id).count(), 1, "{id}");
             }
         }
-        for item in all() {
+        for item in all_items() {
             let fit = |owner: &&str| known.contains(owner) || *owner == "documents";
             assert!(item.owners.iter().all(fit) && !item.title.is_empty(), "{}", item.id);
         }
-        assert_eq!(asked_by("exercise 9"), Some("C45"));
-        assert_eq!(asked_by("exercise 12"), None);
+        assert_eq!(exercise_item("exercise 9"), Some("C45"));
+        assert_eq!(exercise_item("exercise 12"), None);
     }
 }

@@ -3,7 +3,7 @@
 //! A test names an item in one of two ways: by a word of its own name (`c16_the_unit_square`,
 //! `misprint_m11_…`, `exercise_8_and_9_…`) or in the doc comment above it (`/// C31, M28: …`).
 
-use super::items::asked_by;
+use super::items::exercise_item;
 use std::collections::BTreeSet;
 
 /// A test function and what it says it proves.
@@ -24,7 +24,7 @@ impl Test {
 }
 
 /// The tests of a file.
-pub fn tests(path: &str, text: &str) -> Vec<Test> {
+pub fn scan_tests(path: &str, text: &str) -> Vec<Test> {
     let (mut found, mut docs, mut marked) = (Vec::new(), String::new(), false);
     for line in text.lines().map(str::trim) {
         if let Some(doc) = line.strip_prefix("///") {
@@ -32,9 +32,11 @@ pub fn tests(path: &str, text: &str) -> Vec<Test> {
         } else if line.starts_with("#[") {
             marked |= line == "#[test]";
         } else {
-            if let Some(name) = function(line).filter(|_| marked) {
-                let mut ids = named(name.split('_').map(capitalised));
-                ids.extend(named(docs.split(|c: char| !c.is_alphanumeric()).map(str::to_owned)));
+            if let Some(name) = function_name(line).filter(|_| marked) {
+                let mut ids = named_ids(name.split('_').map(capitalize_word));
+                ids.extend(named_ids(
+                    docs.split(|c: char| !c.is_alphanumeric()).map(str::to_owned),
+                ));
                 found.push(Test { path: path.to_owned(), name: name.to_owned(), ids });
             }
             docs.clear();
@@ -44,25 +46,25 @@ pub fn tests(path: &str, text: &str) -> Vec<Test> {
     found
 }
 
-fn function(line: &str) -> Option<&str> {
+fn function_name(line: &str) -> Option<&str> {
     let rest = line.strip_prefix("fn ")?;
     rest.split(|c: char| c != '_' && !c.is_alphanumeric()).next()
 }
 
-fn capitalised(word: &str) -> String {
+fn capitalize_word(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().map(|first| first.to_ascii_uppercase()).into_iter().chain(letters).collect()
 }
 
 /// The ids among words: C16, M11b, and numbers that follow `exercise`.
-fn named(words: impl Iterator<Item = String>) -> BTreeSet<String> {
+fn named_ids(words: impl Iterator<Item = String>) -> BTreeSet<String> {
     let (mut ids, mut exercise) = (BTreeSet::new(), false);
     for word in words.filter(|word| !word.is_empty()) {
-        if is_id(&word) {
+        if is_item_id(&word) {
             ids.insert(word);
         } else if exercise && word.parse::<u8>().is_ok() {
             let id = format!("exercise {word}");
-            ids.extend(asked_by(&id).map(str::to_owned));
+            ids.extend(exercise_item(&id).map(str::to_owned));
             ids.insert(id);
         } else {
             exercise = matches!(word.as_str(), "Exercise" | "Exercises" | "exercise" | "exercises")
@@ -73,7 +75,7 @@ fn named(words: impl Iterator<Item = String>) -> BTreeSet<String> {
 }
 
 /// A letter, a number, and for a misprint perhaps a letter more.
-fn is_id(word: &str) -> bool {
+fn is_item_id(word: &str) -> bool {
     let number = |rest: &str| !rest.is_empty() && rest.bytes().all(|byte| byte.is_ascii_digit());
     let misprint = |rest: &str| number(rest) || number(rest.trim_end_matches(['b', 'c']));
     word.strip_prefix('C').is_some_and(number) || word.strip_prefix('M').is_some_and(misprint)
@@ -84,7 +86,7 @@ mod tests {
     use super::*;
 
     fn ids(text: &str) -> Vec<String> {
-        tests("crates/clip/tests/a.rs", text).into_iter().flat_map(|test| test.ids).collect()
+        scan_tests("crates/clip/tests/a.rs", text).into_iter().flat_map(|test| test.ids).collect()
     }
 
     #[test]
@@ -106,7 +108,7 @@ mod tests {
 
     #[test]
     fn the_folder_tells_the_owner() {
-        let owner = |path: &str| tests(path, "#[test]\nfn x() {")[0].owner().to_owned();
+        let owner = |path: &str| scan_tests(path, "#[test]\nfn x() {")[0].owner().to_owned();
         assert_eq!(owner("crates/clip/src/a.rs"), "clip");
         assert_eq!(owner("tests/program/main.rs"), "pipeline");
     }

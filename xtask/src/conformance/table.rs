@@ -18,14 +18,14 @@ they are read where they are at hand.
 ";
 
 /// The whole document.
-pub fn document(tests: &[Test]) -> String {
+pub fn conformance_document(tests: &[Test]) -> String {
     let mut text = OPENING.to_owned();
     let sections: [(&str, &[Item]); 3] =
         [("Items", &ITEMS), ("Exercises", &EXERCISES), ("Misprints", &MISPRINTS)];
     for (heading, items) in sections {
         text += &format!("\n## {heading}\n\n| | what | proved by |\n| --- | --- | --- |\n");
         for item in items {
-            let proofs = proofs(item, tests).join("<br>");
+            let proofs = item_proofs(item, tests).join("<br>");
             text += &format!("| {} | {} | {proofs} |\n", item.id, item.title);
         }
     }
@@ -33,13 +33,13 @@ pub fn document(tests: &[Test]) -> String {
 }
 
 /// A line for each file that has a test of the item, for the vectors, and for what is missing.
-fn proofs(item: &Item, tests: &[Test]) -> Vec<String> {
+fn item_proofs(item: &Item, tests: &[Test]) -> Vec<String> {
     let mut files: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for test in tests.iter().filter(|test| test.ids.contains(&item.id)) {
         files.entry(&test.path).or_default().push(&test.name);
     }
     let mut lines: Vec<String> =
-        files.into_iter().map(|(path, names)| file(path, &names)).collect();
+        files.into_iter().map(|(path, names)| file_entry(path, &names)).collect();
     let vectors = VECTORS.iter().filter(|(_, ids)| ids.contains(&item.id.as_str()));
     let vectors: Vec<String> = vectors.map(|(name, _)| format!("`{name}`")).collect();
     if !vectors.is_empty() {
@@ -50,7 +50,7 @@ fn proofs(item: &Item, tests: &[Test]) -> Vec<String> {
     lines
 }
 
-fn file(path: &str, names: &[&str]) -> String {
+fn file_entry(path: &str, names: &[&str]) -> String {
     let shown = path.strip_prefix("crates/").unwrap_or(path);
     let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
     format!("[{shown}](../{path}): {}", names.join(", "))

@@ -1,12 +1,12 @@
 //! Models of several files as one binary file, for the targets read no other files; and what is compressed in them.
 
-use crate::glb::glb;
+use crate::glb::encode_glb;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
 
 /// A model in one piece.
-pub struct Packed {
+pub struct PackedModel {
     /// The whole file.
     pub file: Vec<u8>,
     pub json: Value,
@@ -14,30 +14,37 @@ pub struct Packed {
     pub binary: Vec<u8>,
 }
 
-impl Packed {
+impl PackedModel {
     /// Reads a `.glb`, or a `.gltf` with all the files it names. `None` for what is no glTF; a file that cannot be
     /// packed is as it is.
-    pub fn read(path: &Path) -> Option<Self> {
+    pub fn read_model(path: &Path) -> Option<Self> {
         let file = fs::read(path).ok()?;
-        if let Some((json, binary)) = chunks(&file) {
+        if let Some((json, binary)) = glb_chunks(&file) {
             let (json, binary) =
                 (serde_json::from_slice(json).unwrap_or_default(), binary.to_vec());
             return Some(Self { file, json, binary });
         }
         let json: Value = serde_json::from_slice(&file).unwrap_or_default();
-        Some(Self::joined(&json, path.parent()?).unwrap_or(Self { file, json, binary: Vec::new() }))
+        Some(Self::join_buffers(&json, path.parent()?).unwrap_or(Self {
+            file,
+            json,
+            binary: Vec::new(),
+        }))
     }
 
-    fn joined(json: &Value, folder: &Path) -> Option<Self> {
+    fn join_buffers(json: &Value, folder: &Path) -> Option<Self> {
         let (mut json, mut binary, mut starts) = (json.clone(), Vec::new(), Vec::new());
         for buffer in json.get("buffers")?.as_array()? {
-            starts.push(append(&mut binary, &fs::read(folder.join(buffer["uri"].as_str()?)).ok()?));
+            starts.push(append_aligned(
+                &mut binary,
+                &fs::read(folder.join(buffer["uri"].as_str()?)).ok()?,
+            ));
         }
         for view in json["bufferViews"].as_array_mut()? {
-            shift(view, &starts)?;
+            shift_view(view, &starts)?;
             for extension in ["EXT_meshopt_compression", "KHR_meshopt_compression"] {
                 if let Some(compressed) = view.pointer_mut(&format!("/extensions/{extension}")) {
-                    shift(compressed, &starts)?;
+                    shift_view(compressed, &starts)?;
                 }
             }
         }
@@ -45,7 +52,7 @@ impl Packed {
         for image in &mut images {
             let Some(uri) = image["uri"].as_str().map(str::to_owned) else { continue };
             let bytes = fs::read(folder.join(&uri)).ok()?;
-            let start = append(&mut binary, &bytes);
+            let start = append_aligned(&mut binary, &bytes);
             let views = json["bufferViews"].as_array_mut()?;
             views.push(json!({"buffer": 0, "byteOffset": start, "byteLength": bytes.len()}));
             let kind = if uri.ends_with("png") { "image/png" } else { "image/jpeg" };
@@ -55,11 +62,11 @@ impl Packed {
             json["images"] = images.into();
         }
         json["buffers"] = json!([{"byteLength": binary.len()}]);
-        Some(Self { file: glb(json.to_string().as_bytes(), &binary), json, binary })
+        Some(Self { file: encode_glb(json.to_string().as_bytes(), &binary), json, binary })
     }
 
     /// The bytes of a part of the first buffer: `{"byteOffset": …, "byteLength": …}`.
-    pub fn part(&self, view: &Value) -> Option<&[u8]> {
+    pub fn view_bytes(&self, view: &Value) -> Option<&[u8]> {
         let start = view["byteOffset"].as_u64().unwrap_or(0) as usize;
         let length = view["byteLength"].as_u64()? as usize;
         (view["buffer"].as_u64() == Some(0)).then(|| self.binary.get(start..)?.get(..length))?
@@ -67,7 +74,7 @@ impl Packed {
 }
 
 /// Appends a file; gives its first byte's place, a multiple of 4.
-fn append(binary: &mut Vec<u8>, file: &[u8]) -> usize {
+fn append_aligned(binary: &mut Vec<u8>, file: &[u8]) -> usize {
     let start = binary.len().next_multiple_of(4);
     binary.resize(start, 0);
     binary.extend(file);
@@ -75,7 +82,7 @@ fn append(binary: &mut Vec<u8>, file: &[u8]) -> usize {
 }
 
 /// Makes a view of a buffer one of all buffers together.
-fn shift(view: &mut Value, starts: &[usize]) -> Option<()> {
+fn shift_view(view: &mut Value, starts: &[usize]) -> Option<()> {
     let start = *starts.get(view["buffer"].as_u64()? as usize)?;
     let offset = view["byteOffset"].as_u64().unwrap_or(0);
     view["byteOffset"] = json!(offset + start as u64);
@@ -84,7 +91,7 @@ fn shift(view: &mut Value, starts: &[usize]) -> Option<()> {
 }
 
 /// The JSON and the binary chunk of a binary file that is in order.
-fn chunks(file: &[u8]) -> Option<(&[u8], &[u8])> {
+fn glb_chunks(file: &[u8]) -> Option<(&[u8], &[u8])> {
     let word = |at: usize| Some(u32::from_le_bytes(*file.get(at..)?.first_chunk()?) as usize);
     let json = file.starts_with(b"glTF").then(|| file.get(20..)?.get(..word(12)?))??;
     let rest = 20 + json.len();
@@ -98,17 +105,17 @@ mod tests {
 
     #[test]
     fn a_packed_file_comes_apart_again() {
-        let file = glb(b"{\"asset\":{}}", &[1, 2, 3]);
-        let (json, binary) = chunks(&file).unwrap();
+        let file = encode_glb(b"{\"asset\":{}}", &[1, 2, 3]);
+        let (json, binary) = glb_chunks(&file).unwrap();
         assert_eq!((json, binary), (&b"{\"asset\":{}}"[..], &[1, 2, 3, 0][..]));
-        assert_eq!(chunks(b"{}"), None);
+        assert_eq!(glb_chunks(b"{}"), None);
     }
 
     #[test]
     fn views_of_several_buffers_become_views_of_one() {
         let mut view = json!({"buffer": 1, "byteOffset": 2, "byteLength": 3});
-        shift(&mut view, &[0, 40]).unwrap();
+        shift_view(&mut view, &[0, 40]).unwrap();
         assert_eq!(view, json!({"buffer": 0, "byteOffset": 42, "byteLength": 3}));
-        assert_eq!(shift(&mut json!({"buffer": 2}), &[0, 40]), None);
+        assert_eq!(shift_view(&mut json!({"buffer": 2}), &[0, 40]), None);
     }
 }

@@ -1,9 +1,9 @@
 //! What a target begins with: real files and the hostile ones, in the form that it reads.
 
-use super::assets;
-use super::pack::Packed;
-use crate::program::{cargo, succeed};
-use crate::workspace::{files, root};
+use super::assets_folder;
+use super::pack::PackedModel;
+use crate::program::{cargo_command, run_command};
+use crate::workspace::{list_files, project_root};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,14 +13,14 @@ const LARGEST_MODEL: usize = 200 << 10;
 const LARGEST_STREAM: usize = 48 << 10;
 
 /// Writes the seeds of a target into a folder; gives how many there are.
-pub fn write(target: &str, folder: &Path) -> Result<usize, String> {
+pub fn write_seeds(target: &str, folder: &Path) -> Result<usize, String> {
     let mut seeds = match target {
-        "model" => models().into_iter().map(|model| model.file).collect(),
-        "meshopt" => models().iter().flat_map(meshopt).collect(),
-        "draco" => models().iter().flat_map(draco).collect(),
-        "image" => images(),
-        "scene" => scenes()?,
-        _ => numbers(),
+        "model" => model_seeds().into_iter().map(|model| model.file).collect(),
+        "meshopt" => model_seeds().iter().flat_map(meshopt_seeds).collect(),
+        "draco" => model_seeds().iter().flat_map(draco_seeds).collect(),
+        "image" => image_seeds(),
+        "scene" => scene_seeds()?,
+        _ => number_seeds(),
     };
     let largest = if target == "model" { LARGEST_MODEL } else { LARGEST_STREAM };
     seeds.retain(|seed: &Vec<u8>| seed.len() <= largest);
@@ -32,13 +32,13 @@ pub fn write(target: &str, folder: &Path) -> Result<usize, String> {
     }
     if target == "model" {
         let call = ["test", "--quiet", "--package", "alberti-tests", "--test", "hostile", "--"];
-        succeed(cargo(&call).arg("--write").arg(folder))?;
+        run_command(cargo_command(&call).arg("--write").arg(folder))?;
     }
     fs::read_dir(folder).map(Iterator::count).map_err(|error| error.to_string())
 }
 
 /// All files below a folder with one of these endings, sorted.
-fn below(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
+fn files_below(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut paths: Vec<PathBuf> = fs::read_dir(folder)
         .into_iter()
@@ -49,7 +49,7 @@ fn below(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     for path in paths {
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         if path.is_dir() {
-            found.extend(below(&path, endings));
+            found.extend(files_below(&path, endings));
         } else if endings.contains(&ending.as_str()) {
             found.push(path);
         }
@@ -58,26 +58,26 @@ fn below(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
 }
 
 /// The shared assets with these endings, and the scenes' models.
-fn paths(endings: &[&str]) -> Vec<PathBuf> {
-    let mut paths = below(&root().join("scenes"), endings);
-    match assets() {
-        Some(assets) => paths.extend(below(&assets, endings)),
+fn asset_paths(endings: &[&str]) -> Vec<PathBuf> {
+    let mut paths = files_below(&project_root().join("scenes"), endings);
+    match assets_folder() {
+        Some(assets) => paths.extend(files_below(&assets, endings)),
         None => println!("SKIPPED shared assets as seeds: they are not there"),
     }
     paths
 }
 
-fn models() -> Vec<Packed> {
-    paths(&["glb", "gltf"]).iter().filter_map(|path| Packed::read(path)).collect()
+fn model_seeds() -> Vec<PackedModel> {
+    asset_paths(&["glb", "gltf"]).iter().filter_map(|path| PackedModel::read_model(path)).collect()
 }
 
-fn scenes() -> Result<Vec<Vec<u8>>, String> {
-    let paths = files(&root().join("scenes"), "ron")?;
+fn scene_seeds() -> Result<Vec<Vec<u8>>, String> {
+    let paths = list_files(&project_root().join("scenes"), "ron")?;
     Ok(paths.iter().filter_map(|path| fs::read(path).ok()).collect())
 }
 
 /// The streams of compressed views, as the target `meshopt` reads them.
-fn meshopt(model: &Packed) -> Vec<Vec<u8>> {
+fn meshopt_seeds(model: &PackedModel) -> Vec<Vec<u8>> {
     let views = model.json["bufferViews"].as_array().into_iter().flatten();
     let stream = |view: &Value| {
         let named = |name: &str| view["extensions"].get(name);
@@ -96,14 +96,14 @@ fn meshopt(model: &Packed) -> Vec<Vec<u8>> {
         let stride = if kind < 5 { stride / 4 } else { u64::from(stride == 4) };
         let [low, high, ..] = packed["count"].as_u64()?.to_le_bytes();
         let mut seed = vec![kind, stride as u8, low, high];
-        seed.extend(model.part(packed)?);
+        seed.extend(model.view_bytes(packed)?);
         Some(seed)
     };
     views.filter_map(stream).collect()
 }
 
 /// The streams of compressed primitives, as the target `draco` reads them.
-fn draco(model: &Packed) -> Vec<Vec<u8>> {
+fn draco_seeds(model: &PackedModel) -> Vec<Vec<u8>> {
     let meshes = model.json["meshes"].as_array().into_iter().flatten();
     let primitives = meshes.flat_map(|mesh| mesh["primitives"].as_array().into_iter().flatten());
     let count = |accessor: &Value| {
@@ -119,14 +119,14 @@ fn draco(model: &Packed) -> Vec<Vec<u8>> {
         let more = number("TEXCOORD_0") | number("COLOR_0") << 4;
         let mut seed = vec![vertices[0], vertices[1], faces[0], faces[1], ids, more];
         let view = packed["bufferView"].as_u64()? as usize;
-        seed.extend(model.part(model.json["bufferViews"].get(view)?)?);
+        seed.extend(model.view_bytes(model.json["bufferViews"].get(view)?)?);
         Some(seed)
     };
     primitives.filter_map(stream).collect()
 }
 
 /// Images by themselves and out of models, each after the number of its kind.
-fn images() -> Vec<Vec<u8>> {
+fn image_seeds() -> Vec<Vec<u8>> {
     let kind = |file: &[u8]| match file {
         [0x89, b'P', ..] => 0,
         [0xFF, 0xD8, ..] => 1,
@@ -135,21 +135,21 @@ fn images() -> Vec<Vec<u8>> {
         _ => 4,
     };
     let marked = |file: &[u8]| [&[kind(file)], file].concat();
-    let files = paths(&["png", "jpg", "jpeg", "webp", "ktx2"]);
+    let files = asset_paths(&["png", "jpg", "jpeg", "webp", "ktx2"]);
     let mut seeds: Vec<Vec<u8>> =
         files.iter().filter_map(|path| Some(marked(&fs::read(path).ok()?))).collect();
-    for model in models() {
+    for model in model_seeds() {
         let images = model.json["images"].as_array().into_iter().flatten();
         let views = images.filter_map(|image| {
             model.json["bufferViews"].get(image["bufferView"].as_u64()? as usize)
         });
-        seeds.extend(views.filter_map(|view| model.part(view)).map(marked));
+        seeds.extend(views.filter_map(|view| model.view_bytes(view)).map(marked));
     }
     seeds
 }
 
 /// Bytes from a generator (splitmix64), each time after another number: there are fewer functions than 512.
-fn numbers() -> Vec<Vec<u8>> {
+fn number_seeds() -> Vec<Vec<u8>> {
     let mut state = 0u64;
     let mut word = || {
         state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);

@@ -1,6 +1,6 @@
 //! A run of one target: libFuzzer's processes, how long they may work, and what they report.
 
-use crate::workspace::shown;
+use crate::workspace::relative_path;
 use std::collections::BTreeSet;
 use std::fmt;
 use std::fs::{self, File};
@@ -21,7 +21,7 @@ pub struct Session {
 }
 
 /// What came of it.
-pub struct Report {
+pub struct SessionReport {
     pub name: String,
     /// Of the processors, all jobs together.
     time: Duration,
@@ -34,7 +34,7 @@ pub struct Report {
 }
 
 /// A process of libFuzzer.
-struct Job {
+struct FuzzJob {
     child: Child,
     log: PathBuf,
     start: Instant,
@@ -44,13 +44,13 @@ struct Job {
 
 impl Session {
     /// Runs until the time is used up or something crashes.
-    pub fn run(&self, name: &str) -> Result<Report, String> {
-        let before = artifacts(&self.folder)?;
-        let mut jobs = (0..self.jobs).map(|n| self.start(n)).collect::<Result<Vec<_>, _>>()?;
+    pub fn run_jobs(&self, name: &str) -> Result<SessionReport, String> {
+        let before = list_artifacts(&self.folder)?;
+        let mut jobs = (0..self.jobs).map(|n| self.start_job(n)).collect::<Result<Vec<_>, _>>()?;
         let budget = Duration::from_secs_f64(60.0 * self.minutes);
         loop {
             sleep(Duration::from_millis(200));
-            jobs.iter_mut().try_for_each(Job::look)?;
+            jobs.iter_mut().try_for_each(FuzzJob::update_peak)?;
             let time: Duration = jobs.iter().map(|job| job.time).sum();
             if time >= budget || jobs.iter().any(|job| job.done) {
                 break;
@@ -58,28 +58,28 @@ impl Session {
         }
         let unexpected = jobs.iter().any(|job| job.done);
         for job in &mut jobs {
-            job.end()?;
+            job.stop_process()?;
         }
-        let new = artifacts(&self.folder)?.difference(&before).cloned().collect::<Vec<_>>();
-        let mut report = self.report(name, &jobs)?;
+        let new = list_artifacts(&self.folder)?.difference(&before).cloned().collect::<Vec<_>>();
+        let mut report = self.session_report(name, &jobs)?;
         report.crashes.extend(new);
         if unexpected {
             for job in &jobs {
-                println!("{}", ending(&fs::read_to_string(&job.log).unwrap_or_default()));
+                println!("{}", last_lines(&fs::read_to_string(&job.log).unwrap_or_default()));
             }
             // A crash that was known is not written again, and is one all the same.
             if report.crashes.is_empty() {
                 report.crashes.extend(before);
             }
             if report.crashes.is_empty() {
-                return Err(format!("{name} ended by itself; see {}", shown(&jobs[0].log)));
+                return Err(format!("{name} ended by itself; see {}", relative_path(&jobs[0].log)));
             }
-            report.crashes.iter().for_each(|crash| println!("crash: {}", shown(crash)));
+            report.crashes.iter().for_each(|crash| println!("crash: {}", relative_path(crash)));
         }
         Ok(report)
     }
 
-    fn start(&self, number: usize) -> Result<Job, String> {
+    fn start_job(&self, number: usize) -> Result<FuzzJob, String> {
         let log = self.folder.join(format!("job-{number}.log"));
         let file = File::create(&log).map_err(|error| format!("{}: {error}", log.display()))?;
         let folder = |part: &str| self.folder.join(part);
@@ -95,16 +95,16 @@ impl Session {
         let child =
             command.spawn().map_err(|error| format!("{}: {error}", self.program.display()))?;
         let start = Instant::now();
-        Ok(Job { child, log, start, time: Duration::ZERO, done: false })
+        Ok(FuzzJob { child, log, start, time: Duration::ZERO, done: false })
     }
 
-    fn report(&self, name: &str, jobs: &[Job]) -> Result<Report, String> {
+    fn session_report(&self, name: &str, jobs: &[FuzzJob]) -> Result<SessionReport, String> {
         let logs = jobs.iter().map(|job| fs::read_to_string(&job.log).unwrap_or_default());
         let logs: Vec<String> = logs.collect();
         let most = |name: &str| logs.iter().filter_map(|log| last_number(log, name)).max();
-        let executions = logs.iter().filter_map(|log| executions(log)).sum();
+        let executions = logs.iter().filter_map(|log| executed_runs(log)).sum();
         let corpus = fs::read_dir(self.folder.join("corpus")).map_or(0, Iterator::count);
-        Ok(Report {
+        Ok(SessionReport {
             name: name.to_owned(),
             time: jobs.iter().map(|job| job.time).sum(),
             executions,
@@ -116,9 +116,9 @@ impl Session {
     }
 }
 
-impl Job {
+impl FuzzJob {
     /// Notes how long it has run, and whether it has ended.
-    fn look(&mut self) -> Result<(), String> {
+    fn update_peak(&mut self) -> Result<(), String> {
         // Where the system does not tell, the clock does.
         self.time =
             processor_time(self.child.id()).unwrap_or_else(|| self.start.elapsed()).max(self.time);
@@ -127,7 +127,7 @@ impl Job {
     }
 
     /// Ends it as a person at the keyboard would, so that it still says what it did.
-    fn end(&mut self) -> Result<(), String> {
+    fn stop_process(&mut self) -> Result<(), String> {
         if !self.done {
             let id = self.child.id().to_string();
             let asked = Command::new("kill").args(["-INT", &id]).status();
@@ -150,7 +150,7 @@ fn processor_time(process: u32) -> Option<Duration> {
 }
 
 /// All inputs that ever crashed the target.
-fn artifacts(folder: &Path) -> Result<BTreeSet<PathBuf>, String> {
+fn list_artifacts(folder: &Path) -> Result<BTreeSet<PathBuf>, String> {
     let folder = folder.join("artifacts");
     let entries =
         fs::read_dir(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
@@ -164,7 +164,7 @@ fn last_number(log: &str, word: &str) -> Option<u64> {
 }
 
 /// How many inputs were tried: by the statistics at the end, or, after a crash, by the last line of progress.
-fn executions(log: &str) -> Option<u64> {
+fn executed_runs(log: &str) -> Option<u64> {
     if let Some((_, after)) = log.rsplit_once("stat::number_of_executed_units:") {
         return after.split_whitespace().next()?.parse().ok();
     }
@@ -173,22 +173,22 @@ fn executions(log: &str) -> Option<u64> {
 }
 
 /// What a log says of the end: from the panic on, if there was one, else its last lines. Progress is left out.
-fn ending(log: &str) -> String {
+fn last_lines(log: &str) -> String {
     let lines: Vec<&str> = log.lines().filter(|line| !line.starts_with('#')).collect();
-    let last = lines.len().saturating_sub(SHOWN);
+    let last = lines.len().saturating_sub(LAST_LINES);
     let start = lines.iter().position(|line| line.contains("panicked at")).unwrap_or(last);
-    lines[start..].iter().take(SHOWN).copied().collect::<Vec<_>>().join("\n")
+    lines[start..].iter().take(LAST_LINES).copied().collect::<Vec<_>>().join("\n")
 }
 
 /// So many lines are enough to see where it happened.
-const SHOWN: usize = 30;
+const LAST_LINES: usize = 30;
 
-impl Report {
+impl SessionReport {
     pub const HEADING: &str =
         "target    CPU min  executions   per s    edges  features  corpus  crashes";
 }
 
-impl fmt::Display for Report {
+impl fmt::Display for SessionReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, time, executions, edges, features, corpus, crashes } = self;
         let (seconds, crashes) = (time.as_secs_f64().max(0.01), crashes.len());
@@ -204,16 +204,16 @@ impl fmt::Display for Report {
 mod tests {
     use super::*;
 
-    const LOG: &str = "INFO: seed corpus: files: 2\n#3 INITED cov: 12 ft: 34 corp: 2/9b\n\
+    const LOG: &str = "INFO: seed corpus: 2\n#3 INITED cov: 12 ft: 34 corp: 2/9b\n\
         #4096 pulse  cov: 15 ft: 40 corp: 3/12b lim: 4096 exec/s: 2048 rss: 31Mb\n";
 
     #[test]
     fn progress_is_read_from_the_log() {
         assert_eq!((last_number(LOG, "cov:"), last_number(LOG, "ft:")), (Some(15), Some(40)));
-        assert_eq!(executions(LOG), Some(4096));
+        assert_eq!(executed_runs(LOG), Some(4096));
         let ended = format!("{LOG}stat::number_of_executed_units: 5000\nstat::peak_rss_mb: 1\n");
-        assert_eq!(executions(&ended), Some(5000));
-        assert_eq!((last_number("", "cov:"), executions("")), (None, None));
+        assert_eq!(executed_runs(&ended), Some(5000));
+        assert_eq!((last_number("", "cov:"), executed_runs("")), (None, None));
     }
 
     #[test]
@@ -221,9 +221,12 @@ mod tests {
         let frames = "  at frame\n".repeat(90);
         let log =
             format!("INFO: x\n#1 INITED\nthread 't' panicked at a.rs:1:2:\n#2 NEW\nwhy\n{frames}");
-        let shown = ending(&log);
+        let shown = last_lines(&log);
         assert!(shown.starts_with("thread 't' panicked at a.rs:1:2:\nwhy\n"), "{shown}");
-        assert_eq!((shown.lines().count(), ending("#1\na\nb\n")), (SHOWN, "a\nb".to_owned()));
+        assert_eq!(
+            (shown.lines().count(), last_lines("#1\na\nb\n")),
+            (LAST_LINES, "a\nb".to_owned())
+        );
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! A shaft in a plain bearing: parts that fit, and are closed, for cuts to show what is inside.
 
 use super::document::Document;
-use super::mesh::{Mesh, corners};
+use super::mesh::{Mesh, sharp_outline};
 use super::palette::{CLAY, OCHRE, SAND, SLATE, TEAL};
 use glam::{DVec3, dvec3};
 use serde_json::json;
@@ -48,17 +48,18 @@ pub fn bearing() -> Document {
         ("ring", RING, CLAY),
         ("shaft", SHAFT, SAND),
     ] {
-        let material = document.material(name, color);
-        let part = document.mesh(name, &[(&Mesh::lathe(&corners(profile), SEGMENTS), material)]);
-        document.root(name, Some(part), json!({}));
+        let material = document.add_material(name, color);
+        let part =
+            document.add_mesh(name, &[(&Mesh::lathe(&sharp_outline(profile), SEGMENTS), material)]);
+        document.add_root(name, Some(part), json!({}));
     }
-    let steel = document.material("steel", TEAL);
-    let bolt = document.mesh("bolt", &[(&Mesh::lathe(&corners(BOLT), 12), steel)]);
+    let steel = document.add_material("steel", TEAL);
+    let bolt = document.add_mesh("bolt", &[(&Mesh::lathe(&sharp_outline(BOLT), 12), steel)]);
     let places: [DVec3; 4] =
         [dvec3(1.3, 0.0, 0.0), dvec3(-1.3, 0.0, 0.0), dvec3(0.0, 0.0, 1.3), dvec3(0.0, 0.0, -1.3)];
     for (number, DVec3 { x, y, z }) in (1..).zip(places) {
         let place = json!({ "translation": [x, y, z] });
-        document.root(&format!("bolt {number}"), Some(bolt), place);
+        document.add_root(&format!("bolt {number}"), Some(bolt), place);
     }
     document
 }

@@ -17,26 +17,29 @@ pub fn tessellate(mesh: &mut Mesh, patch: &Patch, steps: u32) {
     for row in 0..=steps {
         for column in 0..=steps {
             let [u, v] = [column, row].map(|step| f64::from(step) / f64::from(steps));
-            mesh.vertex(surface(patch, cubics(u), cubics(v)), normal(patch, u, v));
+            mesh.add_vertex(
+                patch_point(patch, bernstein_cubics(u), bernstein_cubics(v)),
+                patch_normal(patch, u, v),
+            );
         }
     }
-    mesh.weave(first, steps + 1, steps + 1);
+    mesh.add_grid_triangles(first, steps + 1, steps + 1);
 }
 
-fn normal(patch: &Patch, u: f64, v: f64) -> DVec3 {
-    let along_v = surface(patch, cubics(u), slopes(v));
-    let along_u = surface(patch, slopes(u), cubics(v));
+fn patch_normal(patch: &Patch, u: f64, v: f64) -> DVec3 {
+    let along_v = patch_point(patch, bernstein_cubics(u), bernstein_slopes(v));
+    let along_u = patch_point(patch, bernstein_slopes(u), bernstein_cubics(v));
     if along_u.length() > 1e-9 {
         return along_u.cross(along_v).normalize();
     }
     // Going away from the pole: forwards from the first row, backwards from the last.
     let away = if v < 0.5 { 1.0 } else { -1.0 };
-    let opening = surface(patch, slopes(u), slopes(v)) * away;
+    let opening = patch_point(patch, bernstein_slopes(u), bernstein_slopes(v)) * away;
     opening.cross(along_v).normalize()
 }
 
 /// The weighted sum of control points, with one weight for each column and one for each row.
-fn surface(patch: &Patch, columns: DVec4, rows: DVec4) -> DVec3 {
+fn patch_point(patch: &Patch, columns: DVec4, rows: DVec4) -> DVec3 {
     let blend = |points: [DVec3; 4], weights: DVec4| {
         points[0] * weights.x
             + points[1] * weights.y
@@ -47,13 +50,13 @@ fn surface(patch: &Patch, columns: DVec4, rows: DVec4) -> DVec3 {
 }
 
 /// Bernstein's cubics at `t`.
-fn cubics(t: f64) -> DVec4 {
+fn bernstein_cubics(t: f64) -> DVec4 {
     let s = 1.0 - t;
     dvec4(s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t)
 }
 
 /// Their derivatives at `t`.
-fn slopes(t: f64) -> DVec4 {
+fn bernstein_slopes(t: f64) -> DVec4 {
     let s = 1.0 - t;
     dvec4(-3.0 * s * s, 3.0 * s * s - 6.0 * s * t, 6.0 * s * t - 3.0 * t * t, 3.0 * t * t)
 }
@@ -61,15 +64,15 @@ fn slopes(t: f64) -> DVec4 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::models::teapot_patches::parts;
+    use crate::models::teapot_patches::teapot_parts;
 
     #[test]
     fn normals_are_perpendicular_to_small_steps_on_the_surface() {
         let step = 1e-6;
-        for patch in parts().iter().flat_map(|part| &part.patches) {
+        for patch in teapot_parts().iter().flat_map(|part| &part.patches) {
             for (u, v) in [(0.3, 0.4), (0.7, 0.1), (0.5, 0.9)] {
-                let at = |u, v| surface(patch, cubics(u), cubics(v));
-                let normal = normal(patch, u, v);
+                let at = |u, v| patch_point(patch, bernstein_cubics(u), bernstein_cubics(v));
+                let normal = patch_normal(patch, u, v);
                 assert!(normal.dot((at(u + step, v) - at(u - step, v)) / step).abs() < 1e-6);
                 assert!(normal.dot((at(u, v + step) - at(u, v - step)) / step).abs() < 1e-6);
             }
@@ -80,8 +83,8 @@ mod tests {
     fn at_a_pole_the_normal_is_the_limit_of_those_beside_it() {
         let poles = [("lid", 0.0, DVec3::Z), ("bottom", 1.0, DVec3::NEG_Z)];
         for (name, v, axis) in poles {
-            let part = parts().into_iter().find(|part| part.name == name).unwrap();
-            assert!(normal(&part.patches[0], 0.3, v).dot(axis) > 0.999_999, "{name}");
+            let part = teapot_parts().into_iter().find(|part| part.name == name).unwrap();
+            assert!(patch_normal(&part.patches[0], 0.3, v).dot(axis) > 0.999_999, "{name}");
         }
     }
 }

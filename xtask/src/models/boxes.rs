@@ -11,10 +11,10 @@ use serde_json::json;
 /// A cube of one metre standing on the ground, the same picture on all six sides.
 pub fn wooden_crate() -> Result<Document, String> {
     let mut document = Document::default();
-    let planks = document.texture("planks", &wood::crate_side()?);
-    let wood = document.textured("wood", planks, json!({}));
-    let mesh = document.mesh("crate", &[(&Mesh::block(DVec3::ZERO, DVec3::ONE), wood)]);
-    document.root("crate", Some(mesh), json!({}));
+    let planks = document.add_texture("planks", &wood::crate_side_png()?);
+    let wood = document.add_textured("wood", planks, json!({}));
+    let mesh = document.add_mesh("crate", &[(&Mesh::block_on(DVec3::ZERO, DVec3::ONE), wood)]);
+    document.add_root("crate", Some(mesh), json!({}));
     Ok(document)
 }
 
@@ -25,34 +25,40 @@ pub fn wooden_crate() -> Result<Document, String> {
 /// camera in front.
 pub fn panes() -> Result<Document, String> {
     let mut document = Document::default();
-    let rail = document.material("rail", SLATE);
-    let rail =
-        document.mesh("rail", &[(&Mesh::block(DVec3::ZERO, dvec3(3.4, 0.16, 2.6)).plain(), rail)]);
-    document.root("rail", Some(rail), json!({}));
+    let rail = document.add_material("rail", SLATE);
+    let rail = document.add_mesh(
+        "rail",
+        &[(&Mesh::block_on(DVec3::ZERO, dvec3(3.4, 0.16, 2.6)).without_normals(), rail)],
+    );
+    document.add_root("rail", Some(rail), json!({}));
 
     for (name, color, x, z) in [
         ("ochre pane", OCHRE, -0.5, 0.9),
         ("clay pane", CLAY, 0.0, 0.3),
         ("teal pane", TEAL, 0.5, -0.3),
     ] {
-        let glass = document.glass(name, color, 0.55);
-        let pane = document.mesh(name, &[(&upright(dvec3(x, 0.16, z), 1.5, 1.8).plain(), glass)]);
-        document.root(name, Some(pane), json!({}));
+        let glass = document.add_glass(name, color, 0.55);
+        let pane = document.add_mesh(
+            name,
+            &[(&upright_pane(dvec3(x, 0.16, z), 1.5, 1.8).without_normals(), glass)],
+        );
+        document.add_root(name, Some(pane), json!({}));
     }
 
-    let lattice = document.texture("lattice", &wood::lattice()?);
+    let lattice = document.add_texture("lattice", &wood::lattice_png()?);
     let cut_out = json!({ "alphaMode": "MASK", "alphaCutoff": 0.5, "doubleSided": true });
-    let screen = document.textured("screen", lattice, cut_out);
-    let screen = document.mesh("screen", &[(&upright(dvec3(0.0, 0.16, -0.9), 3.0, 2.2), screen)]);
-    document.root("screen", Some(screen), json!({}));
+    let screen = document.add_textured("screen", lattice, cut_out);
+    let screen =
+        document.add_mesh("screen", &[(&upright_pane(dvec3(0.0, 0.16, -0.9), 3.0, 2.2), screen)]);
+    document.add_root("screen", Some(screen), json!({}));
     Ok(document)
 }
 
 /// A rectangle facing +z, standing with the middle of its foot at `at`.
-fn upright(at: DVec3, width: f64, height: f64) -> Mesh {
+fn upright_pane(at: DVec3, width: f64, height: f64) -> Mesh {
     let side = DVec3::X * (width / 2.0);
     let up = DVec3::Y * height;
     let mut mesh = Mesh::default();
-    mesh.quad([at - side, at + side, at + side + up, at - side + up]);
+    mesh.add_quad([at - side, at + side, at + side + up, at - side + up]);
     mesh
 }

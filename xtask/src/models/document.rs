@@ -6,7 +6,7 @@
 
 use super::mesh::Mesh;
 use super::palette::Color;
-use crate::glb::glb;
+use crate::glb::encode_glb;
 use glam::DVec3;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
@@ -26,7 +26,7 @@ pub struct TextureId(usize);
 
 /// How the indices of a primitive are read (glTF 2.0, §3.7.2.1).
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Mode {
+pub enum PrimitiveMode {
     Points = 0,
     Lines = 1,
     LineLoop = 2,
@@ -59,23 +59,23 @@ const FLOAT: u32 = 5126;
 
 impl Document {
     /// A plain, rough material of one colour.
-    pub fn material(&mut self, name: &str, color: Color) -> MaterialId {
-        self.material_from(name, json!({ "baseColorFactor": opaque(color) }), json!({}))
+    pub fn add_material(&mut self, name: &str, color: Color) -> MaterialId {
+        self.add_surface(name, json!({ "baseColorFactor": opaque_factor(color) }), json!({}))
     }
 
     /// A plain material seen from both sides.
-    pub fn double_sided(&mut self, name: &str, color: Color) -> MaterialId {
-        self.material_from(
+    pub fn add_double_sided(&mut self, name: &str, color: Color) -> MaterialId {
+        self.add_surface(
             name,
-            json!({ "baseColorFactor": opaque(color) }),
+            json!({ "baseColorFactor": opaque_factor(color) }),
             json!({ "doubleSided": true }),
         )
     }
 
     /// A material that lets what is behind it through, by `alpha` (glTF's BLEND).
-    pub fn glass(&mut self, name: &str, color: Color, alpha: f64) -> MaterialId {
+    pub fn add_glass(&mut self, name: &str, color: Color, alpha: f64) -> MaterialId {
         let [r, g, b] = color.linear();
-        self.material_from(
+        self.add_surface(
             name,
             json!({ "baseColorFactor": [r, g, b, alpha] }),
             json!({ "alphaMode": "BLEND", "doubleSided": true }),
@@ -84,11 +84,11 @@ impl Document {
 
     /// A material with a picture; `others` are further members of the material, such as its alpha
     /// mode.
-    pub fn textured(&mut self, name: &str, texture: TextureId, others: Value) -> MaterialId {
-        self.material_from(name, json!({ "baseColorTexture": { "index": texture.0 } }), others)
+    pub fn add_textured(&mut self, name: &str, texture: TextureId, others: Value) -> MaterialId {
+        self.add_surface(name, json!({ "baseColorTexture": { "index": texture.0 } }), others)
     }
 
-    fn material_from(&mut self, name: &str, mut surface: Value, mut others: Value) -> MaterialId {
+    fn add_surface(&mut self, name: &str, mut surface: Value, mut others: Value) -> MaterialId {
         surface["metallicFactor"] = json!(0.0);
         surface["roughnessFactor"] = json!(0.7);
         others["name"] = json!(name);
@@ -98,118 +98,127 @@ impl Document {
     }
 
     /// A material as glTF has it, with all of its members but the name.
-    pub fn finish(&mut self, name: &str, mut material: Value) -> MaterialId {
+    pub fn add_finish(&mut self, name: &str, mut material: Value) -> MaterialId {
         material["name"] = json!(name);
         self.materials.push(material);
         MaterialId(self.materials.len() - 1)
     }
 
     /// A PNG picture, smoothly filtered and repeated in both directions.
-    pub fn texture(&mut self, name: &str, png: &[u8]) -> TextureId {
-        let view = self.buffer_view(png, None);
-        let image = push(
+    pub fn add_texture(&mut self, name: &str, png: &[u8]) -> TextureId {
+        let view = self.add_buffer_view(png, None);
+        let image = push_index(
             &mut self.images,
             json!({ "bufferView": view, "mimeType": "image/png", "name": name }),
         );
-        TextureId(push(&mut self.textures, json!({ "name": name, "sampler": 0, "source": image })))
+        TextureId(push_index(
+            &mut self.textures,
+            json!({ "name": name, "sampler": 0, "source": image }),
+        ))
     }
 
     /// A mesh of triangles.
-    pub fn mesh(&mut self, name: &str, parts: &[(&Mesh, MaterialId)]) -> MeshId {
-        let parts: Vec<_> = parts.iter().map(|(mesh, by)| (*mesh, *by, Mode::Triangles)).collect();
-        self.mesh_of(name, &parts)
+    pub fn add_mesh(&mut self, name: &str, parts: &[(&Mesh, MaterialId)]) -> MeshId {
+        let parts: Vec<_> =
+            parts.iter().map(|(mesh, by)| (*mesh, *by, PrimitiveMode::Triangles)).collect();
+        self.add_mesh_of_modes(name, &parts)
     }
 
     /// A mesh whose parts say how their indices are read.
-    pub fn mesh_of(&mut self, name: &str, parts: &[(&Mesh, MaterialId, Mode)]) -> MeshId {
+    pub fn add_mesh_of_modes(
+        &mut self,
+        name: &str,
+        parts: &[(&Mesh, MaterialId, PrimitiveMode)],
+    ) -> MeshId {
         let primitives: Vec<Value> =
-            parts.iter().map(|(mesh, by, mode)| self.primitive(mesh, *by, *mode)).collect();
-        MeshId(push(&mut self.meshes, json!({ "name": name, "primitives": primitives })))
+            parts.iter().map(|(mesh, by, mode)| self.primitive_json(mesh, *by, *mode)).collect();
+        MeshId(push_index(&mut self.meshes, json!({ "name": name, "primitives": primitives })))
     }
 
-    fn primitive(&mut self, mesh: &Mesh, material: MaterialId, mode: Mode) -> Value {
+    fn primitive_json(&mut self, mesh: &Mesh, material: MaterialId, mode: PrimitiveMode) -> Value {
         let mut attributes = Map::new();
-        attributes.insert("POSITION".into(), self.positions(&mesh.positions));
+        attributes.insert("POSITION".into(), self.add_positions(&mesh.positions));
         if !mesh.normals.is_empty() {
             let normals: Vec<u8> =
-                mesh.normals.iter().flat_map(|normal| floats(&normal.to_array())).collect();
+                mesh.normals.iter().flat_map(|normal| float_bytes(&normal.to_array())).collect();
             attributes
-                .insert("NORMAL".into(), self.attribute(&normals, mesh.normals.len(), "VEC3"));
+                .insert("NORMAL".into(), self.add_attribute(&normals, mesh.normals.len(), "VEC3"));
         }
         if !mesh.uvs.is_empty() {
-            let uvs: Vec<u8> = mesh.uvs.iter().flat_map(|uv| floats(&uv.to_array())).collect();
-            attributes.insert("TEXCOORD_0".into(), self.attribute(&uvs, mesh.uvs.len(), "VEC2"));
+            let uvs: Vec<u8> = mesh.uvs.iter().flat_map(|uv| float_bytes(&uv.to_array())).collect();
+            attributes
+                .insert("TEXCOORD_0".into(), self.add_attribute(&uvs, mesh.uvs.len(), "VEC2"));
         }
         if !mesh.colors.is_empty() {
-            attributes.insert("COLOR_0".into(), self.colors(&mesh.colors));
+            attributes.insert("COLOR_0".into(), self.add_colors(&mesh.colors));
         }
         let mut primitive = json!({ "attributes": attributes, "material": material.0 });
-        if mode != Mode::Triangles {
+        if mode != PrimitiveMode::Triangles {
             primitive["mode"] = json!(mode as u32);
         }
         if !mesh.indices.is_empty() {
-            primitive["indices"] = self.indices(mesh);
+            primitive["indices"] = self.add_indices(mesh);
         }
         primitive
     }
 
     /// Positions are the one attribute that must come with its bounds (glTF 2.0, §3.7.2.1), as the
     /// stored f32 have them.
-    fn positions(&mut self, positions: &[DVec3]) -> Value {
+    fn add_positions(&mut self, positions: &[DVec3]) -> Value {
         let stored = positions.iter().map(|position| position.as_vec3().as_dvec3());
         let low = stored.clone().fold(DVec3::INFINITY, DVec3::min);
         let high = stored.fold(DVec3::NEG_INFINITY, DVec3::max);
         let bytes: Vec<u8> =
-            positions.iter().flat_map(|position| floats(&position.to_array())).collect();
-        let accessor = self.attribute(&bytes, positions.len(), "VEC3");
+            positions.iter().flat_map(|position| float_bytes(&position.to_array())).collect();
+        let accessor = self.add_attribute(&bytes, positions.len(), "VEC3");
         let last = self.accessors.len() - 1;
         self.accessors[last]["min"] = json!(low.to_array());
         self.accessors[last]["max"] = json!(high.to_array());
         accessor
     }
 
-    fn attribute(&mut self, bytes: &[u8], count: usize, shape: &str) -> Value {
-        let view = self.buffer_view(bytes, Some(ARRAY_BUFFER));
-        self.accessor(json!({
+    fn add_attribute(&mut self, bytes: &[u8], count: usize, shape: &str) -> Value {
+        let view = self.add_buffer_view(bytes, Some(ARRAY_BUFFER));
+        self.add_accessor(json!({
             "bufferView": view, "componentType": FLOAT, "count": count, "type": shape,
         }))
     }
 
     /// Sixteen bits a channel: linear light in eight would show bands in the dark.
-    fn colors(&mut self, colors: &[[f64; 3]]) -> Value {
+    fn add_colors(&mut self, colors: &[[f64; 3]]) -> Value {
         let channels = |color: &[f64; 3]| [color[0], color[1], color[2], 1.0];
         let bytes: Vec<u8> = colors
             .iter()
             .flat_map(channels)
             .flat_map(|channel| (libm::round(channel * 65535.0) as u16).to_le_bytes())
             .collect();
-        let view = self.buffer_view(&bytes, Some(ARRAY_BUFFER));
-        self.accessor(json!({
+        let view = self.add_buffer_view(&bytes, Some(ARRAY_BUFFER));
+        self.add_accessor(json!({
             "bufferView": view, "componentType": UNSIGNED_SHORT, "normalized": true,
             "count": colors.len(), "type": "VEC4",
         }))
     }
 
     /// Sixteen-bit indices where they suffice; 65535 itself is reserved.
-    fn indices(&mut self, mesh: &Mesh) -> Value {
+    fn add_indices(&mut self, mesh: &Mesh) -> Value {
         let short = mesh.positions.len() < 65535;
         let bytes: Vec<u8> = if short {
             mesh.indices.iter().flat_map(|index| (*index as u16).to_le_bytes()).collect()
         } else {
             mesh.indices.iter().flat_map(|index| index.to_le_bytes()).collect()
         };
-        let view = self.buffer_view(&bytes, Some(ELEMENT_ARRAY_BUFFER));
-        self.accessor(json!({
+        let view = self.add_buffer_view(&bytes, Some(ELEMENT_ARRAY_BUFFER));
+        self.add_accessor(json!({
             "bufferView": view, "componentType": if short { UNSIGNED_SHORT } else { UNSIGNED_INT },
             "count": mesh.indices.len(), "type": "SCALAR",
         }))
     }
 
-    fn accessor(&mut self, accessor: Value) -> Value {
-        json!(push(&mut self.accessors, accessor))
+    fn add_accessor(&mut self, accessor: Value) -> Value {
+        json!(push_index(&mut self.accessors, accessor))
     }
 
-    fn buffer_view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
+    fn add_buffer_view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
         let offset = self.binary.len();
         self.binary.extend(bytes);
         self.binary.resize(self.binary.len().next_multiple_of(4), 0);
@@ -217,26 +226,26 @@ impl Document {
         if let Some(target) = target {
             view["target"] = json!(target);
         }
-        push(&mut self.buffer_views, view)
+        push_index(&mut self.buffer_views, view)
     }
 
     /// A node at the top of the scene. `members` are its transform and whatever else glTF gives to
     /// a node.
-    pub fn root(&mut self, name: &str, mesh: Option<MeshId>, members: Value) -> NodeId {
-        let node = self.node(name, mesh, members);
+    pub fn add_root(&mut self, name: &str, mesh: Option<MeshId>, members: Value) -> NodeId {
+        let node = self.add_node(name, mesh, members);
         self.roots.push(node.0);
         node
     }
 
     /// A node below another one.
-    pub fn child(
+    pub fn add_child(
         &mut self,
         of: NodeId,
         name: &str,
         mesh: Option<MeshId>,
         members: Value,
     ) -> NodeId {
-        let node = self.node(name, mesh, members);
+        let node = self.add_node(name, mesh, members);
         match &mut self.nodes[of.0]["children"] {
             Value::Array(children) => children.push(json!(node.0)),
             none => *none = json!([node.0]),
@@ -244,29 +253,39 @@ impl Document {
         node
     }
 
-    fn node(&mut self, name: &str, mesh: Option<MeshId>, mut members: Value) -> NodeId {
+    fn add_node(&mut self, name: &str, mesh: Option<MeshId>, mut members: Value) -> NodeId {
         members["name"] = json!(name);
         if let Some(mesh) = mesh {
             members["mesh"] = json!(mesh.0);
         }
-        NodeId(push(&mut self.nodes, members))
+        NodeId(push_index(&mut self.nodes, members))
     }
 
     /// A camera at the top of the scene, at `eye` and turned by the unit quaternion `rotation` (x,
     /// y, z, w); it looks along its own −z. `lens` is the camera as glTF writes it.
-    pub fn camera(&mut self, name: &str, lens: Value, eye: [f64; 3], rotation: [f64; 4]) -> NodeId {
+    pub fn add_camera(
+        &mut self,
+        name: &str,
+        lens: Value,
+        eye: [f64; 3],
+        rotation: [f64; 4],
+    ) -> NodeId {
         let mut camera = lens;
         camera["name"] = json!(name);
-        let camera = push(&mut self.cameras, camera);
-        self.root(name, None, json!({ "camera": camera, "translation": eye, "rotation": rotation }))
+        let camera = push_index(&mut self.cameras, camera);
+        self.add_root(
+            name,
+            None,
+            json!({ "camera": camera, "translation": eye, "rotation": rotation }),
+        )
     }
 
     /// The whole document as the bytes of a `.glb` file (glTF 2.0, §4.4).
     pub fn into_glb(self) -> Vec<u8> {
-        glb(self.json().to_string().as_bytes(), &self.binary)
+        encode_glb(self.to_json().to_string().as_bytes(), &self.binary)
     }
 
-    fn json(&self) -> Value {
+    fn to_json(&self) -> Value {
         let mut document = json!({
             "asset": { "version": "2.0", "generator": "cargo xtask models",
                        "copyright": "The Alberti developers, MIT OR Apache-2.0" },
@@ -305,22 +324,22 @@ impl Document {
 }
 
 /// A rotation by `degrees` about an axis, as glTF's unit quaternion (x, y, z, w).
-pub fn turn(axis: DVec3, degrees: f64) -> [f64; 4] {
+pub fn rotation_quaternion(axis: DVec3, degrees: f64) -> [f64; 4] {
     let (sine, cosine) = libm::sincos(degrees.to_radians() / 2.0);
     let [x, y, z] = (axis * sine).to_array();
     [x, y, z, cosine]
 }
 
-fn push(list: &mut Vec<Value>, value: Value) -> usize {
+fn push_index(list: &mut Vec<Value>, value: Value) -> usize {
     list.push(value);
     list.len() - 1
 }
 
-fn opaque(color: Color) -> [f64; 4] {
+fn opaque_factor(color: Color) -> [f64; 4] {
     let [r, g, b] = color.linear();
     [r, g, b, 1.0]
 }
 
-fn floats(values: &[f64]) -> Vec<u8> {
+fn float_bytes(values: &[f64]) -> Vec<u8> {
     values.iter().flat_map(|value| (*value as f32).to_le_bytes()).collect()
 }

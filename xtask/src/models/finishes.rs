@@ -20,21 +20,21 @@ pub fn finishes() -> Document {
         let rows = [
             ("gold", json!({ "pbrMetallicRoughness": plain(&gold, 1.0, roughness) })),
             ("paint", json!({ "pbrMetallicRoughness": plain(&paint, 0.0, roughness) })),
-            ("layer", layer(step)),
+            ("layer", layer_extension(step)),
         ];
         for (row, (name, material)) in rows.into_iter().enumerate() {
             let name = format!("{name} {}", step + 1);
-            let material = document.finish(&name, material);
-            let mesh = document.mesh(&name, &[(&ball, material)]);
+            let material = document.add_finish(&name, material);
+            let mesh = document.add_mesh(&name, &[(&ball, material)]);
             let place = [f64::from(step) - 2.0, 1.0 - row as f64, 0.0];
-            document.root(&name, Some(mesh), json!({ "translation": place }));
+            document.add_root(&name, Some(mesh), json!({ "translation": place }));
         }
     }
     document
 }
 
 /// One extension each: a clear coat, fibres, a thin film, glass, and a strong index of refraction.
-fn layer(which: u32) -> Value {
+fn layer_extension(which: u32) -> Value {
     let (color, metallic, roughness, name, extension) = match which {
         0 => (
             [0.45, 0.02, 0.02, 1.0],

@@ -18,21 +18,21 @@ const TO_Z: i32 = 24;
 
 pub fn floor() -> Document {
     let mut document = Document::default();
-    let light = document.material("light tiles", CREAM);
-    let dark = document.material("dark tiles", SLATE);
-    let tiles = document.mesh("tiles", &[(&tiles(0), light), (&tiles(1), dark)]);
-    document.root("floor", Some(tiles), json!({}));
+    let light = document.add_material("light tiles", CREAM);
+    let dark = document.add_material("dark tiles", SLATE);
+    let tiles = document.add_mesh("tiles", &[(&floor_tiles(0), light), (&floor_tiles(1), dark)]);
+    document.add_root("floor", Some(tiles), json!({}));
 
-    let stone = document.material("stone", SAND);
-    let cap = document.material("cap", BRICK);
-    let post = document.mesh(
+    let stone = document.add_material("stone", SAND);
+    let cap = document.add_material("cap", BRICK);
+    let post = document.add_mesh(
         "post",
-        &[(&post(), stone), (&Mesh::sphere(0.22, 16).moved(dvec3(0.0, 2.36, 0.0)), cap)],
+        &[(&floor_post(), stone), (&Mesh::sphere(0.22, 16).translated(dvec3(0.0, 2.36, 0.0)), cap)],
     );
     for step in 0..23 {
         let z = f64::from(TO_Z) - 1.5 - 4.0 * f64::from(step);
         for (side, x) in [("left", -3.5), ("right", 3.5)] {
-            document.root(
+            document.add_root(
                 &format!("{side} post {step}"),
                 Some(post),
                 json!({ "translation": [x, 0.0, z] }),
@@ -43,12 +43,12 @@ pub fn floor() -> Document {
 }
 
 /// The tiles of one colour, on one grid of shared corners.
-fn tiles(odd: i32) -> Mesh {
+fn floor_tiles(odd: i32) -> Mesh {
     let mut mesh = Mesh::default();
     let across = 2 * HALF_WIDTH + 1;
     for z in FROM_Z..=TO_Z {
         for x in -HALF_WIDTH..=HALF_WIDTH {
-            mesh.vertex(dvec3(f64::from(x), 0.0, f64::from(z)), DVec3::Y);
+            mesh.add_vertex(dvec3(f64::from(x), 0.0, f64::from(z)), DVec3::Y);
         }
     }
     for row in 0..TO_Z - FROM_Z {
@@ -62,9 +62,9 @@ fn tiles(odd: i32) -> Mesh {
     mesh
 }
 
-fn post() -> Mesh {
-    let mut post = Mesh::block(DVec3::ZERO, dvec3(0.5, 0.2, 0.5)).plain();
-    post.append(&Mesh::block(dvec3(0.0, 0.2, 0.0), dvec3(0.32, 1.9, 0.32)).plain());
-    post.append(&Mesh::block(dvec3(0.0, 2.1, 0.0), dvec3(0.5, 0.12, 0.5)).plain());
+fn floor_post() -> Mesh {
+    let mut post = Mesh::block_on(DVec3::ZERO, dvec3(0.5, 0.2, 0.5)).without_normals();
+    post.append(&Mesh::block_on(dvec3(0.0, 0.2, 0.0), dvec3(0.32, 1.9, 0.32)).without_normals());
+    post.append(&Mesh::block_on(dvec3(0.0, 2.1, 0.0), dvec3(0.5, 0.12, 0.5)).without_normals());
     post
 }

@@ -1,7 +1,7 @@
 //! A small house, once solid and once as its edges (glTF LINES), both from the same list of
 //! corners.
 
-use super::document::{Document, Mode};
+use super::document::{Document, PrimitiveMode};
 use super::mesh::Mesh;
 use super::palette::{BRICK, CREAM, INK, PAPER, SKY, SLATE, TEAL};
 use glam::{DVec3, dvec3};
@@ -17,35 +17,38 @@ const ROOF_THICKNESS: f64 = 0.18;
 const OVERHANG: f64 = 0.35;
 
 /// The solid house: walls, roof, chimney, door and windows.
-pub fn solid() -> Document {
+pub fn solid_house() -> Document {
     let mut document = Document::default();
-    let plaster = document.material("plaster", CREAM);
-    let tiles = document.material("roof tiles", BRICK);
-    let brick = document.material("chimney brick", SLATE);
-    let paint = document.material("door paint", TEAL);
-    let pane = document.material("window panes", SKY);
-    let frame = document.material("window frames", PAPER);
+    let plaster = document.add_material("plaster", CREAM);
+    let tiles = document.add_material("roof tiles", BRICK);
+    let brick = document.add_material("chimney brick", SLATE);
+    let paint = document.add_material("door paint", TEAL);
+    let pane = document.add_material("window panes", SKY);
+    let frame = document.add_material("window frames", PAPER);
 
-    let mut door = Mesh::block(dvec3(0.7, 0.0, HALF_DEPTH), dvec3(0.9, 1.9, 0.12)).plain();
-    door.append(&Mesh::block(dvec3(0.7, 0.0, HALF_DEPTH + 0.3), dvec3(1.3, 0.12, 0.6)).plain());
-    let (panes, frames) = windows();
-    let house = document.mesh(
+    let mut door =
+        Mesh::block_on(dvec3(0.7, 0.0, HALF_DEPTH), dvec3(0.9, 1.9, 0.12)).without_normals();
+    door.append(
+        &Mesh::block_on(dvec3(0.7, 0.0, HALF_DEPTH + 0.3), dvec3(1.3, 0.12, 0.6)).without_normals(),
+    );
+    let (panes, frames) = window_meshes();
+    let house = document.add_mesh(
         "house",
         &[
-            (&walls(), plaster),
-            (&roof(), tiles),
-            (&chimney(), brick),
+            (&wall_mesh(), plaster),
+            (&roof_mesh(), tiles),
+            (&chimney_mesh(), brick),
             (&door, paint),
             (&panes, pane),
             (&frames, frame),
         ],
     );
-    document.root("house", Some(house), json!({}));
+    document.add_root("house", Some(house), json!({}));
     document
 }
 
 /// The outline of the gable wall, counter-clockwise seen from the front.
-fn gable(z: f64) -> [DVec3; 5] {
+fn gable_outline(z: f64) -> [DVec3; 5] {
     [
         dvec3(-HALF_WIDTH, 0.0, z),
         dvec3(HALF_WIDTH, 0.0, z),
@@ -55,19 +58,19 @@ fn gable(z: f64) -> [DVec3; 5] {
     ]
 }
 
-fn walls() -> Mesh {
-    let (front, mut back) = (gable(HALF_DEPTH), gable(-HALF_DEPTH));
+fn wall_mesh() -> Mesh {
+    let (front, mut back) = (gable_outline(HALF_DEPTH), gable_outline(-HALF_DEPTH));
     let mut mesh = Mesh::default();
-    mesh.polygon(&front);
-    mesh.polygon(&[front[1], back[1], back[2], front[2]]);
-    mesh.polygon(&[back[0], front[0], front[4], back[4]]);
+    mesh.add_polygon(&front);
+    mesh.add_polygon(&[front[1], back[1], back[2], front[2]]);
+    mesh.add_polygon(&[back[0], front[0], front[4], back[4]]);
     back.reverse();
-    mesh.polygon(&back);
+    mesh.add_polygon(&back);
     mesh
 }
 
 /// Two slabs that lie on the gables and reach over the walls.
-fn roof() -> Mesh {
+fn roof_mesh() -> Mesh {
     let slope = dvec3(HALF_WIDTH, EAVES - RIDGE, 0.0);
     let reach = slope * (1.0 + OVERHANG / slope.length());
     let up = dvec3(0.0, ROOF_THICKNESS, 0.0);
@@ -80,39 +83,39 @@ fn roof() -> Mesh {
         if side < 0.0 {
             section.reverse();
         }
-        prism(&mut mesh, &section, HALF_DEPTH + OVERHANG);
+        add_prism(&mut mesh, &section, HALF_DEPTH + OVERHANG);
     }
     mesh
 }
 
 /// A bar along z with the given cross-section, from −half to +half.
-fn prism(mesh: &mut Mesh, section: &[DVec3; 4], half: f64) {
+fn add_prism(mesh: &mut Mesh, section: &[DVec3; 4], half: f64) {
     let at = |point: DVec3, z: f64| point + dvec3(0.0, 0.0, z);
-    mesh.polygon(&section.map(|point| at(point, half)));
+    mesh.add_polygon(&section.map(|point| at(point, half)));
     let mut back = section.map(|point| at(point, -half));
     back.reverse();
-    mesh.polygon(&back);
+    mesh.add_polygon(&back);
     for side in 0..4 {
         let (a, b) = (section[side], section[(side + 1) % 4]);
-        mesh.polygon(&[at(b, half), at(a, half), at(a, -half), at(b, -half)]);
+        mesh.add_polygon(&[at(b, half), at(a, half), at(a, -half), at(b, -half)]);
     }
 }
 
-fn chimney() -> Mesh {
-    Mesh::block(dvec3(-1.0, 3.0, -1.3), dvec3(0.55, 1.75, 0.55)).plain()
+fn chimney_mesh() -> Mesh {
+    Mesh::block_on(dvec3(-1.0, 3.0, -1.3), dvec3(0.55, 1.75, 0.55)).without_normals()
 }
 
 /// The panes of all windows and the frames about them.
-fn windows() -> (Mesh, Mesh) {
+fn window_meshes() -> (Mesh, Mesh) {
     let (mut panes, mut frames) = (Mesh::default(), Mesh::default());
     let thin = 0.06;
     let mut window = |at: DVec3, along_z: bool| {
         let size = |wide: f64, high: f64, deep: f64| {
             if along_z { dvec3(deep, high, wide) } else { dvec3(wide, high, deep) }
         };
-        frames.append(&Mesh::block(at, size(1.0, 1.0, thin)).plain());
+        frames.append(&Mesh::block_on(at, size(1.0, 1.0, thin)).without_normals());
         let raised = at + dvec3(0.0, 0.1, 0.0);
-        panes.append(&Mesh::block(raised, size(0.8, 0.8, thin + 0.05)).plain());
+        panes.append(&Mesh::block_on(raised, size(0.8, 0.8, thin + 0.05)).without_normals());
     };
     window(dvec3(-0.8, 0.9, HALF_DEPTH), false);
     window(dvec3(0.0, 2.5, HALF_DEPTH), false);
@@ -124,29 +127,33 @@ fn windows() -> (Mesh, Mesh) {
 }
 
 /// The house as a draughtsman's line drawing: edges only, so that one sees through it.
-pub fn edges() -> Document {
+pub fn house_edges() -> Document {
     let mut drawing = Mesh::default();
     for z in [HALF_DEPTH, -HALF_DEPTH] {
-        closed(&mut drawing, &gable(z));
+        add_closed_line(&mut drawing, &gable_outline(z));
     }
-    for corner in gable(HALF_DEPTH) {
-        segment(&mut drawing, corner, dvec3(corner.x, corner.y, -HALF_DEPTH));
+    for corner in gable_outline(HALF_DEPTH) {
+        add_segment(&mut drawing, corner, dvec3(corner.x, corner.y, -HALF_DEPTH));
     }
     let z = HALF_DEPTH;
-    closed(&mut drawing, &rectangle(dvec3(0.25, 0.0, z), DVec3::X * 0.9, DVec3::Y * 1.9));
-    closed(&mut drawing, &rectangle(dvec3(-1.3, 0.9, z), DVec3::X, DVec3::Y));
-    closed(&mut drawing, &rectangle(dvec3(-0.5, 2.5, z), DVec3::X, DVec3::Y));
+    add_closed_line(
+        &mut drawing,
+        &rectangle_points(dvec3(0.25, 0.0, z), DVec3::X * 0.9, DVec3::Y * 1.9),
+    );
+    add_closed_line(&mut drawing, &rectangle_points(dvec3(-1.3, 0.9, z), DVec3::X, DVec3::Y));
+    add_closed_line(&mut drawing, &rectangle_points(dvec3(-0.5, 2.5, z), DVec3::X, DVec3::Y));
     for z in [-1.9, -0.5, 0.9] {
         for x in [HALF_WIDTH, -HALF_WIDTH] {
-            closed(&mut drawing, &rectangle(dvec3(x, 0.9, z), DVec3::Z, DVec3::Y));
+            add_closed_line(&mut drawing, &rectangle_points(dvec3(x, 0.9, z), DVec3::Z, DVec3::Y));
         }
     }
     chimney_edges(&mut drawing);
 
     let mut document = Document::default();
-    let ink = document.material("ink", INK);
-    let mesh = document.mesh_of("house in edges", &[(&drawing, ink, Mode::Lines)]);
-    document.root("house in edges", Some(mesh), json!({}));
+    let ink = document.add_material("ink", INK);
+    let mesh =
+        document.add_mesh_of_modes("house in edges", &[(&drawing, ink, PrimitiveMode::Lines)]);
+    document.add_root("house in edges", Some(mesh), json!({}));
     document
 }
 
@@ -160,25 +167,25 @@ fn chimney_edges(drawing: &mut Mesh) {
         (-1.0 + half, -1.3 + half),
         (-1.0 - half, -1.3 + half),
     ];
-    closed(drawing, &corners.map(|(x, z)| dvec3(x, top, z)));
-    closed(drawing, &corners.map(|(x, z)| dvec3(x, roof_at(x), z)));
+    add_closed_line(drawing, &corners.map(|(x, z)| dvec3(x, top, z)));
+    add_closed_line(drawing, &corners.map(|(x, z)| dvec3(x, roof_at(x), z)));
     for (x, z) in corners {
-        segment(drawing, dvec3(x, roof_at(x), z), dvec3(x, top, z));
+        add_segment(drawing, dvec3(x, roof_at(x), z), dvec3(x, top, z));
     }
 }
 
-fn rectangle(corner: DVec3, side: DVec3, up: DVec3) -> [DVec3; 4] {
+fn rectangle_points(corner: DVec3, side: DVec3, up: DVec3) -> [DVec3; 4] {
     [corner, corner + side, corner + side + up, corner + up]
 }
 
 /// The segments of a closed outline.
-fn closed(drawing: &mut Mesh, corners: &[DVec3]) {
+fn add_closed_line(drawing: &mut Mesh, corners: &[DVec3]) {
     for (i, corner) in corners.iter().enumerate() {
-        segment(drawing, *corner, corners[(i + 1) % corners.len()]);
+        add_segment(drawing, *corner, corners[(i + 1) % corners.len()]);
     }
 }
 
-fn segment(drawing: &mut Mesh, from: DVec3, to: DVec3) {
+fn add_segment(drawing: &mut Mesh, from: DVec3, to: DVec3) {
     let first = drawing.positions.len() as u32;
     drawing.positions.extend([from, to]);
     drawing.indices.extend([first, first + 1]);

@@ -5,8 +5,8 @@
 //! ```
 //! Each arm is drawn along its own y axis and ends where the next joint's node begins.
 
-use super::document::{Document, turn};
-use super::mesh::{Mesh, corners};
+use super::document::{Document, rotation_quaternion};
+use super::mesh::{Mesh, sharp_outline};
 use super::palette::{BRICK, CREAM, INK, OCHRE};
 use glam::DVec3;
 use serde_json::{Value, json};
@@ -16,34 +16,42 @@ const UPPER_ARM: f64 = 1.3;
 
 pub fn lamp() -> Document {
     let mut document = Document::default();
-    let enamel = document.double_sided("enamel", BRICK);
-    let steel = document.material("steel", INK);
-    let brass = document.material("brass", OCHRE);
-    let milk = document.material("milk glass", CREAM);
+    let enamel = document.add_double_sided("enamel", BRICK);
+    let steel = document.add_material("steel", INK);
+    let brass = document.add_material("brass", OCHRE);
+    let milk = document.add_material("milk glass", CREAM);
 
     let joint = Mesh::sphere(0.11, 20);
     let foot = Mesh::lathe(
-        &corners(&[(0.0, 0.0), (0.62, 0.0), (0.62, 0.08), (0.12, 0.16), (0.12, 0.28), (0.0, 0.28)]),
+        &sharp_outline(&[
+            (0.0, 0.0),
+            (0.62, 0.0),
+            (0.62, 0.08),
+            (0.12, 0.16),
+            (0.12, 0.28),
+            (0.0, 0.28),
+        ]),
         40,
     );
-    let foot = document.mesh("foot", &[(&foot, enamel)]);
+    let foot = document.add_mesh("foot", &[(&foot, enamel)]);
     let arm = |length| Mesh::post(0.05, 0.05, length, 16);
-    let lower = document.mesh("lower arm", &[(&arm(LOWER_ARM), steel), (&joint, brass)]);
-    let upper = document.mesh("upper arm", &[(&arm(UPPER_ARM), steel), (&joint, brass)]);
-    let head = document.mesh("head", &[(&shade(), enamel), (&joint, brass)]);
-    let bulb = document.mesh("bulb", &[(&Mesh::sphere(0.2, 24), milk)]);
+    let lower = document.add_mesh("lower arm", &[(&arm(LOWER_ARM), steel), (&joint, brass)]);
+    let upper = document.add_mesh("upper arm", &[(&arm(UPPER_ARM), steel), (&joint, brass)]);
+    let head = document.add_mesh("head", &[(&shade_mesh(), enamel), (&joint, brass)]);
+    let bulb = document.add_mesh("bulb", &[(&Mesh::sphere(0.2, 24), milk)]);
 
-    let base = document.root("base", Some(foot), json!({}));
-    let lower = document.child(base, "lower arm", Some(lower), joined(0.3, DVec3::Z, 28.0));
-    let upper = document.child(lower, "upper arm", Some(upper), joined(LOWER_ARM, DVec3::Z, -86.0));
-    let head = document.child(upper, "head", Some(head), head_matrix());
-    document.child(head, "bulb", Some(bulb), json!({ "translation": [0.0, 0.52, 0.0] }));
+    let base = document.add_root("base", Some(foot), json!({}));
+    let lower = document.add_child(base, "lower arm", Some(lower), joint_node(0.3, DVec3::Z, 28.0));
+    let upper =
+        document.add_child(lower, "upper arm", Some(upper), joint_node(LOWER_ARM, DVec3::Z, -86.0));
+    let head = document.add_child(upper, "head", Some(head), head_matrix());
+    document.add_child(head, "bulb", Some(bulb), json!({ "translation": [0.0, 0.52, 0.0] }));
     document
 }
 
 /// A joint: up along the part before, then turned.
-fn joined(at: f64, axis: DVec3, degrees: f64) -> Value {
-    json!({ "translation": [0.0, at, 0.0], "rotation": turn(axis, degrees) })
+fn joint_node(at: f64, axis: DVec3, degrees: f64) -> Value {
+    json!({ "translation": [0.0, at, 0.0], "rotation": rotation_quaternion(axis, degrees) })
 }
 
 /// The head's place written as a matrix, column by column: turned by −78° about z, at the end of
@@ -60,6 +68,9 @@ fn head_matrix() -> Value {
 }
 
 /// An open bell about the y axis, its mouth up.
-fn shade() -> Mesh {
-    Mesh::lathe(&corners(&[(0.0, 0.1), (0.16, 0.1), (0.18, 0.24), (0.5, 0.72), (0.5, 0.78)]), 40)
+fn shade_mesh() -> Mesh {
+    Mesh::lathe(
+        &sharp_outline(&[(0.0, 0.1), (0.16, 0.1), (0.18, 0.24), (0.5, 0.72), (0.5, 0.78)]),
+        40,
+    )
 }

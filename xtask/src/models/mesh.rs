@@ -22,7 +22,7 @@ pub struct Mesh {
 
 /// A point of the outline that [`Mesh::lathe`] turns about the y axis.
 #[derive(Clone, Copy, Debug)]
-pub struct Turned {
+pub struct OutlinePoint {
     pub radius: f64,
     pub height: f64,
     /// Outward normal in the plane of radius and height.
@@ -31,14 +31,14 @@ pub struct Turned {
 
 impl Mesh {
     /// Adds a vertex with its normal and gives its index.
-    pub fn vertex(&mut self, position: DVec3, normal: DVec3) -> u32 {
+    pub fn add_vertex(&mut self, position: DVec3, normal: DVec3) -> u32 {
         self.positions.push(position);
         self.normals.push(normal);
         self.positions.len() as u32 - 1
     }
 
     /// Joins three vertices, unless two of them are the same place: then there is no face.
-    pub fn triangle(&mut self, corners: [u32; 3]) {
+    pub fn add_triangle(&mut self, corners: [u32; 3]) {
         let [a, b, c] = corners.map(|index| self.positions[index as usize]);
         if (b - a).cross(c - a).length() > 1e-12 {
             self.indices.extend(corners);
@@ -48,39 +48,39 @@ impl Mesh {
     /// Joins the vertices of a grid of `columns` by `rows`, stored row by row from index `first`.
     ///
     /// Outside is where going along a row and then to the next row turns counter-clockwise.
-    pub fn weave(&mut self, first: u32, columns: u32, rows: u32) {
+    pub fn add_grid_triangles(&mut self, first: u32, columns: u32, rows: u32) {
         for row in 0..rows - 1 {
             for column in 0..columns - 1 {
                 let a = first + row * columns + column;
                 let (b, c, d) = (a + 1, a + 1 + columns, a + columns);
-                self.triangle([a, b, c]);
-                self.triangle([a, c, d]);
+                self.add_triangle([a, b, c]);
+                self.add_triangle([a, c, d]);
             }
         }
     }
 
     /// A flat four-sided face with texture coordinates over the whole square, its corners
     /// counter-clockwise from the lower left.
-    pub fn quad(&mut self, corners: [DVec3; 4]) {
+    pub fn add_quad(&mut self, corners: [DVec3; 4]) {
         let [a, b, c, d] = corners;
         let normal = (b - a).cross(d - a).normalize();
         let first = self.positions.len() as u32;
         for corner in [a, b, c, d] {
-            self.vertex(corner, normal);
+            self.add_vertex(corner, normal);
         }
         self.uvs.extend([dvec2(0.0, 1.0), dvec2(1.0, 1.0), dvec2(1.0, 0.0), dvec2(0.0, 0.0)]);
         self.indices.extend([0, 1, 2, 0, 2, 3].map(|corner| first + corner));
     }
 
     /// A flat convex face, its corners counter-clockwise; without texture coordinates.
-    pub fn polygon(&mut self, corners: &[DVec3]) {
+    pub fn add_polygon(&mut self, corners: &[DVec3]) {
         let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
         let first = self.positions.len() as u32;
         for corner in corners {
-            self.vertex(*corner, normal);
+            self.add_vertex(*corner, normal);
         }
         for corner in 1..corners.len() as u32 - 1 {
-            self.triangle([first, first + corner, first + corner + 1]);
+            self.add_triangle([first, first + corner, first + corner + 1]);
         }
     }
 
@@ -101,14 +101,14 @@ impl Mesh {
             [(o, i, i), (i, i, i), (i, i, o), (o, i, o)], // top
             [(o, o, o), (i, o, o), (i, o, i), (o, o, i)], // bottom
         ] {
-            mesh.quad(face.map(|(x, y, z)| corner(x, y, z)));
+            mesh.add_quad(face.map(|(x, y, z)| corner(x, y, z)));
         }
         mesh
     }
 
     /// A box of the given size, standing on the ground with its middle over `(x, z)`.
     #[must_use]
-    pub fn block(at: DVec3, size: DVec3) -> Self {
+    pub fn block_on(at: DVec3, size: DVec3) -> Self {
         let half = dvec3(size.x / 2.0, 0.0, size.z / 2.0);
         Self::cuboid(at - half, at + half + dvec3(0.0, size.y, 0.0))
     }
@@ -116,19 +116,19 @@ impl Mesh {
     /// The surface that an outline sweeps about the y axis, in `segments` steps. The outline is
     /// given from the bottom up along the outside, so that outside is to its right.
     #[must_use]
-    pub fn lathe(outline: &[Turned], segments: u32) -> Self {
+    pub fn lathe(outline: &[OutlinePoint], segments: u32) -> Self {
         let mut mesh = Self::default();
         for turned in outline {
             for step in 0..=segments {
                 let (z, x) = libm::sincos(TAU * f64::from(step % segments) / f64::from(segments));
                 let out = dvec3(x, 0.0, -z);
-                mesh.vertex(
+                mesh.add_vertex(
                     out * turned.radius + DVec3::Y * turned.height,
                     out * turned.normal.x + DVec3::Y * turned.normal.y,
                 );
             }
         }
-        mesh.weave(0, segments + 1, outline.len() as u32);
+        mesh.add_grid_triangles(0, segments + 1, outline.len() as u32);
         mesh
     }
 
@@ -136,13 +136,13 @@ impl Mesh {
     #[must_use]
     pub fn sphere(radius: f64, segments: u32) -> Self {
         let rings = segments / 2;
-        let outline: Vec<Turned> = (0..=rings)
+        let outline: Vec<OutlinePoint> = (0..=rings)
             .map(|ring| {
                 let latitude = FRAC_PI_2 * (2.0 * f64::from(ring) / f64::from(rings) - 1.0);
                 let (sine, cosine) = libm::sincos(latitude);
                 // The poles exactly on the axis, so that their empty triangles are recognised.
                 let cosine = if ring == 0 || ring == rings { 0.0 } else { cosine };
-                Turned {
+                OutlinePoint {
                     radius: radius * cosine,
                     height: radius * sine,
                     normal: dvec2(cosine, sine),
@@ -155,7 +155,10 @@ impl Mesh {
     /// A closed round post from the ground up, wider or narrower at its top.
     #[must_use]
     pub fn post(bottom: f64, top: f64, height: f64, segments: u32) -> Self {
-        Self::lathe(&corners(&[(0.0, 0.0), (bottom, 0.0), (top, height), (0.0, height)]), segments)
+        Self::lathe(
+            &sharp_outline(&[(0.0, 0.0), (bottom, 0.0), (top, height), (0.0, height)]),
+            segments,
+        )
     }
 
     /// Adds all of another mesh that has the same attributes.
@@ -170,7 +173,7 @@ impl Mesh {
 
     /// The mesh moved by `by`.
     #[must_use]
-    pub fn moved(mut self, by: DVec3) -> Self {
+    pub fn translated(mut self, by: DVec3) -> Self {
         for position in &mut self.positions {
             *position += by;
         }
@@ -179,7 +182,7 @@ impl Mesh {
 
     /// The mesh without texture coordinates, for plain materials.
     #[must_use]
-    pub fn plain(mut self) -> Self {
+    pub fn without_normals(mut self) -> Self {
         self.uvs.clear();
         self
     }
@@ -188,13 +191,13 @@ impl Mesh {
 /// An outline of straight pieces with sharp corners between them: each corner is written twice,
 /// once for the piece below and once for the piece above.
 #[must_use]
-pub fn corners(points: &[(f64, f64)]) -> Vec<Turned> {
+pub fn sharp_outline(points: &[(f64, f64)]) -> Vec<OutlinePoint> {
     let mut outline = Vec::new();
     for pair in points.windows(2) {
         let [(r0, h0), (r1, h1)] = [pair[0], pair[1]];
         let normal = dvec2(h1 - h0, r0 - r1).normalize();
-        outline.push(Turned { radius: r0, height: h0, normal });
-        outline.push(Turned { radius: r1, height: h1, normal });
+        outline.push(OutlinePoint { radius: r0, height: h0, normal });
+        outline.push(OutlinePoint { radius: r1, height: h1, normal });
     }
     outline
 }

@@ -41,15 +41,15 @@ impl Color {
 }
 
 /// The colour at `t` of a ramp of linear colours, evenly spaced over 0 to 1.
-pub fn ramp(stops: &[[f64; 3]], t: f64) -> [f64; 3] {
+pub fn color_ramp(stops: &[[f64; 3]], t: f64) -> [f64; 3] {
     let last = stops.len() - 1;
     let place = t.clamp(0.0, 1.0) * last as f64;
     let below = (place as usize).min(last.saturating_sub(1));
-    mix(stops[below], stops[(below + 1).min(last)], place - below as f64)
+    mix_colors(stops[below], stops[(below + 1).min(last)], place - below as f64)
 }
 
 /// The colour `t` of the way from `a` to `b`.
-pub fn mix(a: [f64; 3], b: [f64; 3], t: f64) -> [f64; 3] {
+pub fn mix_colors(a: [f64; 3], b: [f64; 3], t: f64) -> [f64; 3] {
     [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * t)
 }
 
@@ -67,8 +67,8 @@ mod tests {
     #[test]
     fn a_ramp_passes_through_its_stops() {
         let stops = [[0.0; 3], [1.0; 3], [3.0; 3]];
-        assert_eq!(ramp(&stops, 0.5), [1.0; 3]);
-        assert_eq!(ramp(&stops, 0.75), [2.0; 3]);
-        assert_eq!(ramp(&stops, 7.0), [3.0; 3]);
+        assert_eq!(color_ramp(&stops, 0.5), [1.0; 3]);
+        assert_eq!(color_ramp(&stops, 0.75), [2.0; 3]);
+        assert_eq!(color_ramp(&stops, 7.0), [3.0; 3]);
     }
 }

@@ -1,7 +1,7 @@
 //! A small room without its ceiling and two of its walls, with three cameras in the file: a view
 //! from the door, a plan and an elevation.
 
-use super::document::{Document, turn};
+use super::document::{Document, rotation_quaternion};
 use super::mesh::Mesh;
 use super::palette::{BARK, BRICK, CREAM, OCHRE, PAPER, PLUM, SAGE, SKY, TEAL, WOOD};
 use glam::{DVec3, dvec3};
@@ -12,13 +12,13 @@ use serde_json::json;
 pub fn room() -> Document {
     let mut document = Document::default();
     let mut piece = |name: &str, color, boxes: &[(DVec3, DVec3)]| {
-        let material = document.material(name, color);
+        let material = document.add_material(name, color);
         let mut mesh = Mesh::default();
         for (at, size) in boxes {
-            mesh.append(&Mesh::block(*at, *size).plain());
+            mesh.append(&Mesh::block_on(*at, *size).without_normals());
         }
-        let mesh = document.mesh(name, &[(&mesh, material)]);
-        document.root(name, Some(mesh), json!({}));
+        let mesh = document.add_mesh(name, &[(&mesh, material)]);
+        document.add_root(name, Some(mesh), json!({}));
     };
     piece("floor boards", WOOD, &[(dvec3(0.0, -0.1, 0.0), dvec3(5.0, 0.1, 4.0))]);
     piece(
@@ -31,7 +31,7 @@ pub fn room() -> Document {
     );
     piece("rug", SAGE, &[(dvec3(0.2, 0.0, 0.3), dvec3(2.6, 0.02, 1.9))]);
     piece("window", SKY, &[(dvec3(0.9, 1.0, -1.99), dvec3(1.3, 1.1, 0.04))]);
-    piece("window frame", PAPER, &window_frame());
+    piece("window frame", PAPER, &window_frame_boxes());
     piece(
         "bed frame",
         BARK,
@@ -42,7 +42,7 @@ pub fn room() -> Document {
     );
     piece("blanket", BRICK, &[(dvec3(-1.9, 0.35, 0.35), dvec3(1.12, 0.2, 1.6))]);
     piece("pillow", PAPER, &[(dvec3(-1.9, 0.35, 1.4), dvec3(0.8, 0.16, 0.45))]);
-    piece("table", BARK, &table(dvec3(0.9, 0.0, -1.3)));
+    piece("table", BARK, &table_boxes(dvec3(0.9, 0.0, -1.3)));
     piece("book", PLUM, &[(dvec3(0.6, 0.76, -1.3), dvec3(0.35, 0.06, 0.25))]);
     piece("box", OCHRE, &[(dvec3(1.25, 0.76, -1.4), dvec3(0.3, 0.22, 0.3))]);
     piece(
@@ -62,12 +62,12 @@ pub fn room() -> Document {
             (dvec3(-1.3, 1.75, -1.85), dvec3(1.5, 0.06, 0.3)),
         ],
     );
-    piece("books", TEAL, &books());
-    cameras(&mut document);
+    piece("books", TEAL, &book_boxes());
+    add_cameras(&mut document);
     document
 }
 
-fn window_frame() -> Vec<(DVec3, DVec3)> {
+fn window_frame_boxes() -> Vec<(DVec3, DVec3)> {
     let (z, deep) = (-1.97, 0.06);
     vec![
         (dvec3(0.9, 0.94, z), dvec3(1.46, 0.08, deep)),
@@ -78,7 +78,7 @@ fn window_frame() -> Vec<(DVec3, DVec3)> {
     ]
 }
 
-fn table(at: DVec3) -> Vec<(DVec3, DVec3)> {
+fn table_boxes(at: DVec3) -> Vec<(DVec3, DVec3)> {
     let mut boxes = vec![(at + dvec3(0.0, 0.7, 0.0), dvec3(1.5, 0.06, 0.8))];
     for (x, z) in [(-0.68, -0.33), (0.68, -0.33), (-0.68, 0.33), (0.68, 0.33)] {
         boxes.push((at + dvec3(x, 0.0, z), dvec3(0.08, 0.7, 0.08)));
@@ -86,7 +86,7 @@ fn table(at: DVec3) -> Vec<(DVec3, DVec3)> {
     boxes
 }
 
-fn books() -> Vec<(DVec3, DVec3)> {
+fn book_boxes() -> Vec<(DVec3, DVec3)> {
     let heights = [0.28, 0.33, 0.25, 0.3, 0.27, 0.34, 0.26];
     let book = |(i, height): (usize, &f64)| {
         (dvec3(-1.9 + 0.11 * i as f64, 1.36, -1.85), dvec3(0.08, *height, 0.2))
@@ -96,13 +96,13 @@ fn books() -> Vec<(DVec3, DVec3)> {
 
 /// glTF cameras look along their own −z with y up; the door's is turned about y and then tipped
 /// down.
-fn cameras(document: &mut Document) {
+fn add_cameras(document: &mut Document) {
     let lens = json!({ "type": "perspective",
         "perspective": { "yfov": 50.0_f64.to_radians(), "znear": 0.1, "zfar": 50.0 } });
-    let [_, turn_y, _, turn_w] = turn(DVec3::Y, 43.5);
-    let [tip_x, _, _, tip_w] = turn(DVec3::X, -26.0);
+    let [_, turn_y, _, turn_w] = rotation_quaternion(DVec3::Y, 43.5);
+    let [tip_x, _, _, tip_w] = rotation_quaternion(DVec3::X, -26.0);
     let both = [turn_w * tip_x, turn_y * tip_w, -turn_y * tip_x, turn_w * tip_w];
-    document.camera("from the door", lens, [4.8, 4.1, 5.0], both);
+    document.add_camera("from the door", lens, [4.8, 4.1, 5.0], both);
 
     let flat = |half_height: f64| {
         json!({ "type": "orthographic",
@@ -110,6 +110,11 @@ fn cameras(document: &mut Document) {
                 "xmag": half_height * 1.6, "ymag": half_height, "znear": 0.1, "zfar": 20.0,
             } })
     };
-    document.camera("plan", flat(2.4), [0.0, 10.0, 0.0], turn(DVec3::X, -90.0));
-    document.camera("elevation", flat(1.7), [0.0, 1.3, 10.0], turn(DVec3::X, 0.0));
+    document.add_camera("plan", flat(2.4), [0.0, 10.0, 0.0], rotation_quaternion(DVec3::X, -90.0));
+    document.add_camera(
+        "elevation",
+        flat(1.7),
+        [0.0, 1.3, 10.0],
+        rotation_quaternion(DVec3::X, 0.0),
+    );
 }

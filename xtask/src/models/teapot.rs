@@ -2,33 +2,33 @@
 
 use super::bezier;
 use super::document::Document;
-use super::mesh::{Mesh, Turned};
-use super::palette::{BARK, CREAM, SAND, TEAL, mix};
-use super::teapot_patches::{Part, parts};
+use super::mesh::{Mesh, OutlinePoint};
+use super::palette::{BARK, CREAM, SAND, TEAL, mix_colors};
+use super::teapot_patches::{Part, teapot_parts};
 use glam::{DVec3, dvec2, dvec3};
 use serde_json::json;
 
 /// Steps along each side of a patch: forty about the pot, so that its outline looks round.
-const STEPS: u32 = 10;
+const PATCH_STEPS: u32 = 10;
 
 pub fn teapot() -> Document {
     let mut document = Document::default();
     // Through the gap about the lid, which is the original's, and through the spout one sees the
     // inside.
-    let glaze = document.double_sided("glaze", TEAL);
-    let root = document.root("teapot", None, json!({}));
-    for part in parts() {
-        let mesh = document.mesh(part.name, &[(&tessellate(&part), glaze)]);
-        document.child(root, part.name, Some(mesh), json!({}));
+    let glaze = document.add_double_sided("glaze", TEAL);
+    let root = document.add_root("teapot", None, json!({}));
+    for part in teapot_parts() {
+        let mesh = document.add_mesh(part.name, &[(&tessellate_part(&part), glaze)]);
+        document.add_child(root, part.name, Some(mesh), json!({}));
     }
     document
 }
 
 /// The patches of a part as one mesh, turned from z up to glTF's y up.
-fn tessellate(part: &Part) -> Mesh {
+fn tessellate_part(part: &Part) -> Mesh {
     let mut mesh = Mesh::default();
     for patch in &part.patches {
-        bezier::tessellate(&mut mesh, patch, STEPS);
+        bezier::tessellate(&mut mesh, patch, PATCH_STEPS);
     }
     for v in mesh.positions.iter_mut().chain(&mut mesh.normals) {
         *v = dvec3(v.x, v.z, -v.y);
@@ -37,25 +37,25 @@ fn tessellate(part: &Part) -> Mesh {
 }
 
 /// Radius of the table top, and of the part of it inside its darker rim.
-const RADIUS: f64 = 4.2;
-const RIM: f64 = 4.05;
+const TABLE_RADIUS: f64 = 4.2;
+const TABLE_RIM: f64 = 4.05;
 
 /// A round table top with a soft dark patch in the middle, where a pot of radius 1.5 stands:
 /// painted contact shadow.
-pub fn table() -> Document {
+pub fn table_document() -> Document {
     let mut document = Document::default();
-    let cloth = document.material("table top", super::palette::Color(255, 255, 255));
-    let mesh = document.mesh("table top", &[(&table_top(), cloth)]);
-    document.root("table top", Some(mesh), json!({}));
+    let cloth = document.add_material("table top", super::palette::Color(255, 255, 255));
+    let mesh = document.add_mesh("table top", &[(&table_top(), cloth)]);
+    document.add_root("table top", Some(mesh), json!({}));
     document
 }
 
 fn table_top() -> Mesh {
-    let flat = |radius| Turned { radius, height: 0.0, normal: dvec2(0.0, 1.0) };
-    let outline = |normal, radius, height| Turned { radius, height, normal };
+    let flat = |radius| OutlinePoint { radius, height: 0.0, normal: dvec2(0.0, 1.0) };
+    let outline = |normal, radius, height| OutlinePoint { radius, height, normal };
     let edge = dvec2(1.0, 0.0);
-    let mut rings = vec![outline(edge, RADIUS, -0.25), outline(edge, RADIUS, 0.0)];
-    rings.extend([RADIUS, RIM + 0.01, RIM - 0.01, 3.5].map(flat));
+    let mut rings = vec![outline(edge, TABLE_RADIUS, -0.25), outline(edge, TABLE_RADIUS, 0.0)];
+    rings.extend([TABLE_RADIUS, TABLE_RIM + 0.01, TABLE_RIM - 0.01, 3.5].map(flat));
     // Fine only where the shadow ends.
     rings.extend((12..=28).rev().map(|tenth| flat(f64::from(tenth) / 10.0)));
     rings.push(flat(0.0));
@@ -69,11 +69,11 @@ fn table_color(position: DVec3) -> [f64; 3] {
         return BARK.linear();
     }
     let r = libm::sqrt(position.x * position.x + position.z * position.z);
-    if r > RIM {
+    if r > TABLE_RIM {
         return SAND.linear();
     }
     // Darkest under the pot, gone two thirds of a radius beyond its foot.
     let shade = ((r - 1.3) / 1.4).clamp(0.0, 1.0);
     let shade = shade * shade * (3.0 - 2.0 * shade);
-    mix(CREAM.linear().map(|channel| channel * 0.38), CREAM.linear(), shade)
+    mix_colors(CREAM.linear().map(|channel| channel * 0.38), CREAM.linear(), shade)
 }

@@ -49,27 +49,27 @@ const BOTTOM: [Ring; 4] =
     [(1.5, 0.15, QUARTER), (1.5, 0.075, QUARTER), (1.425, 0.0, QUARTER), (0.0, 0.0, QUARTER)];
 
 /// A half of handle or spout, its y at most 0: rows along the tube, columns about it.
-type Half = [[[f64; 3]; 4]; 4];
+type HalfPatch = [[[f64; 3]; 4]; 4];
 
-const UPPER_HANDLE: Half = [
+const UPPER_HANDLE: HalfPatch = [
     [[-1.6, 0.0, 2.025], [-1.6, -0.3, 2.025], [-1.5, -0.3, 2.25], [-1.5, 0.0, 2.25]],
     [[-2.3, 0.0, 2.025], [-2.3, -0.3, 2.025], [-2.5, -0.3, 2.25], [-2.5, 0.0, 2.25]],
     [[-2.7, 0.0, 2.025], [-2.7, -0.3, 2.025], [-3.0, -0.3, 2.25], [-3.0, 0.0, 2.25]],
     [[-2.7, 0.0, 1.8], [-2.7, -0.3, 1.8], [-3.0, -0.3, 1.8], [-3.0, 0.0, 1.8]],
 ];
-const LOWER_HANDLE: Half = [
+const LOWER_HANDLE: HalfPatch = [
     [[-2.7, 0.0, 1.8], [-2.7, -0.3, 1.8], [-3.0, -0.3, 1.8], [-3.0, 0.0, 1.8]],
     [[-2.7, 0.0, 1.575], [-2.7, -0.3, 1.575], [-3.0, -0.3, 1.35], [-3.0, 0.0, 1.35]],
     [[-2.5, 0.0, 1.125], [-2.5, -0.3, 1.125], [-2.65, -0.3, 0.9375], [-2.65, 0.0, 0.9375]],
     [[-2.0, 0.0, 0.9], [-2.0, -0.3, 0.9], [-1.9, -0.3, 0.6], [-1.9, 0.0, 0.6]],
 ];
-const LOWER_SPOUT: Half = [
+const LOWER_SPOUT: HalfPatch = [
     [[1.7, 0.0, 1.425], [1.7, -0.66, 1.425], [1.7, -0.66, 0.6], [1.7, 0.0, 0.6]],
     [[2.6, 0.0, 1.425], [2.6, -0.66, 1.425], [3.1, -0.66, 0.825], [3.1, 0.0, 0.825]],
     [[2.3, 0.0, 2.1], [2.3, -0.25, 2.1], [2.4, -0.25, 2.025], [2.4, 0.0, 2.025]],
     [[2.7, 0.0, 2.4], [2.7, -0.25, 2.4], [3.3, -0.25, 2.4], [3.3, 0.0, 2.4]],
 ];
-const UPPER_SPOUT: Half = [
+const UPPER_SPOUT: HalfPatch = [
     [[2.7, 0.0, 2.4], [2.7, -0.25, 2.4], [3.3, -0.25, 2.4], [3.3, 0.0, 2.4]],
     [[2.8, 0.0, 2.475], [2.8, -0.25, 2.475], [3.525, -0.25, 2.49375], [3.525, 0.0, 2.49375]],
     [[2.9, 0.0, 2.475], [2.9, -0.15, 2.475], [3.45, -0.15, 2.5125], [3.45, 0.0, 2.5125]],
@@ -78,10 +78,12 @@ const UPPER_SPOUT: Half = [
 
 /// The pot, part by part, in the order of the published table.
 #[must_use]
-pub fn parts() -> Vec<Part> {
-    let turned =
-        |outlines: &[&[Ring; 4]]| outlines.iter().flat_map(|rings| quarters(rings)).collect();
-    let halves = |list: &[&Half]| list.iter().flat_map(|half| both_sides(half)).collect();
+pub fn teapot_parts() -> Vec<Part> {
+    let turned = |outlines: &[&[Ring; 4]]| {
+        outlines.iter().flat_map(|rings| quarter_patches(rings)).collect()
+    };
+    let halves =
+        |list: &[&HalfPatch]| list.iter().flat_map(|half| mirrored_patches(half)).collect();
     vec![
         Part { name: "body", patches: turned(&[&RIM, &UPPER_BODY, &LOWER_BODY]) },
         Part { name: "handle", patches: halves(&[&UPPER_HANDLE, &LOWER_HANDLE]) },
@@ -92,7 +94,7 @@ pub fn parts() -> Vec<Part> {
 }
 
 /// An outline turned about the z axis: four patches, clockwise seen from above.
-fn quarters(outline: &[Ring; 4]) -> [Patch; 4] {
+fn quarter_patches(outline: &[Ring; 4]) -> [Patch; 4] {
     let first = outline.map(|(radius, z, share)| {
         let inner = radius * share;
         [
@@ -110,7 +112,7 @@ fn quarters(outline: &[Ring; 4]) -> [Patch; 4] {
 
 /// A half and its mirror image in the plane y = 0, whose columns run the other way so that outside
 /// stays outside.
-fn both_sides(half: &Half) -> [Patch; 2] {
+fn mirrored_patches(half: &HalfPatch) -> [Patch; 2] {
     let patch = half.map(|row| row.map(DVec3::from));
     let mirrored = patch.map(|[a, b, c, d]| [d, c, b, a].map(|p| dvec3(p.x, -p.y, p.z)));
     [patch, mirrored]
@@ -141,7 +143,8 @@ mod tests {
 
     #[test]
     fn the_patches_are_those_of_the_published_table() {
-        let patches: Vec<Patch> = parts().into_iter().flat_map(|part| part.patches).collect();
+        let patches: Vec<Patch> =
+            teapot_parts().into_iter().flat_map(|part| part.patches).collect();
         assert_eq!(patches.len(), 32);
         for (patch, row, column, expected) in PUBLISHED {
             let found = patches[patch][row][column];
@@ -154,7 +157,7 @@ mod tests {
 
     #[test]
     fn neighbouring_patches_share_their_border() {
-        for part in parts() {
+        for part in teapot_parts() {
             let column = |patch: &Patch, i: usize| patch.map(|row| row[i]);
             let all = &part.patches;
             for patch in all {

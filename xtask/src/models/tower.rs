@@ -12,46 +12,50 @@ const WIDTH: f64 = 6.0;
 
 pub fn tower() -> Document {
     let mut document = Document::default();
-    let plaster = document.material("plaster", OCHRE);
-    let bands = document.material("bands", CREAM);
-    let glass = document.material("glass", SKY);
-    let paint = document.material("door paint", TEAL);
-    let lead = document.material("lead", INK);
-    let paving = document.material("paving", SAND);
+    let plaster = document.add_material("plaster", OCHRE);
+    let bands = document.add_material("bands", CREAM);
+    let glass = document.add_material("glass", SKY);
+    let paint = document.add_material("door paint", TEAL);
+    let lead = document.add_material("lead", INK);
+    let paving = document.add_material("paving", SAND);
 
     let top = STOREY * f64::from(STOREYS);
-    let walls = Mesh::block(DVec3::ZERO, dvec3(WIDTH, top, WIDTH)).plain();
-    let mut roof = Mesh::block(dvec3(0.0, top, 0.0), dvec3(WIDTH + 0.8, 0.35, WIDTH + 0.8)).plain();
-    roof.append(&Mesh::block(dvec3(-1.2, top + 0.35, -1.0), dvec3(1.6, 1.1, 1.6)).plain());
-    let door = Mesh::block(dvec3(0.0, 0.0, WIDTH / 2.0), dvec3(1.1, 1.6, 0.15)).plain();
-    let ground = Mesh::block(dvec3(0.0, -0.1, 6.0), dvec3(800.0, 0.1, 800.0)).plain();
-    let tower = document.mesh(
+    let walls = Mesh::block_on(DVec3::ZERO, dvec3(WIDTH, top, WIDTH)).without_normals();
+    let mut roof = Mesh::block_on(dvec3(0.0, top, 0.0), dvec3(WIDTH + 0.8, 0.35, WIDTH + 0.8))
+        .without_normals();
+    roof.append(
+        &Mesh::block_on(dvec3(-1.2, top + 0.35, -1.0), dvec3(1.6, 1.1, 1.6)).without_normals(),
+    );
+    let door =
+        Mesh::block_on(dvec3(0.0, 0.0, WIDTH / 2.0), dvec3(1.1, 1.6, 0.15)).without_normals();
+    let ground = Mesh::block_on(dvec3(0.0, -0.1, 6.0), dvec3(800.0, 0.1, 800.0)).without_normals();
+    let tower = document.add_mesh(
         "tower",
         &[
             (&walls, plaster),
-            (&storeys(), bands),
-            (&windows(), glass),
+            (&story_meshes(), bands),
+            (&window_mesh(), glass),
             (&door, paint),
             (&roof, lead),
             (&ground, paving),
         ],
     );
-    document.root("tower", Some(tower), json!({}));
+    document.add_root("tower", Some(tower), json!({}));
     document
 }
 
 /// The bands between the storeys.
-fn storeys() -> Mesh {
+fn story_meshes() -> Mesh {
     let mut mesh = Mesh::default();
     for storey in 1..STOREYS {
         let at = dvec3(0.0, STOREY * f64::from(storey) - 0.09, 0.0);
-        mesh.append(&Mesh::block(at, dvec3(WIDTH + 0.16, 0.18, WIDTH + 0.16)).plain());
+        mesh.append(&Mesh::block_on(at, dvec3(WIDTH + 0.16, 0.18, WIDTH + 0.16)).without_normals());
     }
     mesh
 }
 
 /// Four windows a storey on the two sides that are seen; none where the door is.
-fn windows() -> Mesh {
+fn window_mesh() -> Mesh {
     let mut mesh = Mesh::default();
     for storey in 0..STOREYS {
         for column in 0..4 {
@@ -60,10 +64,14 @@ fn windows() -> Mesh {
             let beside_door = storey == 0 && (1..=2).contains(&column);
             if !beside_door {
                 mesh.append(
-                    &Mesh::block(dvec3(across, up, WIDTH / 2.0), dvec3(0.7, 1.0, 0.1)).plain(),
+                    &Mesh::block_on(dvec3(across, up, WIDTH / 2.0), dvec3(0.7, 1.0, 0.1))
+                        .without_normals(),
                 );
             }
-            mesh.append(&Mesh::block(dvec3(WIDTH / 2.0, up, across), dvec3(0.1, 1.0, 0.7)).plain());
+            mesh.append(
+                &Mesh::block_on(dvec3(WIDTH / 2.0, up, across), dvec3(0.1, 1.0, 0.7))
+                    .without_normals(),
+            );
         }
     }
     mesh

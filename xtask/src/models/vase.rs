@@ -1,7 +1,7 @@
 //! A vase on a plinth, turned on a lathe, for the lights to play on.
 
 use super::document::Document;
-use super::mesh::{Mesh, Turned, corners};
+use super::mesh::{Mesh, OutlinePoint, sharp_outline};
 use super::palette::{PAPER, SAND, SLATE};
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use serde_json::json;
@@ -21,39 +21,39 @@ const OUTLINE: [DVec2; 9] = [
 ];
 
 /// Steps of the curve between two points of the outline.
-const STEPS: u32 = 5;
+const CURVE_STEPS: u32 = 5;
 
 pub fn vase() -> Document {
     let mut document = Document::default();
-    let glaze = document.double_sided("white glaze", PAPER);
-    let stone = document.material("stone", SAND);
-    let ground = document.material("ground", SLATE);
+    let glaze = document.add_double_sided("white glaze", PAPER);
+    let stone = document.add_material("stone", SAND);
+    let ground = document.add_material("ground", SLATE);
 
-    let vase = document.mesh("vase", &[(&Mesh::lathe(&curve(), 48), glaze)]);
-    document.root("vase", Some(vase), json!({ "translation": [0.0, 1.2, 0.0] }));
+    let vase = document.add_mesh("vase", &[(&Mesh::lathe(&outline_curve(), 48), glaze)]);
+    document.add_root("vase", Some(vase), json!({ "translation": [0.0, 1.2, 0.0] }));
 
-    let mut plinth = Mesh::block(DVec3::ZERO, dvec3(1.5, 0.18, 1.5)).plain();
-    plinth.append(&Mesh::block(dvec3(0.0, 0.18, 0.0), dvec3(1.2, 0.87, 1.2)).plain());
-    plinth.append(&Mesh::block(dvec3(0.0, 1.05, 0.0), dvec3(1.4, 0.15, 1.4)).plain());
-    let plinth = document.mesh("plinth", &[(&plinth, stone)]);
-    document.root("plinth", Some(plinth), json!({}));
+    let mut plinth = Mesh::block_on(DVec3::ZERO, dvec3(1.5, 0.18, 1.5)).without_normals();
+    plinth.append(&Mesh::block_on(dvec3(0.0, 0.18, 0.0), dvec3(1.2, 0.87, 1.2)).without_normals());
+    plinth.append(&Mesh::block_on(dvec3(0.0, 1.05, 0.0), dvec3(1.4, 0.15, 1.4)).without_normals());
+    let plinth = document.add_mesh("plinth", &[(&plinth, stone)]);
+    document.add_root("plinth", Some(plinth), json!({}));
 
-    let disc = Mesh::lathe(&corners(&[(2.3, -0.15), (2.3, 0.0), (0.0, 0.0)]), 72);
-    let disc = document.mesh("ground", &[(&disc, ground)]);
-    document.root("ground", Some(disc), json!({}));
+    let disc = Mesh::lathe(&sharp_outline(&[(2.3, -0.15), (2.3, 0.0), (0.0, 0.0)]), 72);
+    let disc = document.add_mesh("ground", &[(&disc, ground)]);
+    document.add_root("ground", Some(disc), json!({}));
     document
 }
 
 /// A Catmull-Rom curve through the outline (Catmull and Rom 1974), closed by the foot's flat
 /// underside.
-fn curve() -> Vec<Turned> {
+fn outline_curve() -> Vec<OutlinePoint> {
     let mut turned = Vec::new();
     let point = |i: usize| OUTLINE[i.min(OUTLINE.len() - 1)];
     for i in 0..OUTLINE.len() - 1 {
         let four = [point(i.saturating_sub(1)), point(i), point(i + 1), point(i + 2)];
         let last = u32::from(i == OUTLINE.len() - 2);
-        for step in 0..STEPS + last {
-            turned.push(on_curve(four, f64::from(step) / f64::from(STEPS)));
+        for step in 0..CURVE_STEPS + last {
+            turned.push(curve_point(four, f64::from(step) / f64::from(CURVE_STEPS)));
         }
     }
     turned
@@ -61,11 +61,11 @@ fn curve() -> Vec<Turned> {
 
 /// The point `t` of the way from the second of four points to the third, and the normal to the
 /// right of the way.
-fn on_curve([a, b, c, d]: [DVec2; 4], t: f64) -> Turned {
+fn curve_point([a, b, c, d]: [DVec2; 4], t: f64) -> OutlinePoint {
     let (p, q, r) = (c - a, a * 2.0 - b * 5.0 + c * 4.0 - d, b * 3.0 - a - c * 3.0 + d);
     let place = b + (p * t + q * (t * t) + r * (t * t * t)) * 0.5;
     let way = p + q * (2.0 * t) + r * (3.0 * t * t);
-    Turned { radius: place.x, height: place.y, normal: dvec2(way.y, -way.x).normalize() }
+    OutlinePoint { radius: place.x, height: place.y, normal: dvec2(way.y, -way.x).normalize() }
 }
 
 #[cfg(test)]
@@ -74,9 +74,9 @@ mod tests {
 
     #[test]
     fn the_curve_passes_through_every_point_of_the_outline() {
-        let curve = curve();
-        assert_eq!(curve.len(), (OUTLINE.len() - 1) * STEPS as usize + 1);
-        for (turned, point) in curve.iter().step_by(STEPS as usize).zip(OUTLINE) {
+        let curve = outline_curve();
+        assert_eq!(curve.len(), (OUTLINE.len() - 1) * CURVE_STEPS as usize + 1);
+        for (turned, point) in curve.iter().step_by(CURVE_STEPS as usize).zip(OUTLINE) {
             assert!((dvec2(turned.radius, turned.height) - point).length() < 1e-12);
         }
     }

@@ -1,59 +1,61 @@
 //! Pictures made by code: the planks of the crate and the leaves of the screen, as PNG bytes.
 
-use super::palette::{BARK, Color, SAGE, WOOD, mix};
+use super::palette::{BARK, Color, SAGE, WOOD, mix_colors};
 
 /// Width and height of the pictures, in texels.
-const SIZE: u32 = 128;
+const TEXTURE_SIZE: u32 = 128;
 
 /// The side of a crate: five planks in a frame with a diagonal brace, nails at its corners. RGB.
-pub fn crate_side() -> Result<Vec<u8>, String> {
+pub fn crate_side_png() -> Result<Vec<u8>, String> {
     let mut texels = Vec::new();
-    for y in 0..SIZE {
-        for x in 0..SIZE {
-            texels.extend(plank(x, y).map(|channel| libm::round(channel.clamp(0.0, 255.0)) as u8));
+    for y in 0..TEXTURE_SIZE {
+        for x in 0..TEXTURE_SIZE {
+            texels.extend(
+                plank_color(x, y).map(|channel| libm::round(channel.clamp(0.0, 255.0)) as u8),
+            );
         }
     }
-    png_of(&texels, png::ColorType::Rgb)
+    encode_png(&texels, png::ColorType::Rgb)
 }
 
 /// Colour of the crate's side at a texel.
-fn plank(x: u32, y: u32) -> [f64; 3] {
+fn plank_color(x: u32, y: u32) -> [f64; 3] {
     let (light, dark) = (WOOD.srgb(), BARK.srgb());
     if is_nail(x, y) {
         return Color(0x3a, 0x35, 0x32).srgb();
     }
-    let border = x.min(y).min(SIZE - 1 - x).min(SIZE - 1 - y);
+    let border = x.min(y).min(TEXTURE_SIZE - 1 - x).min(TEXTURE_SIZE - 1 - y);
     let diagonal = x.abs_diff(y);
     if border < 16 {
-        let lengthwise = y.min(SIZE - 1 - y) < 16;
+        let lengthwise = y.min(TEXTURE_SIZE - 1 - y) < 16;
         let (along, across) = if lengthwise { (x, y) } else { (y, x) };
         let edge = if border == 15 || border == 0 { 0.75 } else { 0.12 };
-        return grain(light, dark, along, across + 7, edge);
+        return grain_color(light, dark, along, across + 7, edge);
     }
     if diagonal < 12 {
         let edge = if diagonal == 11 { 0.7 } else { 0.2 };
-        return grain(light, dark, x + y, diagonal + 40, edge);
+        return grain_color(light, dark, x + y, diagonal + 40, edge);
     }
     // Shadow beside the frame, and the gaps between the planks.
     let edge = if border < 19 || x % 19 == 15 { 0.85 } else { 0.38 };
-    grain(light, dark, y, x + x / 19 * 31, edge)
+    grain_color(light, dark, y, x + x / 19 * 31, edge)
 }
 
 fn is_nail(x: u32, y: u32) -> bool {
-    let near = |t: u32| (6..10).contains(&t) || (SIZE - 10..SIZE - 6).contains(&t);
+    let near = |t: u32| (6..10).contains(&t) || (TEXTURE_SIZE - 10..TEXTURE_SIZE - 6).contains(&t);
     near(x) && near(y)
 }
 
 /// Wood between `light` and `dark`: long streaks that differ from line to line, `shade` of the way
 /// to dark in the mean.
-fn grain(light: [f64; 3], dark: [f64; 3], along: u32, across: u32, shade: f64) -> [f64; 3] {
-    let streak = noise(across, along / 24) * 0.6 + noise(across, along / 7 + 99) * 0.4;
-    mix(light, dark, shade + (streak - 0.5) * 0.3)
+fn grain_color(light: [f64; 3], dark: [f64; 3], along: u32, across: u32, shade: f64) -> [f64; 3] {
+    let streak = value_noise(across, along / 24) * 0.6 + value_noise(across, along / 7 + 99) * 0.4;
+    mix_colors(light, dark, shade + (streak - 0.5) * 0.3)
 }
 
 /// A number from 0 to 1 that looks random and is always the same for the same place (an integer
 /// hash).
-fn noise(x: u32, y: u32) -> f64 {
+fn value_noise(x: u32, y: u32) -> f64 {
     let mut hash = x.wrapping_mul(0x9e37_79b1) ^ y.wrapping_mul(0x85eb_ca77);
     hash = (hash ^ (hash >> 15)).wrapping_mul(0x2c1b_3c6d);
     hash = (hash ^ (hash >> 12)).wrapping_mul(0x297a_2d39);
@@ -62,11 +64,11 @@ fn noise(x: u32, y: u32) -> f64 {
 
 /// A screen of round holes in a square lattice, for cut-out materials: alpha is 0 in the holes.
 /// RGBA.
-pub fn lattice() -> Result<Vec<u8>, String> {
+pub fn lattice_png() -> Result<Vec<u8>, String> {
     let Color(r, g, b) = SAGE;
     let mut texels = Vec::new();
-    for y in 0..SIZE {
-        for x in 0..SIZE {
+    for y in 0..TEXTURE_SIZE {
+        for x in 0..TEXTURE_SIZE {
             // Four holes across; distances in quarter-hole units, from each hole's middle.
             let [dx, dy] = [x, y].map(|t| f64::from(t % 32) - 15.5);
             let beyond = libm::sqrt(dx * dx + dy * dy) - 11.5;
@@ -74,12 +76,12 @@ pub fn lattice() -> Result<Vec<u8>, String> {
             texels.extend([r, g, b, alpha as u8]);
         }
     }
-    png_of(&texels, png::ColorType::Rgba)
+    encode_png(&texels, png::ColorType::Rgba)
 }
 
-fn png_of(texels: &[u8], color: png::ColorType) -> Result<Vec<u8>, String> {
+fn encode_png(texels: &[u8], color: png::ColorType) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, SIZE, SIZE);
+    let mut encoder = png::Encoder::new(&mut bytes, TEXTURE_SIZE, TEXTURE_SIZE);
     encoder.set_color(color);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::High);

@@ -5,18 +5,19 @@
 //! brings the standard library back.
 
 use crate::Outcome;
-use crate::program::{cargo, output, succeed};
+use crate::program::{capture_output, cargo_command, run_command};
 use crate::tidy::NO_STD;
 
 /// What such a crate may depend on; macros that only run in the compiler do not count.
-const ALLOWED: &[&str] = &["homog", "glam", "libm", "thiserror"];
+const ALLOWED_DEPENDENCIES: &[&str] = &["homog", "glam", "libm", "thiserror"];
 
-pub fn run() -> Outcome {
+pub fn check_no_std() -> Outcome {
     for name in NO_STD {
-        succeed(&mut cargo(&["build", "--quiet", "--package", name]))?;
-        let mut tree = cargo(&["tree", "--edges", "normal,no-proc-macro", "--prefix", "none"]);
-        let tree = output(tree.args(["--format", "{p}|{f}", "--package", name]))?;
-        if let Some(fault) = tree.lines().find_map(|line| fault(name, line)) {
+        run_command(&mut cargo_command(&["build", "--quiet", "--package", name]))?;
+        let mut tree =
+            cargo_command(&["tree", "--edges", "normal,no-proc-macro", "--prefix", "none"]);
+        let tree = capture_output(tree.args(["--format", "{p}|{f}", "--package", name]))?;
+        if let Some(fault) = tree.lines().find_map(|line| dependency_fault(name, line)) {
             return Err(format!("{name} is not free of the standard library: {fault}"));
         }
         println!("{name} is built without std");
@@ -25,10 +26,10 @@ pub fn run() -> Outcome {
 }
 
 /// What is wrong with a line of the tree: `crate version …|feature,feature`.
-fn fault(name: &str, line: &str) -> Option<String> {
+fn dependency_fault(name: &str, line: &str) -> Option<String> {
     let (package, features) = line.split_once('|')?;
     let package = package.split_whitespace().next()?;
-    if package != name && !ALLOWED.contains(&package) {
+    if package != name && !ALLOWED_DEPENDENCIES.contains(&package) {
         return Some(format!("it depends on {package}"));
     }
     let std = features.trim_end_matches(" (*)").split(',').any(|feature| feature == "std");
@@ -41,9 +42,9 @@ mod tests {
 
     #[test]
     fn strange_crates_and_std_features_are_faults() {
-        assert_eq!(fault("clip", "clip v0.1.0 (somewhere)|"), None);
-        assert_eq!(fault("clip", "glam v0.34.0|f64,libm (*)"), None);
-        assert!(fault("clip", "camera v0.1.0|").is_some());
-        assert!(fault("clip", "thiserror v2.0.0|default,std (*)").is_some());
+        assert_eq!(dependency_fault("clip", "clip v0.1.0 (somewhere)|"), None);
+        assert_eq!(dependency_fault("clip", "glam v0.34.0|f64,libm (*)"), None);
+        assert!(dependency_fault("clip", "camera v0.1.0|").is_some());
+        assert!(dependency_fault("clip", "thiserror v2.0.0|default,std (*)").is_some());
     }
 }

@@ -1,7 +1,7 @@
 //! A step of the tests: what it runs, and what came of it.
 
 use crate::Outcome;
-use crate::program::{cargo, shown};
+use crate::program::{cargo_command, command_line};
 use std::io::{BufRead, BufReader, Write};
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
@@ -25,7 +25,7 @@ pub enum Action {
 }
 
 /// What came of a step.
-pub struct Report {
+pub struct StepReport {
     pub name: String,
     pub time: Duration,
     pub failure: Option<String>,
@@ -42,12 +42,12 @@ impl Step {
     }
 
     /// A step that is a command of this program.
-    pub fn own(name: &str, about: &str, run: fn() -> Outcome) -> Self {
+    pub fn built_in(name: &str, about: &str, run: fn() -> Outcome) -> Self {
         Self { name: name.into(), about: about.into(), action: Action::Own(run) }
     }
 
     /// Runs the step, with a heading before it.
-    pub fn run(&self) -> Report {
+    pub fn run_step(&self) -> StepReport {
         println!("\n── {}: {}", self.name, self.about);
         let start = Instant::now();
         let mut skipped = Vec::new();
@@ -55,28 +55,33 @@ impl Step {
             Action::Own(run) => run(),
             Action::Cargo(calls) => calls.iter().try_for_each(|call| {
                 let words: Vec<&str> = call.iter().map(String::as_str).collect();
-                follow(cargo(&words).envs(folders()), &mut skipped)
+                follow_output(cargo_command(&words).envs(named_folders()), &mut skipped)
             }),
             Action::Documentation => {
-                let mut cargo = cargo(&["doc", "--quiet", "--workspace", "--no-deps"]);
-                follow(cargo.env("RUSTDOCFLAGS", "-D warnings"), &mut skipped)
+                let mut cargo = cargo_command(&["doc", "--quiet", "--workspace", "--no-deps"]);
+                follow_output(cargo.env("RUSTDOCFLAGS", "-D warnings"), &mut skipped)
             }
         };
-        Report { name: self.name.clone(), time: start.elapsed(), failure: outcome.err(), skipped }
+        StepReport {
+            name: self.name.clone(),
+            time: start.elapsed(),
+            failure: outcome.err(),
+            skipped,
+        }
     }
 }
 
 /// The folders that a person names for a test, from where the person stands: the test itself runs
 /// in another folder.
-fn folders() -> Vec<(&'static str, PathBuf)> {
+fn named_folders() -> Vec<(&'static str, PathBuf)> {
     let here = std::env::current_dir().unwrap_or_default();
     let named = |name| Some((name, here.join(std::env::var_os(name)?)));
     ["VECTORS", "ASSETS"].into_iter().filter_map(named).collect()
 }
 
 /// Runs a command, shows what it prints as it comes, and keeps the lines that begin with `SKIPPED`.
-fn follow(command: &mut Command, skipped: &mut Vec<String>) -> Outcome {
-    let name = shown(command);
+fn follow_output(command: &mut Command, skipped: &mut Vec<String>) -> Outcome {
+    let name = command_line(command);
     let said = |error: std::io::Error| format!("{name}: {error}");
     let mut child = command.stdout(Stdio::piped()).spawn().map_err(said)?;
     if let Some(output) = child.stdout.take() {

@@ -1,9 +1,9 @@
 //! Which part may know which: the arrows of the code map, as rules.
 
-use super::Fault;
-use super::code::is_word;
+use super::Violation;
+use super::code::is_word_char;
 use super::source::Source;
-use crate::workspace::{read, root};
+use crate::workspace::{project_root, read_text};
 
 /// Crates that only one part may name, so that they can be exchanged, and the paths that part
 /// begins with.
@@ -20,12 +20,12 @@ const STAGES: &[&str] = &["homog", "camera", "projection", "clip", "viewport", "
 const STAGE_DEPENDENCIES: &[&str] = &["homog", "glam", "libm", "thiserror"];
 
 /// What a stage may depend on besides: the vector instructions of the rasteriser.
-const ALSO: &[(&str, &str)] = &[("raster", "fearless_simd")];
+const EXTRA_DEPENDENCIES: &[(&str, &str)] = &[("raster", "fearless_simd")];
 
 /// The stages that promise to work without the standard library.
 pub const NO_STD: &[&str] = &["homog", "camera", "projection", "clip", "viewport"];
 
-pub fn only_one_names(source: &Source) -> Vec<Fault> {
+pub fn crate_boundaries(source: &Source) -> Vec<Violation> {
     if !source.path.starts_with("crates/") {
         return Vec::new();
     }
@@ -33,55 +33,59 @@ pub fn only_one_names(source: &Source) -> Vec<Fault> {
         NAMED_BY.iter().filter(|(_, by)| !by.iter().any(|part| source.path.starts_with(part)));
     let lines = |name: &str, by: &[&str]| {
         let message = format!("only {} may name `{name}`", by.join(" and "));
-        let naming = source.code.iter().enumerate().filter(|(_, line)| names(line, name));
-        naming.map(|(i, _)| Fault::new(source.line(i + 1), message.clone())).collect::<Vec<_>>()
+        let naming = source.code.iter().enumerate().filter(|(_, line)| names_crate(line, name));
+        naming
+            .map(|(i, _)| Violation::new(source.line_text(i + 1), message.clone()))
+            .collect::<Vec<_>>()
     };
     forbidden.flat_map(|(name, by)| lines(name, by)).collect()
 }
 
 /// Whether a line of code has `name` at the head of a path.
-fn names(line: &str, name: &str) -> bool {
+fn names_crate(line: &str, name: &str) -> bool {
     let path = format!("{name}::");
     line.match_indices(&path).any(|(at, _)| {
         let before = line[..at].chars().next_back();
-        !before.is_some_and(|c| is_word(c) || c == ':')
+        !before.is_some_and(|c| is_word_char(c) || c == ':')
     })
 }
 
-pub fn no_std_where_promised(source: &Source) -> Vec<Fault> {
+pub fn no_std_where_promised(source: &Source) -> Vec<Violation> {
     let promised = NO_STD.iter().any(|name| source.path == format!("crates/{name}/src/lib.rs"));
     if !promised || source.code.iter().any(|line| line.trim() == "#![no_std]") {
         return Vec::new();
     }
-    vec![Fault::new(&source.path, "this crate promises `#![no_std]`")]
+    vec![Violation::new(&source.path, "this crate promises `#![no_std]`")]
 }
 
 /// The dependencies of the stages' manifests.
-pub fn dependencies() -> Result<Vec<Fault>, String> {
+pub fn dependencies() -> Result<Vec<Violation>, String> {
     let mut faults = Vec::new();
     for stage in STAGES {
-        let manifest = read(&root().join("crates").join(stage).join("Cargo.toml"))?;
+        let manifest = read_text(&project_root().join("crates").join(stage).join("Cargo.toml"))?;
         faults.extend(stage_dependencies(stage, &manifest));
     }
     Ok(faults)
 }
 
-fn stage_dependencies(stage: &str, manifest: &str) -> Vec<Fault> {
-    let strange = table(manifest, "[dependencies]").into_iter().filter(|name| {
+fn stage_dependencies(stage: &str, manifest: &str) -> Vec<Violation> {
+    let strange = manifest_table(manifest, "[dependencies]").into_iter().filter(|name| {
         let own = stage == "homog" && name == "homog";
         let allowed = STAGE_DEPENDENCIES.contains(&name.as_str());
-        own || !(allowed || ALSO.contains(&(stage, name.as_str())))
+        own || !(allowed || EXTRA_DEPENDENCIES.contains(&(stage, name.as_str())))
     });
     let message = |name: String| format!("a stage may not depend on `{name}`");
-    strange.map(|name| Fault::new(format!("crates/{stage}/Cargo.toml"), message(name))).collect()
+    strange
+        .map(|name| Violation::new(format!("crates/{stage}/Cargo.toml"), message(name)))
+        .collect()
 }
 
 /// The keys of a table of a manifest, up to the next table.
-fn table(manifest: &str, header: &str) -> Vec<String> {
+fn manifest_table(manifest: &str, header: &str) -> Vec<String> {
     let lines = manifest.lines().map(str::trim).skip_while(|line| *line != header).skip(1);
     let entries = lines.take_while(|line| !line.starts_with('[')).filter(|line| line.contains('='));
     let key =
-        |line: &str| line.chars().take_while(|c| is_word(*c) || *c == '-').collect::<String>();
+        |line: &str| line.chars().take_while(|c| is_word_char(*c) || *c == '-').collect::<String>();
     entries.filter(|line| !line.starts_with('#')).map(key).collect()
 }
 
@@ -94,9 +98,9 @@ mod tests {
         let text =
             "//! A.\nuse gltf::Document;\n// gltf::x\nlet a = my_gltf::B; crate::gltf::c();\n";
         let places = |path: &str| {
-            only_one_names(&Source::new(path, text))
+            crate_boundaries(&Source::new(path, text))
                 .into_iter()
-                .map(|fault| fault.place)
+                .map(|fault| fault.location)
                 .collect::<Vec<_>>()
         };
         assert_eq!(

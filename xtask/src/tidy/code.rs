@@ -4,17 +4,17 @@
 /// The source with comments and the insides of strings and characters replaced by spaces. Lines
 /// stay where they are.
 #[must_use]
-pub fn blanked(source: &str) -> String {
+pub fn blank_comments_and_strings(source: &str) -> String {
     let mut rest = source;
     let mut code = String::with_capacity(source.len());
     while let Some(first) = rest.chars().next() {
-        let after_word = code.chars().next_back().is_some_and(is_word);
+        let after_word = code.chars().next_back().is_some_and(is_word_char);
         let length = match first {
             '/' if rest.starts_with("//") => rest.find('\n').unwrap_or(rest.len()),
-            '/' if rest.starts_with("/*") => block_comment(rest),
-            '"' => string(rest),
-            'r' | 'b' if !after_word => raw_string(rest).unwrap_or(0),
-            '\'' => character(rest),
+            '/' if rest.starts_with("/*") => block_comment_len(rest),
+            '"' => string_len(rest),
+            'r' | 'b' if !after_word => raw_string_len(rest).unwrap_or(0),
+            '\'' => char_literal_len(rest),
             _ => 0,
         };
         if length == 0 {
@@ -28,12 +28,12 @@ pub fn blanked(source: &str) -> String {
     code
 }
 
-pub fn is_word(c: char) -> bool {
+pub fn is_word_char(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
 /// The length of a block comment, which may hold others.
-fn block_comment(text: &str) -> usize {
+fn block_comment_len(text: &str) -> usize {
     let mut depth = 0;
     let mut at = 0;
     while at < text.len() {
@@ -58,7 +58,7 @@ fn block_comment(text: &str) -> usize {
 }
 
 /// The length of a string in double quotes, from the first quote to the last.
-fn string(text: &str) -> usize {
+fn string_len(text: &str) -> usize {
     let mut escaped = false;
     for (at, c) in text.char_indices().skip(1) {
         match c {
@@ -72,7 +72,7 @@ fn string(text: &str) -> usize {
 }
 
 /// The length of a raw string such as `r#"…"#`, if one begins here.
-fn raw_string(text: &str) -> Option<usize> {
+fn raw_string_len(text: &str) -> Option<usize> {
     let marked = text.strip_prefix('b').unwrap_or(text).strip_prefix('r')?;
     let hashes = marked.len() - marked.trim_start_matches('#').len();
     let inside = marked[hashes..].strip_prefix('"')?;
@@ -82,7 +82,7 @@ fn raw_string(text: &str) -> Option<usize> {
 }
 
 /// The length of a character literal; 0 where the quote begins a lifetime.
-fn character(text: &str) -> usize {
+fn char_literal_len(text: &str) -> usize {
     let mut characters = text.char_indices().skip(1);
     match (characters.next(), characters.next()) {
         (Some((_, '\\')), Some((at, _))) => {
@@ -108,14 +108,14 @@ mod tests {
             ("for x in \"ü\"", "for x in    "),
         ];
         for (source, code) in table {
-            assert_eq!(blanked(source), code, "{source}");
+            assert_eq!(blank_comments_and_strings(source), code, "{source}");
         }
     }
 
     #[test]
     fn lines_stay_where_they_are() {
         let source = "/* a\nb */ c\n\"d\ne\" f";
-        assert_eq!(blanked(source).lines().count(), 4);
-        assert!(blanked(source).lines().nth(3).unwrap().ends_with('f'));
+        assert_eq!(blank_comments_and_strings(source).lines().count(), 4);
+        assert!(blank_comments_and_strings(source).lines().nth(3).unwrap().ends_with('f'));
     }
 }

@@ -1,23 +1,23 @@
 //! What the documents point at must exist, and their code blocks must say what language they are
 //! in.
 
-use super::Fault;
+use super::Violation;
 use super::source::text_files;
-use crate::workspace::root;
+use crate::workspace::project_root;
 use std::path::Path;
 
 /// Folders of the workspace; a word of a document that begins with one is a path.
 const FOLDERS: [&str; 5] = ["crates/", "scenes/", "tests/", "xtask/", ".ci/"];
 
-pub fn links() -> Result<Vec<Fault>, String> {
+pub fn broken_links() -> Result<Vec<Violation>, String> {
     let files = text_files()?;
     let documents = files.iter().filter(|(path, _)| path.ends_with(".md"));
     Ok(documents
-        .flat_map(|(path, text)| document(path, text, |at| root().join(at).exists()))
+        .flat_map(|(path, text)| document_links(path, text, |at| project_root().join(at).exists()))
         .collect())
 }
 
-fn document(path: &str, text: &str, exists: impl Fn(&Path) -> bool) -> Vec<Fault> {
+fn document_links(path: &str, text: &str, exists: impl Fn(&Path) -> bool) -> Vec<Violation> {
     let folder = Path::new(path).parent().unwrap_or(Path::new(""));
     let mut faults = Vec::new();
     let mut fenced = false;
@@ -25,27 +25,27 @@ fn document(path: &str, text: &str, exists: impl Fn(&Path) -> bool) -> Vec<Fault
         let place = || format!("{path}:{}", i + 1);
         if let Some(language) = line.trim_start().strip_prefix("```") {
             if !fenced && language.trim().is_empty() {
-                faults.push(Fault::new(place(), "say the language of this code block"));
+                faults.push(Violation::new(place(), "say the language of this code block"));
             }
             fenced = !fenced;
             continue;
         }
         let missing = |target: &&str| !exists(&folder.join(target));
-        for target in linked(line).filter(|_| !fenced).filter(missing) {
-            faults.push(Fault::new(place(), format!("`{target}` does not exist")));
+        for target in link_targets(line).filter(|_| !fenced).filter(missing) {
+            faults.push(Violation::new(place(), format!("`{target}` does not exist")));
         }
-        for target in paths(line).filter(|target| !exists(Path::new(target))) {
-            faults.push(Fault::new(place(), format!("`{target}` does not exist")));
+        for target in project_paths(line).filter(|target| !exists(Path::new(target))) {
+            faults.push(Violation::new(place(), format!("`{target}` does not exist")));
         }
     }
     if fenced {
-        faults.push(Fault::new(path, "a code block is not closed"));
+        faults.push(Violation::new(path, "a code block is not closed"));
     }
     faults
 }
 
 /// The files that Markdown links of a line lead to.
-fn linked(line: &str) -> impl Iterator<Item = &str> {
+fn link_targets(line: &str) -> impl Iterator<Item = &str> {
     let targets =
         line.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(target, _)| target);
     let files = targets.map(|target| target.split('#').next().unwrap_or(target));
@@ -53,7 +53,7 @@ fn linked(line: &str) -> impl Iterator<Item = &str> {
 }
 
 /// The words of a line that are paths from the root; placeholders such as `NAME` are not.
-fn paths(line: &str) -> impl Iterator<Item = &str> {
+fn project_paths(line: &str) -> impl Iterator<Item = &str> {
     let words = line.split(|c: char| c.is_whitespace() || "`()[]\"',;|".contains(c));
     let words = words.map(|word| word.trim_end_matches(['.', ':']));
     let placeholder =
@@ -71,7 +71,7 @@ mod tests {
         let exists = |path: &Path| {
             ["scenes/a.ron", "docs/b.md"].iter().any(|known| path == Path::new(known))
         };
-        document("docs/x.md", text, exists).len()
+        document_links("docs/x.md", text, exists).len()
     }
 
     #[test]

@@ -1,40 +1,40 @@
 //! How long files and functions may be.
 
-use super::Fault;
-use super::code::is_word;
+use super::Violation;
+use super::code::is_word_char;
 use super::source::Source;
 
 /// A file is one subject; past this many lines it is worth a second look,
-const LONG_FILE: usize = 400;
+const LONG_FILE_LINES: usize = 400;
 /// and past this many it is two subjects.
-const LONGEST_FILE: usize = 500;
+const MAX_FILE_LINES: usize = 500;
 /// A `lib.rs` names and re-exports.
-const LONGEST_LIB: usize = 120;
-const LONGEST_FUNCTION: usize = 60;
+const MAX_LIB_LINES: usize = 120;
+const MAX_FUNCTION_LINES: usize = 60;
 
 /// A note on a file that is long but not yet too long.
-pub fn long_file(source: &Source) -> Option<Fault> {
+pub fn long_file(source: &Source) -> Option<Violation> {
     let lines = source.text.lines().count();
-    let long = lines > LONG_FILE && lines <= LONGEST_FILE;
-    long.then(|| Fault::new(&source.path, format!("{lines} lines: is it still one subject?")))
+    let long = lines > LONG_FILE_LINES && lines <= MAX_FILE_LINES;
+    long.then(|| Violation::new(&source.path, format!("{lines} lines: is it still one subject?")))
 }
 
-pub fn file_length(source: &Source) -> Vec<Fault> {
+pub fn file_length(source: &Source) -> Vec<Violation> {
     let lines = source.text.lines().count();
-    let most = if source.path.ends_with("/src/lib.rs") { LONGEST_LIB } else { LONGEST_FILE };
+    let most = if source.path.ends_with("/src/lib.rs") { MAX_LIB_LINES } else { MAX_FILE_LINES };
     if lines <= most {
         return Vec::new();
     }
-    vec![Fault::new(&source.path, format!("{lines} lines, where {most} are allowed"))]
+    vec![Violation::new(&source.path, format!("{lines} lines, where {most} are allowed"))]
 }
 
-pub fn function_length(source: &Source) -> Vec<Fault> {
+pub fn function_length(source: &Source) -> Vec<Violation> {
     let long = |start: usize| {
-        let lines = length(&source.code[start..]);
-        (lines > LONGEST_FUNCTION).then(|| {
+        let lines = function_lines(&source.code[start..]);
+        (lines > MAX_FUNCTION_LINES).then(|| {
             let message =
-                format!("a function of {lines} lines, where {LONGEST_FUNCTION} are allowed");
-            Fault::new(source.line(start + 1), message)
+                format!("a function of {lines} lines, where {MAX_FUNCTION_LINES} are allowed");
+            Violation::new(source.line_text(start + 1), message)
         })
     };
     (0..source.code.len()).filter(|i| begins_function(&source.code[*i])).filter_map(long).collect()
@@ -43,12 +43,12 @@ pub fn function_length(source: &Source) -> Vec<Fault> {
 fn begins_function(line: &str) -> bool {
     let Some(at) = line.find("fn ") else { return false };
     let before = line[..at].chars().next_back();
-    let named = line[at + 3..].chars().next().is_some_and(is_word);
-    named && !before.is_some_and(is_word)
+    let named = line[at + 3..].chars().next().is_some_and(is_word_char);
+    named && !before.is_some_and(is_word_char)
 }
 
 /// Lines from a function's first to that of its closing brace; 0 for one without a body.
-fn length(lines: &[String]) -> usize {
+fn function_lines(lines: &[String]) -> usize {
     let mut depth = 0;
     for (number, line) in lines.iter().enumerate() {
         for c in line.chars() {
@@ -80,15 +80,15 @@ mod tests {
     fn sixty_lines_pass_and_sixty_one_do_not() {
         assert_eq!(function_length(&function_of(60)), []);
         let faults = function_length(&function_of(61));
-        assert_eq!((faults.len(), faults[0].place.as_str()), (1, "crates/a/src/b.rs:3"));
+        assert_eq!((faults.len(), faults[0].location.as_str()), (1, "crates/a/src/b.rs:3"));
     }
 
     #[test]
     fn braces_in_strings_and_declarations_without_body_do_not_count() {
         let text = "fn f() {\n    g(\"}}}\");\n}\ntrait T {\n    fn g(&self);\n}\n";
         let source = Source::new("a.rs", text);
-        assert_eq!(length(&source.code), 3);
-        assert_eq!(length(&source.code[4..]), 0);
+        assert_eq!(function_lines(&source.code), 3);
+        assert_eq!(function_lines(&source.code[4..]), 0);
         assert!(!begins_function("// fnord ") && !begins_function("let x: fn (u8)"));
     }
 

@@ -1,7 +1,7 @@
 //! The files that the rules look at.
 
-use super::code::blanked;
-use crate::workspace::{read, root, shown};
+use super::code::blank_comments_and_strings;
+use crate::workspace::{project_root, read_text, relative_path};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -17,7 +17,7 @@ pub struct Source {
 impl Source {
     pub fn new(path: impl Into<String>, text: impl Into<String>) -> Self {
         let text = text.into();
-        let code = blanked(&text).lines().map(str::to_owned).collect();
+        let code = blank_comments_and_strings(&text).lines().map(str::to_owned).collect();
         Self { path: path.into(), text, code }
     }
 
@@ -35,30 +35,30 @@ impl Source {
         lines.enumerate().map(|(i, line)| (i + 1, line.as_str()))
     }
 
-    pub fn line(&self, number: usize) -> String {
+    pub fn line_text(&self, number: usize) -> String {
         format!("{}:{number}", self.path)
     }
 }
 
 /// Every file of Rust in the workspace.
 pub fn rust_files() -> Result<Vec<Source>, String> {
-    let paths = walk(root())?;
+    let paths = walk_files(project_root())?;
     let rust = paths.iter().filter(|path| path.extension().is_some_and(|found| found == "rs"));
-    rust.map(|path| Ok(Source::new(shown(path), read(path)?))).collect()
+    rust.map(|path| Ok(Source::new(relative_path(path), read_text(path)?))).collect()
 }
 
 /// Every file that a person reads, by path and text.
 pub fn text_files() -> Result<Vec<(String, String)>, String> {
     let text = ["rs", "toml", "ron", "md", "lock", "svg", "sh"];
-    let mut paths = walk(root())?;
+    let mut paths = walk_files(project_root())?;
     paths.retain(|path| {
         path.extension().is_some_and(|found| text.iter().any(|known| found == *known))
     });
-    paths.iter().map(|path| Ok((shown(path), read(path)?))).collect()
+    paths.iter().map(|path| Ok((relative_path(path), read_text(path)?))).collect()
 }
 
 /// All files below a folder, sorted, without build output and hidden folders.
-fn walk(folder: &Path) -> Result<Vec<PathBuf>, String> {
+fn walk_files(folder: &Path) -> Result<Vec<PathBuf>, String> {
     let mut found = Vec::new();
     let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
@@ -67,7 +67,7 @@ fn walk(folder: &Path) -> Result<Vec<PathBuf>, String> {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if path.is_dir() {
             if name != "target" && !name.starts_with('.') {
-                found.extend(walk(&path)?);
+                found.extend(walk_files(&path)?);
             }
         } else {
             found.push(path);

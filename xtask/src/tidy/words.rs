@@ -1,6 +1,6 @@
 //! Words: how files open, and what may not stay in them.
 
-use super::Fault;
+use super::Violation;
 use super::source::Source;
 
 /// This folder must name the words it forbids.
@@ -16,44 +16,44 @@ const PRINTING: [&str; 7] =
 /// Beginnings of paths that exist on one machine only.
 const MACHINE_PATHS: [&str; 5] = ["/home/", "/root/", "/tmp/", "/Users/", "C:\\Users"];
 
-pub fn opening(source: &Source) -> Vec<Fault> {
+pub fn module_docs(source: &Source) -> Vec<Violation> {
     let first = source.text.lines().find(|line| !line.trim().is_empty());
     if first.is_some_and(|line| line.starts_with("//!")) {
         return Vec::new();
     }
-    vec![Fault::new(&source.path, "open the file with `//!`: what it is and why")]
+    vec![Violation::new(&source.path, "open the file with `//!`: what it is and why")]
 }
 
-pub fn unfinished(source: &Source) -> Vec<Fault> {
+pub fn unfinished_markers(source: &Source) -> Vec<Violation> {
     if source.path.starts_with(EXEMPT) {
         return Vec::new();
     }
     let lines = source.text.lines().enumerate();
     let found = lines.filter_map(|(i, line)| {
         let word = UNFINISHED.iter().find(|word| has_word(line, word))?;
-        Some(Fault::new(source.line(i + 1), format!("`{word}`: do it, or file an issue")))
+        Some(Violation::new(source.line_text(i + 1), format!("`{word}`: do it, or file an issue")))
     });
     found.collect()
 }
 
-pub fn printing(source: &Source) -> Vec<Fault> {
+pub fn printing_macros(source: &Source) -> Vec<Violation> {
     if !source.is_library() {
         return Vec::new();
     }
     let found = source.code_without_tests().filter_map(|(number, line)| {
         let word = PRINTING.iter().find(|word| has_word(line, word))?;
-        Some(Fault::new(source.line(number), format!("a library may not use `{word}`")))
+        Some(Violation::new(source.line_text(number), format!("a library may not use `{word}`")))
     });
     found.collect()
 }
 
 /// In any file that a person reads.
-pub fn machine_paths(files: &[(String, String)]) -> Vec<Fault> {
+pub fn machine_path_mentions(files: &[(String, String)]) -> Vec<Violation> {
     let mut faults = Vec::new();
     for (path, text) in files.iter().filter(|(path, _)| !path.starts_with(EXEMPT)) {
         for (i, line) in text.lines().enumerate() {
             if let Some(start) = MACHINE_PATHS.iter().find(|start| has_word(line, start)) {
-                faults.push(Fault::new(
+                faults.push(Violation::new(
                     format!("{path}:{}", i + 1),
                     format!("`{start}…` exists on one machine only"),
                 ));
@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn a_file_says_what_it_is_before_anything_else() {
-        let faults = |text: &str| opening(&Source::new("a.rs", text)).len();
+        let faults = |text: &str| module_docs(&Source::new("a.rs", text)).len();
         assert_eq!(
             (faults("\n//! A."), faults("// A."), faults("use a;\n//! A."), faults("")),
             (0, 1, 1, 1)
@@ -96,13 +96,13 @@ mod tests {
     fn g() { println!(); }
 }
 "#;
-        let places = |path: &str| printing(&Source::new(path, text)).len();
+        let places = |path: &str| printing_macros(&Source::new(path, text)).len();
         assert_eq!((places("crates/clip/src/a.rs"), places("crates/alberti/src/a.rs")), (1, 0));
     }
 
     #[test]
     fn machine_paths_are_found_and_relative_ones_are_not() {
-        let faults = |line: &str| machine_paths(&[("README.md".into(), line.into())]).len();
+        let faults = |line: &str| machine_path_mentions(&[("README.md".into(), line.into())]).len();
         assert_eq!(
             (faults("see /home/anna/x"), faults("target/tmp/x"), faults("see crates/home/x")),
             (1, 0, 0)
@@ -111,7 +111,7 @@ mod tests {
 
     #[test]
     fn unfinished_work_is_named() {
-        let faults = |line: &str| unfinished(&Source::new("a.rs", line)).len();
+        let faults = |line: &str| unfinished_markers(&Source::new("a.rs", line)).len();
         assert_eq!((faults("// TODO: more"), faults("// nothing to do")), (1, 0));
     }
 }

@@ -1,17 +1,17 @@
 //! The contact sheet: all pictures on one page, and what failed.
 
-use super::report::{FAILED, Record};
+use super::report::{FAILED, JobRecord};
 use std::fmt::Write as _;
 
 /// The page; it needs nothing but the pictures beside it.
-pub(super) fn html(records: &[Record]) -> String {
-    let (failed, shown): (Vec<&Record>, Vec<&Record>) =
+pub(super) fn contact_sheet_html(records: &[JobRecord]) -> String {
+    let (failed, shown): (Vec<&JobRecord>, Vec<&JobRecord>) =
         records.iter().partition(|record| record.status == FAILED);
-    let mut page = String::from(HEAD);
+    let mut page = String::from(PAGE_HEAD);
     let _ = writeln!(page, "<p>{} pictures, {} failed</p>\n<main>", shown.len(), failed.len());
     for record in shown {
-        let (file, name) = (link(&record.output), escaped(&record.output));
-        let title = escaped(&record.input);
+        let (file, name) = (relative_url(&record.output), escape_html(&record.output));
+        let title = escape_html(&record.input);
         let _ = writeln!(
             page,
             "<figure><a href=\"{file}\"><img loading=\"lazy\" src=\"{file}\" alt=\"{title}\"></a>\
@@ -22,7 +22,7 @@ pub(super) fn html(records: &[Record]) -> String {
     if !failed.is_empty() {
         page += "<h2>Failed</h2>\n<dl>\n";
         for record in failed {
-            let (input, message) = (escaped(&record.input), escaped(&record.message));
+            let (input, message) = (escape_html(&record.input), escape_html(&record.message));
             let _ = writeln!(page, "<dt>{input}</dt><dd><pre>{message}</pre></dd>");
         }
         page += "</dl>\n";
@@ -30,7 +30,7 @@ pub(super) fn html(records: &[Record]) -> String {
     page + "</html>\n"
 }
 
-const HEAD: &str = "<!DOCTYPE html>
+const PAGE_HEAD: &str = "<!DOCTYPE html>
 <html lang=\"en\">
 <meta charset=\"utf-8\">
 <title>Contact sheet</title>
@@ -42,12 +42,12 @@ img { width: 100%; background: #fff; border: 1px solid #ccc } pre { white-space:
 </style>
 ";
 
-fn escaped(text: &str) -> String {
+fn escape_html(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }
 
 /// A path as a relative URL.
-fn link(path: &str) -> String {
+fn relative_url(path: &str) -> String {
     let mut url = String::from("./");
     for byte in path.bytes() {
         match byte {
@@ -68,7 +68,7 @@ mod tests {
 
     #[test]
     fn names_are_escaped() {
-        assert_eq!(link("a b/c#d%.png"), "./a%20b/c%23d%25.png");
-        assert_eq!(escaped("<a & \"b\">"), "&lt;a &amp; &quot;b&quot;>");
+        assert_eq!(relative_url("a b/c#d%.png"), "./a%20b/c%23d%25.png");
+        assert_eq!(escape_html("<a & \"b\">"), "&lt;a &amp; &quot;b&quot;>");
     }
 }

@@ -1,13 +1,13 @@
 //! What there is to do: models and scenes, and a name for the picture of each.
 
-use crate::Failure;
+use crate::CliError;
 use std::collections::BTreeMap;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 /// A model or a scene, and where its picture goes.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) struct Job {
+pub(super) struct BatchJob {
     /// The file.
     pub(super) input: PathBuf,
     /// The picture's path below the output folder, with `/` between its parts.
@@ -15,23 +15,23 @@ pub(super) struct Job {
 }
 
 /// Folders in folders that are followed: links may go in circles.
-const DEEPEST: usize = 64;
+const MAX_DEPTH: usize = 64;
 
 /// The jobs of some inputs in a fixed order, which every shard sees alike.
-pub(super) fn find(inputs: &[PathBuf]) -> Result<Vec<Job>, Failure> {
+pub(super) fn find_jobs(inputs: &[PathBuf]) -> Result<Vec<BatchJob>, CliError> {
     let mut found = Vec::new();
     for input in inputs {
         if input.as_os_str() == "-" {
             let mut list = String::new();
             std::io::stdin()
                 .read_to_string(&mut list)
-                .map_err(|cause| unreadable(input, &cause))?;
-            listed(&list, Path::new(""), &mut found);
+                .map_err(|cause| read_error(input, &cause))?;
+            add_listed(&list, Path::new(""), &mut found);
         } else if input.is_dir() {
-            below(input, input, 0, &mut found)?;
-        } else if ending(input).as_deref() == Some("txt") {
-            let list = std::fs::read_to_string(input).map_err(|cause| unreadable(input, &cause))?;
-            listed(&list, input.parent().unwrap_or(Path::new("")), &mut found);
+            add_models_below(input, input, 0, &mut found)?;
+        } else if lowercase_extension(input).as_deref() == Some("txt") {
+            let list = std::fs::read_to_string(input).map_err(|cause| read_error(input, &cause))?;
+            add_listed(&list, input.parent().unwrap_or(Path::new("")), &mut found);
         } else {
             let name = PathBuf::from(input.file_name().unwrap_or_default());
             found.push((input.clone(), name));
@@ -39,44 +39,44 @@ pub(super) fn find(inputs: &[PathBuf]) -> Result<Vec<Job>, Failure> {
     }
     found.sort();
     found.dedup();
-    Ok(named(found))
+    Ok(name_outputs(found))
 }
 
-fn unreadable(path: &Path, cause: &std::io::Error) -> Failure {
-    Failure::Usage(format!("cannot read {}: {cause}", path.display()))
+fn read_error(path: &Path, cause: &std::io::Error) -> CliError {
+    CliError::Usage(format!("cannot read {}: {cause}", path.display()))
 }
 
-fn ending(path: &Path) -> Option<String> {
+fn lowercase_extension(path: &Path) -> Option<String> {
     Some(path.extension()?.to_string_lossy().to_lowercase())
 }
 
 /// The files of a list, one a line, from the folder of the list. Empty lines and those that begin with # are none.
-fn listed(list: &str, folder: &Path, found: &mut Vec<(PathBuf, PathBuf)>) {
+fn add_listed(list: &str, folder: &Path, found: &mut Vec<(PathBuf, PathBuf)>) {
     let lines =
         list.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
-    found.extend(lines.map(|line| (folder.join(line), plain(Path::new(line)))));
+    found.extend(lines.map(|line| (folder.join(line), normal_components(Path::new(line)))));
 }
 
 /// A path without what leads upwards or begins at the root, to be used below the output folder.
-fn plain(path: &Path) -> PathBuf {
+fn normal_components(path: &Path) -> PathBuf {
     path.components().filter(|part| matches!(part, std::path::Component::Normal(_))).collect()
 }
 
 /// The models below a folder. Scenes are not looked for: among models they are rare, and often name these very models.
-fn below(
+fn add_models_below(
     folder: &Path,
     root: &Path,
     depth: usize,
     found: &mut Vec<(PathBuf, PathBuf)>,
-) -> Result<(), Failure> {
-    if depth > DEEPEST {
+) -> Result<(), CliError> {
+    if depth > MAX_DEPTH {
         return Ok(());
     }
-    for entry in std::fs::read_dir(folder).map_err(|cause| unreadable(folder, &cause))? {
-        let path = entry.map_err(|cause| unreadable(folder, &cause))?.path();
+    for entry in std::fs::read_dir(folder).map_err(|cause| read_error(folder, &cause))? {
+        let path = entry.map_err(|cause| read_error(folder, &cause))?.path();
         if path.is_dir() {
-            below(&path, root, depth + 1, found)?;
-        } else if matches!(ending(&path).as_deref(), Some("glb" | "gltf")) {
+            add_models_below(&path, root, depth + 1, found)?;
+        } else if matches!(lowercase_extension(&path).as_deref(), Some("glb" | "gltf")) {
             let name = path.strip_prefix(root).unwrap_or(&path).to_owned();
             found.push((path, name));
         }
@@ -86,8 +86,8 @@ fn below(
 
 /// Gives each file the name of its picture: its own with `.png`, after its ending where two would have the same, with a
 /// number where that does not help.
-fn named(found: Vec<(PathBuf, PathBuf)>) -> Vec<Job> {
-    let stem = |name: &Path| text(&name.with_extension(""));
+fn name_outputs(found: Vec<(PathBuf, PathBuf)>) -> Vec<BatchJob> {
+    let stem = |name: &Path| slash_path(&name.with_extension(""));
     let mut shared: BTreeMap<String, usize> = BTreeMap::new();
     for (_, name) in &found {
         *shared.entry(stem(name).to_lowercase()).or_default() += 1;
@@ -95,17 +95,17 @@ fn named(found: Vec<(PathBuf, PathBuf)>) -> Vec<Job> {
     let mut taken: BTreeMap<String, usize> = BTreeMap::new();
     let job = |(input, name): (PathBuf, PathBuf)| {
         let alone = shared.get(&stem(&name).to_lowercase()) == Some(&1);
-        let base = if alone { stem(&name) } else { text(&name) };
+        let base = if alone { stem(&name) } else { slash_path(&name) };
         let times = taken.entry(base.to_lowercase()).or_default();
         *times += 1;
         let output =
             if *times == 1 { format!("{base}.png") } else { format!("{base}-{times}.png") };
-        Job { input, output }
+        BatchJob { input, output }
     };
     found.into_iter().map(job).collect()
 }
 
-fn text(path: &Path) -> String {
+fn slash_path(path: &Path) -> String {
     let parts: Vec<_> = path.iter().map(|part| part.to_string_lossy()).collect();
     parts.join("/")
 }
@@ -117,7 +117,7 @@ mod tests {
     fn outputs(names: &[&str]) -> Vec<String> {
         let found = names.iter().enumerate();
         let found = found.map(|(at, name)| (PathBuf::from(format!("{at}")), PathBuf::from(name)));
-        named(found.collect()).into_iter().map(|job| job.output).collect()
+        name_outputs(found.collect()).into_iter().map(|job| job.output).collect()
     }
 
     #[test]
@@ -134,8 +134,8 @@ mod tests {
     #[test]
     fn lists_stay_below_the_output_folder() {
         let mut found = Vec::new();
-        listed("# models\n\n ../up/x.glb \n/abs/y.glb\n", Path::new("lists"), &mut found);
-        let names: Vec<_> = found.iter().map(|(_, name)| text(name)).collect();
+        add_listed("# models\n\n ../up/x.glb \n/abs/y.glb\n", Path::new("lists"), &mut found);
+        let names: Vec<_> = found.iter().map(|(_, name)| slash_path(name)).collect();
         assert_eq!(names, ["up/x.glb", "abs/y.glb"]);
         assert_eq!(found[0].0, Path::new("lists/../up/x.glb"));
     }

@@ -1,6 +1,6 @@
 //! What a picture depends on, as a short key: the content of the files, the settings, the version of the program.
 
-use crate::render::is_scene;
+use crate::render::is_scene_file;
 use pipeline::Origin;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
@@ -8,58 +8,58 @@ use std::path::{Path, PathBuf};
 
 /// The key of a model or a scene with the given settings. Files that cannot be read count as empty: the work itself will
 /// say what is wrong with them.
-pub(super) fn key(input: &Path, settings: &str, allowed: &[PathBuf]) -> String {
+pub(super) fn content_key(input: &Path, settings: &str, allowed: &[PathBuf]) -> String {
     let mut hash = Sha256::new();
-    put(&mut hash, env!("CARGO_PKG_VERSION").as_bytes());
-    put(&mut hash, settings.as_bytes());
-    if is_scene(input) {
-        put_scene(&mut hash, input, allowed);
+    hash_part(&mut hash, env!("CARGO_PKG_VERSION").as_bytes());
+    hash_part(&mut hash, settings.as_bytes());
+    if is_scene_file(input) {
+        hash_scene(&mut hash, input, allowed);
     } else {
-        put_model(&mut hash, input);
+        hash_model(&mut hash, input);
     }
     hash.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Adds a model and the files that it names.
-fn put_model(hash: &mut Sha256, path: &Path) {
+fn hash_model(hash: &mut Sha256, path: &Path) {
     let bytes = std::fs::read(path).unwrap_or_default();
-    put(hash, &bytes);
+    hash_part(hash, &bytes);
     let folder = path.parent().unwrap_or(Path::new(""));
-    for name in resources(&bytes) {
-        put(hash, &std::fs::read(folder.join(name)).unwrap_or_default());
+    for name in referenced_files(&bytes) {
+        hash_part(hash, &std::fs::read(folder.join(name)).unwrap_or_default());
     }
 }
 
 /// Adds a scene, what it includes, its models and its pictures.
-fn put_scene(hash: &mut Sha256, path: &Path, allowed: &[PathBuf]) {
-    put(hash, &std::fs::read(path).unwrap_or_default());
-    let Ok((origin, file)) = Origin::read_below(path, allowed) else { return };
-    origin.included_texts().for_each(|text| put(hash, text.as_bytes()));
+fn hash_scene(hash: &mut Sha256, path: &Path, allowed: &[PathBuf]) {
+    hash_part(hash, &std::fs::read(path).unwrap_or_default());
+    let Ok((origin, file)) = Origin::read_scene_allowing(path, allowed) else { return };
+    origin.included_texts().for_each(|text| hash_part(hash, text.as_bytes()));
     for model in &file.models {
-        put_model(hash, &origin.folder.join(&model.path));
+        hash_model(hash, &origin.folder.join(&model.path));
     }
-    for path in file.pictures() {
-        put(hash, &std::fs::read(origin.folder.join(path)).unwrap_or_default());
+    for path in file.image_paths() {
+        hash_part(hash, &std::fs::read(origin.folder.join(path)).unwrap_or_default());
     }
 }
 
 /// Adds a part, with its length before it: no two lists of parts give the same bytes.
-fn put(hash: &mut Sha256, part: &[u8]) {
+fn hash_part(hash: &mut Sha256, part: &[u8]) {
     hash.update((part.len() as u64).to_le_bytes());
     hash.update(part);
 }
 
 /// The files that a glTF file names: its buffers and images.
-fn resources(bytes: &[u8]) -> Vec<String> {
-    let Ok(json) = serde_json::from_slice::<Value>(json_of(bytes)) else { return Vec::new() };
+fn referenced_files(bytes: &[u8]) -> Vec<String> {
+    let Ok(json) = serde_json::from_slice::<Value>(json_chunk(bytes)) else { return Vec::new() };
     let list = |name: &str| json.get(name).and_then(Value::as_array).cloned().unwrap_or_default();
     let all = list("buffers").into_iter().chain(list("images"));
     let names = all.filter_map(|entry| Some(entry.get("uri")?.as_str()?.to_owned()));
-    names.filter(|uri| !uri.starts_with("data:")).map(|uri| decoded(&uri)).collect()
+    names.filter(|uri| !uri.starts_with("data:")).map(|uri| percent_decode(&uri)).collect()
 }
 
 /// The JSON of a binary file, or the whole of another.
-fn json_of(bytes: &[u8]) -> &[u8] {
+fn json_chunk(bytes: &[u8]) -> &[u8] {
     let Some(rest) = bytes.strip_prefix(b"glTF").and_then(|rest| rest.get(8..)) else {
         return bytes;
     };
@@ -69,7 +69,7 @@ fn json_of(bytes: &[u8]) -> &[u8] {
 }
 
 /// A URI with its %XX read.
-fn decoded(uri: &str) -> String {
+fn percent_decode(uri: &str) -> String {
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();
     while let Some((&first, after)) = rest.split_first() {
@@ -96,14 +96,14 @@ mod tests {
     fn the_files_of_a_model_are_found_in_both_forms() {
         let json =
             br#"{"buffers":[{"uri":"a%20b.bin"},{}],"images":[{"uri":"data:x"},{"uri":"c.png"}]}"#;
-        assert_eq!(resources(json), ["a b.bin", "c.png"]);
+        assert_eq!(referenced_files(json), ["a b.bin", "c.png"]);
         let mut glb = b"glTF\x02\0\0\0\0\0\0\0".to_vec();
         glb.extend((json.len() as u32).to_le_bytes());
         glb.extend(b"JSON");
         glb.extend(json);
-        assert_eq!(resources(&glb), ["a b.bin", "c.png"]);
+        assert_eq!(referenced_files(&glb), ["a b.bin", "c.png"]);
         for end in 0..glb.len() {
-            resources(&glb[..end]);
+            referenced_files(&glb[..end]);
         }
     }
 
@@ -117,7 +117,7 @@ mod tests {
         write("scene.ron", "(include: \"style.ron\", models: [(path: \"a.gltf\")])");
         let of = |name: &str, content: &str| {
             write(name, content);
-            key(&folder.join("scene.ron"), "", &[])
+            content_key(&folder.join("scene.ron"), "", &[])
         };
         let keys = [of("style.ron", "()"), of("style.ron", "(style: Flat)"), of("a.gltf", "{}")];
         assert!(keys[0] != keys[1] && keys[1] != keys[2] && keys[2] == of("a.gltf", "{}"));
@@ -129,7 +129,7 @@ mod tests {
         let file = std::env::temp_dir().join(format!("alberti-key-{}.gltf", std::process::id()));
         let of = |content: &str, settings: &str| {
             std::fs::write(&file, content).expect("a file");
-            key(&file, settings, &[])
+            content_key(&file, settings, &[])
         };
         let keys = [of("{}", "a"), of("{}", "b"), of("{ }", "a")];
         assert!(keys[0] != keys[1] && keys[0] != keys[2] && keys[0] == of("{}", "a"));

@@ -5,92 +5,101 @@ use std::str::FromStr as _;
 /// Part `part` of `parts`, counted from 0.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Shard {
-    part: usize,
-    parts: usize,
+    index: usize,
+    count: usize,
 }
 
 impl Shard {
     /// All jobs.
-    pub(super) const WHOLE: Self = Self { part: 0, parts: 1 };
+    pub(super) const ALL_JOBS: Self = Self { index: 0, count: 1 };
 
-    pub(super) fn is_whole(self) -> bool {
-        self.parts == 1
+    pub(super) fn has_all_jobs(self) -> bool {
+        self.count == 1
     }
 
     /// Whether the job with this number is in the shard: every `parts`-th is, so that large models, which often lie
     /// together, are shared out.
-    pub(super) fn has(self, job: usize) -> bool {
-        job % self.parts == self.part
+    pub(super) fn has_job(self, job: usize) -> bool {
+        job % self.count == self.index
     }
 
     /// The end of the report's name.
-    pub(super) fn suffix(self) -> String {
-        if self.is_whole() {
+    pub(super) fn file_suffix(self) -> String {
+        if self.has_all_jobs() {
             String::new()
         } else {
-            format!("-{}-of-{}", self.part + 1, self.parts)
+            format!("-{}-of-{}", self.index + 1, self.count)
         }
     }
 
     fn new(part: usize, parts: usize) -> Option<Self> {
-        (part < parts).then_some(Self { part, parts })
+        (part < parts).then_some(Self { index: part, count: parts })
     }
 }
 
 /// `I/N`, or `auto` for what the variables of an array job say.
 pub(super) fn parse(text: &str) -> Result<Shard, String> {
     if text == "auto" {
-        return of_variables(|name| std::env::var(name).ok().as_deref().and_then(number));
+        return from_variables(|name| std::env::var(name).ok().as_deref().and_then(parse_count));
     }
     let fault = || "expected I/N with I from 1 to N, such as 2/8, or auto".to_owned();
     let (part, parts) = text.split_once('/').ok_or_else(fault)?;
-    let (part, parts) = (number(part).ok_or_else(fault)?, number(parts).ok_or_else(fault)?);
+    let (part, parts) =
+        (parse_count(part).ok_or_else(fault)?, parse_count(parts).ok_or_else(fault)?);
     part.checked_sub(1).and_then(|part| Shard::new(part, parts)).ok_or_else(fault)
 }
 
-fn number(digits: &str) -> Option<usize> {
+fn parse_count(digits: &str) -> Option<usize> {
     usize::from_str(digits.trim()).ok()
 }
 
 /// The variables in which schedulers tell the number of a task: its own, the least (a name or a number) and how many
 /// there are, or the greatest.
-const SCHEDULERS: &[(&str, Least, Count)] = &[
+const SCHEDULERS: &[(&str, FirstIndex, TaskCount)] = &[
     (
         "SLURM_ARRAY_TASK_ID",
-        Least::Variable("SLURM_ARRAY_TASK_MIN"),
-        Count::Variable("SLURM_ARRAY_TASK_COUNT"),
+        FirstIndex::Variable("SLURM_ARRAY_TASK_MIN"),
+        TaskCount::Variable("SLURM_ARRAY_TASK_COUNT"),
     ),
-    ("AWS_BATCH_JOB_ARRAY_INDEX", Least::Is(0), Count::Variable("AWS_BATCH_JOB_ARRAY_SIZE")),
-    ("CLOUD_RUN_TASK_INDEX", Least::Is(0), Count::Variable("CLOUD_RUN_TASK_COUNT")),
-    ("BATCH_TASK_INDEX", Least::Is(0), Count::Variable("BATCH_TASK_COUNT")),
-    ("SGE_TASK_ID", Least::Variable("SGE_TASK_FIRST"), Count::Last("SGE_TASK_LAST")),
-    ("LSB_JOBINDEX", Least::Is(1), Count::Last("LSB_JOBINDEX_END")),
-    ("BUILDKITE_PARALLEL_JOB", Least::Is(0), Count::Variable("BUILDKITE_PARALLEL_JOB_COUNT")),
-    ("CI_NODE_INDEX", Least::Is(1), Count::Variable("CI_NODE_TOTAL")),
+    (
+        "AWS_BATCH_JOB_ARRAY_INDEX",
+        FirstIndex::Constant(0),
+        TaskCount::Variable("AWS_BATCH_JOB_ARRAY_SIZE"),
+    ),
+    ("CLOUD_RUN_TASK_INDEX", FirstIndex::Constant(0), TaskCount::Variable("CLOUD_RUN_TASK_COUNT")),
+    ("BATCH_TASK_INDEX", FirstIndex::Constant(0), TaskCount::Variable("BATCH_TASK_COUNT")),
+    ("SGE_TASK_ID", FirstIndex::Variable("SGE_TASK_FIRST"), TaskCount::Last("SGE_TASK_LAST")),
+    ("LSB_JOBINDEX", FirstIndex::Constant(1), TaskCount::Last("LSB_JOBINDEX_END")),
+    (
+        "BUILDKITE_PARALLEL_JOB",
+        FirstIndex::Constant(0),
+        TaskCount::Variable("BUILDKITE_PARALLEL_JOB_COUNT"),
+    ),
+    ("CI_NODE_INDEX", FirstIndex::Constant(1), TaskCount::Variable("CI_NODE_TOTAL")),
 ];
 
-enum Least {
-    Is(usize),
+enum FirstIndex {
+    Constant(usize),
     Variable(&'static str),
 }
 
-enum Count {
+enum TaskCount {
     Variable(&'static str),
     Last(&'static str),
 }
 
 /// The shard of the first scheduler that speaks.
-fn of_variables(variable: impl Fn(&str) -> Option<usize>) -> Result<Shard, String> {
+fn from_variables(variable: impl Fn(&str) -> Option<usize>) -> Result<Shard, String> {
     for (own, least, count) in SCHEDULERS {
         let Some(own) = variable(own) else { continue };
         let least = match least {
-            Least::Is(least) => Some(*least),
-            Least::Variable(name) => variable(name),
+            FirstIndex::Constant(least) => Some(*least),
+            FirstIndex::Variable(name) => variable(name),
         };
         let least = least.unwrap_or(0);
         let parts = match count {
-            Count::Variable(name) => variable(name),
-            Count::Last(name) => variable(name).and_then(|last| (last + 1).checked_sub(least)),
+            TaskCount::Variable(name) => variable(name),
+            TaskCount::Last(name) => variable(name).and_then(|last| (last + 1).checked_sub(least)),
         };
         if let Some(shard) = own.checked_sub(least).and_then(|part| Shard::new(part, parts?)) {
             return Ok(shard);
@@ -109,12 +118,13 @@ mod tests {
 
     #[test]
     fn shards_are_counted_from_one_and_are_a_partition() {
-        assert_eq!(parse("2/8"), Ok(Shard { part: 1, parts: 8 }));
+        assert_eq!(parse("2/8"), Ok(Shard { index: 1, count: 8 }));
         for wrong in ["", "2", "0/3", "4/3", "1/0", "-1/2", "a/b"] {
             assert!(parse(wrong).is_err(), "{wrong}");
         }
         for job in 0..20 {
-            let of = (1..=3).filter(|part| parse(&format!("{part}/3")).is_ok_and(|s| s.has(job)));
+            let of =
+                (1..=3).filter(|part| parse(&format!("{part}/3")).is_ok_and(|s| s.has_job(job)));
             assert_eq!(of.count(), 1, "{job}");
         }
     }
@@ -122,7 +132,7 @@ mod tests {
     #[test]
     fn array_jobs_are_known_by_their_variables() {
         let known = |set: &'static [(&str, usize)]| {
-            of_variables(move |name| {
+            from_variables(move |name| {
                 set.iter().find(|(known, _)| *known == name).map(|(_, value)| *value)
             })
         };
@@ -131,11 +141,11 @@ mod tests {
             ("SLURM_ARRAY_TASK_MIN", 1),
             ("SLURM_ARRAY_TASK_COUNT", 8),
         ];
-        assert_eq!(known(slurm), Ok(Shard { part: 4, parts: 8 }));
+        assert_eq!(known(slurm), Ok(Shard { index: 4, count: 8 }));
         let engine = &[("SGE_TASK_ID", 3), ("SGE_TASK_FIRST", 1), ("SGE_TASK_LAST", 4)];
-        assert_eq!(known(engine), Ok(Shard { part: 2, parts: 4 }));
+        assert_eq!(known(engine), Ok(Shard { index: 2, count: 4 }));
         let aws = &[("AWS_BATCH_JOB_ARRAY_INDEX", 0), ("AWS_BATCH_JOB_ARRAY_SIZE", 2)];
-        assert_eq!(known(aws), Ok(Shard { part: 0, parts: 2 }));
+        assert_eq!(known(aws), Ok(Shard { index: 0, count: 2 }));
         assert!(known(&[("SLURM_ARRAY_TASK_ID", 5)]).is_err());
         assert!(known(&[]).is_err());
     }

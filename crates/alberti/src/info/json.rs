@@ -7,12 +7,12 @@
 use super::materials::{images, materials, textures};
 use super::scenes::{cameras, lights, meshes, nodes, scenes};
 use crate::args::InfoArgs;
-use crate::pick::PickArgs;
+use crate::model_state::ModelStateArgs;
 use homog::Bounds;
 use model::import::{ExtensionUse, extension_use};
 use model::{
-    Animation, Channel, Interpolation, Model, Primitive, Property, Skin, Target, Topology, UvPart,
-    UvTransform,
+    Animation, AnimationChannel, AnimationTarget, Interpolation, Model, NodeProperty, Primitive,
+    Skin, Topology, UvTransform, UvTransformPart,
 };
 use pipeline::scene::file::Finite;
 use serde_json::{Value, json};
@@ -22,20 +22,20 @@ const VERSION: u32 = 1;
 
 /// The whole document, with a newline.
 pub(super) fn document(args: &InfoArgs, model: &Model) -> String {
-    let PickArgs { animation, time, .. } = &args.pick;
+    let ModelStateArgs { animation, time, .. } = &args.model_state;
     let posed = animation.is_some() || time.is_some();
     let value = json!({
         "schema": {"name": "alberti-info", "version": VERSION},
         "file": args.file.to_string_lossy(),
         "name": model.name,
         "shown": {
-            "scene": model.scene,
-            "variant": model.variant,
+            "scene": model.active_scene,
+            "variant": model.active_variant,
             "animation": posed.then(|| chosen(args, model)),
             "time": posed.then(|| time.map_or(0.0, Finite::value)),
             "bounds": bounds(model.bounds()),
-            "counts": counts(model.shown_primitives().map(|(_, primitive)| primitive)),
-            "meshes": model.shown_meshes().count(),
+            "counts": counts(model.scene_primitives().map(|(_, primitive)| primitive)),
+            "meshes": model.mesh_instances().count(),
         },
         "counts": counts(model.meshes.iter().flat_map(|mesh| &mesh.primitives)),
         "scenes": scenes(model),
@@ -57,7 +57,7 @@ pub(super) fn document(args: &InfoArgs, model: &Model) -> String {
 
 /// The number of the animation that poses the model.
 fn chosen(args: &InfoArgs, model: &Model) -> Option<usize> {
-    pipeline::scene::chosen_animation(model, args.pick.animation.as_ref()).ok()
+    pipeline::scene::select_animation(model, args.model_state.animation.as_ref()).ok()
 }
 
 /// A single number as short as it can be written: 0.8 and not 0.800000011920929.
@@ -82,7 +82,7 @@ pub(super) fn counts<'a>(primitives: impl Iterator<Item = &'a Primitive>) -> Val
     for primitive in primitives {
         parts += 1;
         vertices += primitive.positions.len();
-        items[primitive.topology.corners() - 1] += primitive.count();
+        items[primitive.topology.vertices_per_item() - 1] += primitive.item_count();
     }
     let [points, lines, triangles] = items;
     json!({
@@ -114,7 +114,7 @@ fn animation_of(model: &Model, animation: &Animation) -> Value {
     })
 }
 
-fn channel(model: &Model, Channel { target, curve }: &Channel) -> Value {
+fn channel(model: &Model, AnimationChannel { target, curve }: &AnimationChannel) -> Value {
     json!({
         "target": channel_target(model, *target),
         "interpolation": match curve.interpolation {
@@ -129,29 +129,35 @@ fn channel(model: &Model, Channel { target, curve }: &Channel) -> Value {
 }
 
 /// What a channel changes, as a JSON pointer into the file.
-fn channel_target(model: &Model, target: Target) -> String {
+fn channel_target(model: &Model, target: AnimationTarget) -> String {
     match target {
-        Target::Node { node, property } => {
+        AnimationTarget::Node { node, property } => {
             let property = match property {
-                Property::Translation => "translation",
-                Property::Rotation => "rotation",
-                Property::Scale => "scale",
-                Property::Weights => "weights",
+                NodeProperty::Translation => "translation",
+                NodeProperty::Rotation => "rotation",
+                NodeProperty::Scale => "scale",
+                NodeProperty::Weights => "weights",
             };
             format!("/nodes/{node}/{property}")
         }
-        Target::NodeWeight { node, target } => format!("/nodes/{node}/weights/{target}"),
-        Target::MeshWeights { mesh, target: None } => format!("/meshes/{mesh}/weights"),
-        Target::MeshWeights { mesh, target: Some(at) } => format!("/meshes/{mesh}/weights/{at}"),
-        Target::Field { field, of } => field.pointer(of),
-        Target::Texture { transform, part } => {
+        AnimationTarget::NodeMorphWeight { node, target } => {
+            format!("/nodes/{node}/weights/{target}")
+        }
+        AnimationTarget::MeshMorphWeights { mesh, target: None } => {
+            format!("/meshes/{mesh}/weights")
+        }
+        AnimationTarget::MeshMorphWeights { mesh, target: Some(at) } => {
+            format!("/meshes/{mesh}/weights/{at}")
+        }
+        AnimationTarget::ObjectProperty { property: field, index: of } => field.json_pointer(of),
+        AnimationTarget::TextureTransform { transform, part } => {
             let UvTransform { material, slot, .. } = model.uv_transforms[transform];
             let part = match part {
-                UvPart::Offset => "offset",
-                UvPart::Rotation => "rotation",
-                UvPart::Scale => "scale",
+                UvTransformPart::Offset => "offset",
+                UvTransformPart::Rotation => "rotation",
+                UvTransformPart::Scale => "scale",
             };
-            let path = slot.path();
+            let path = slot.json_path();
             format!("/materials/{material}/{path}/extensions/KHR_texture_transform/{part}")
         }
     }

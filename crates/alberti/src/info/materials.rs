@@ -2,7 +2,8 @@
 
 use super::json::{short, shorts};
 use model::{
-    AlphaMode, Filter, ImageHeader, Material, Mipmap, Model, TextureSlot, TextureUse, Wrap,
+    AlphaMode, ImageHeader, Material, MipmapMode, Model, TextureFilter, TextureInfo, TextureSlot,
+    WrapMode,
 };
 use serde_json::{Value, json};
 
@@ -31,12 +32,12 @@ fn material(material: &Material) -> Value {
     })
 }
 
-fn texture_use((slot, used): (TextureSlot, TextureUse)) -> Value {
+fn texture_use((slot, used): (TextureSlot, TextureInfo)) -> Value {
     json!({
-        "slot": slot.path(),
+        "slot": slot.json_path(),
         "texture": used.texture,
         "uv_set": used.uv_set,
-        "transformed": used.uv_map != TextureUse::KEEP_UV,
+        "transformed": used.uv_matrix != TextureInfo::IDENTITY_UV,
     })
 }
 
@@ -98,35 +99,35 @@ pub(super) fn textures(model: &Model) -> Vec<Value> {
         json!({
             "image": texture.image,
             "wrap": [wrap(sampler.wrap_u), wrap(sampler.wrap_v)],
-            "magnify": filter(sampler.magnify),
-            "minify": filter(sampler.minify),
-            "mipmap": match sampler.mipmap {
-                Mipmap::None => "none",
-                Mipmap::Nearest => "nearest",
-                Mipmap::Linear => "linear",
+            "magnify": filter(sampler.mag_filter),
+            "minify": filter(sampler.min_filter),
+            "mipmap": match sampler.mipmap_mode {
+                MipmapMode::None => "none",
+                MipmapMode::Nearest => "nearest",
+                MipmapMode::Linear => "linear",
             },
         })
     };
     model.textures.iter().map(describe).collect()
 }
 
-fn wrap(wrap: Wrap) -> &'static str {
+fn wrap(wrap: WrapMode) -> &'static str {
     match wrap {
-        Wrap::Repeat => "repeat",
-        Wrap::Mirror => "mirror",
-        Wrap::Clamp => "clamp",
+        WrapMode::Repeat => "repeat",
+        WrapMode::MirroredRepeat => "mirror",
+        WrapMode::ClampToEdge => "clamp",
     }
 }
 
-fn filter(filter: Filter) -> &'static str {
+fn filter(filter: TextureFilter) -> &'static str {
     match filter {
-        Filter::Nearest => "nearest",
-        Filter::Linear => "linear",
+        TextureFilter::Nearest => "nearest",
+        TextureFilter::Linear => "linear",
     }
 }
 
 pub(super) fn images(model: &Model) -> Vec<Value> {
-    let describe = |file: &model::ImageFile| {
+    let describe = |file: &model::ImageInfo| {
         let header = file.header.map(|header: ImageHeader| {
             json!({
                 "format": header.format,
@@ -137,5 +138,5 @@ pub(super) fn images(model: &Model) -> Vec<Value> {
         });
         json!({"name": file.name, "uri": file.uri, "file": header})
     };
-    model.image_files.iter().map(describe).collect()
+    model.image_infos.iter().map(describe).collect()
 }

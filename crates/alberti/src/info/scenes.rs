@@ -2,8 +2,8 @@
 
 use super::json::{bounds, counts, short, shorts, topology};
 use model::{
-    EdgeVisibility, Edges, LensKind, LightKind, Mesh, Model, Node, Primitive, SceneRoots,
-    VariantMaterial,
+    CameraProjection, EdgeVisibility, LightKind, Mesh, Model, Node, Primitive, PrimitiveEdges,
+    SceneRoots, VariantMaterial,
 };
 use serde_json::{Value, json};
 
@@ -20,7 +20,7 @@ pub(super) fn nodes(model: &Model) -> Vec<Value> {
 }
 
 fn node(node: &Node) -> Value {
-    let parts = node.parts.map(|parts| {
+    let parts = node.trs.map(|parts| {
         json!({
             "translation": parts.translation,
             "rotation": parts.rotation,
@@ -34,8 +34,8 @@ fn node(node: &Node) -> Value {
         "transform": parts,
         "to_model": node.to_model.raw().to_cols_array(),
         "mesh": node.mesh,
-        "places": node.places.as_ref().map(Vec::len),
-        "weights": node.weights.as_deref().map(shorts),
+        "places": node.instance_transforms.as_ref().map(Vec::len),
+        "weights": node.morph_weights.as_deref().map(shorts),
         "skin": node.skin,
         "camera": node.camera,
         "light": node.light,
@@ -44,14 +44,14 @@ fn node(node: &Node) -> Value {
 
 pub(super) fn meshes(model: &Model) -> Vec<Value> {
     let mut shown = vec![0_usize; model.meshes.len()];
-    for instance in model.shown_meshes() {
+    for instance in model.mesh_instances() {
         if let Some(mesh) = model.nodes[instance.node].mesh {
             shown[mesh] += 1;
         }
     }
     let meshes = model.meshes.iter().zip(shown);
     meshes
-        .map(|(Mesh { name, primitives, weights }, shown)| {
+        .map(|(Mesh { name, primitives, morph_weights: weights }, shown)| {
             json!({
                 "name": name,
                 "shown": shown,
@@ -67,42 +67,42 @@ fn primitive(primitive: &Primitive) -> Value {
     let variant = |of: &VariantMaterial| json!({"variant": of.variant, "material": of.material});
     json!({
         "topology": topology(primitive.topology),
-        "count": primitive.count(),
+        "count": primitive.item_count(),
         "vertices": primitive.positions.len(),
         "normals": primitive.normals.is_some(),
         "tangents": primitive.tangents.is_some(),
         "colors": primitive.colors.is_some(),
         "uv_sets": primitive.uvs.len(),
-        "joint_sets": primitive.joints.len(),
-        "morph_targets": primitive.targets.len(),
+        "joint_sets": primitive.joint_indices.len(),
+        "morph_targets": primitive.morph_targets.len(),
         "material": primitive.material,
-        "variants": primitive.variants.iter().map(variant).collect::<Vec<_>>(),
+        "variants": primitive.material_variants.iter().map(variant).collect::<Vec<_>>(),
         "edges": primitive.edges.as_deref().map(edges),
     })
 }
 
-fn edges(edges: &Edges) -> Value {
+fn edges(edges: &PrimitiveEdges) -> Value {
     let of_triangles = edges.visibility.iter().flat_map(|all| all.as_flattened());
     let count = |wanted: EdgeVisibility| of_triangles.clone().filter(|v| **v == wanted).count();
     json!({
         "hard": count(EdgeVisibility::Hard),
         "silhouette": count(EdgeVisibility::Silhouette),
-        "lines": edges.lines.iter().map(|lines| lines.ends.len()).sum::<usize>(),
+        "lines": edges.lines.iter().map(|lines| lines.vertex_pairs.len()).sum::<usize>(),
         "material": edges.material,
     })
 }
 
 pub(super) fn cameras(model: &Model) -> Vec<Value> {
-    let describe = |(number, lens): (usize, &model::Lens)| {
-        let mut value = match lens.kind {
-            LensKind::Perspective { fov_y, aspect, near, far } => json!({
+    let describe = |(number, lens): (usize, &model::ModelCamera)| {
+        let mut value = match lens.projection {
+            CameraProjection::Perspective { fov_y, aspect, near, far } => json!({
                 "kind": "perspective",
                 "fov_y": fov_y,
                 "aspect": aspect,
                 "near": near,
                 "far": far,
             }),
-            LensKind::Orthographic { half_width, half_height, near, far } => json!({
+            CameraProjection::Orthographic { half_width, half_height, near, far } => json!({
                 "kind": "orthographic",
                 "width": 2.0 * half_width,
                 "height": 2.0 * half_height,
@@ -122,7 +122,7 @@ pub(super) fn lights(model: &Model) -> Vec<Value> {
         let unit = if light.kind == LightKind::Directional { "lux" } else { "candela" };
         let mut value = json!({
             "name": light.name,
-            "kind": light.kind.name(),
+            "kind": light.kind.gltf_name(),
             "color": shorts(&light.color),
             "intensity": short(light.intensity),
             "unit": unit,
@@ -131,7 +131,8 @@ pub(super) fn lights(model: &Model) -> Vec<Value> {
         if let LightKind::Point { range } | LightKind::Spot { range, .. } = light.kind {
             value["range"] = short(range);
         }
-        if let LightKind::Spot { inner, outer, .. } = light.kind {
+        if let LightKind::Spot { inner_cone_angle: inner, outer_cone_angle: outer, .. } = light.kind
+        {
             (value["inner_angle"], value["outer_angle"]) = (short(inner), short(outer));
         }
         value

@@ -1,23 +1,23 @@
 //! Sections of the reference from the types of scene files.
 
-use super::{Entry, Section};
+use super::{ReferenceEntry, ReferenceSection};
 use pipeline::scene::reference::{FieldEntry, Shape, TYPES, TypeEntry, VariantEntry};
 
-pub(super) fn sections() -> Vec<Section> {
-    TYPES.iter().map(section).collect()
+pub(super) fn type_sections() -> Vec<ReferenceSection> {
+    TYPES.iter().map(type_section).collect()
 }
 
-fn section(entry: &TypeEntry) -> Section {
+fn type_section(entry: &TypeEntry) -> ReferenceSection {
     let entries = match entry.shape {
         Shape::Number => Vec::new(),
-        Shape::Fields(fields) => fields.iter().map(field).collect(),
-        Shape::Variants(variants) => variants.iter().map(variant).collect(),
+        Shape::Fields(fields) => fields.iter().map(field_entry).collect(),
+        Shape::Variants(variants) => variants.iter().map(variant_entry).collect(),
     };
-    Section { title: entry.name.to_owned(), about: entry.about.to_owned(), entries }
+    ReferenceSection { title: entry.name.to_owned(), about: entry.about.to_owned(), entries }
 }
 
-fn field(field: &FieldEntry) -> Entry {
-    Entry {
+fn field_entry(field: &FieldEntry) -> ReferenceEntry {
+    ReferenceEntry {
         term: field.name.to_owned(),
         value: field.holds.to_owned(),
         note: if field.optional { String::new() } else { "needed".to_owned() },
@@ -27,16 +27,16 @@ fn field(field: &FieldEntry) -> Entry {
 }
 
 /// A variant, written as in a scene: `Word`, `Word(value)` or `Word(field: …)`.
-fn variant(variant: &VariantEntry) -> Entry {
+fn variant_entry(variant: &VariantEntry) -> ReferenceEntry {
     let brackets = match variant.holds {
         Some(holds) => format!("({holds})"),
         None if variant.fields.is_empty() => String::new(),
         None => "(…)".to_owned(),
     };
-    Entry {
+    ReferenceEntry {
         term: format!("{}{brackets}", variant.name),
         about: variant.about.to_owned(),
-        inner: variant.fields.iter().map(field).collect(),
-        ..Entry::default()
+        inner: variant.fields.iter().map(field_entry).collect(),
+        ..ReferenceEntry::default()
     }
 }

@@ -1,31 +1,31 @@
 //! Sections of the reference from the commands and their flags, as the program itself parses them.
 
-use super::{Entry, Section};
+use super::{ReferenceEntry, ReferenceSection};
 use clap::{Arg, Command};
 
 /// A section for each command, in the order of the help.
-pub(super) fn sections(program: Command) -> Vec<Section> {
+pub(super) fn command_sections(program: Command) -> Vec<ReferenceSection> {
     let mut program = program.disable_help_subcommand(true);
     program.build();
     let mut sections = Vec::new();
-    collect(&program, &mut sections);
+    collect_sections(&program, &mut sections);
     sections
 }
 
-fn collect(command: &Command, sections: &mut Vec<Section>) {
+fn collect_sections(command: &Command, sections: &mut Vec<ReferenceSection>) {
     let about = command.get_long_about().or(command.get_about());
     let arguments = command.get_arguments().filter(|arg| !arg.is_hide_set());
-    sections.push(Section {
+    sections.push(ReferenceSection {
         title: command.get_bin_name().unwrap_or(command.get_name()).to_owned(),
         about: about.map(ToString::to_string).unwrap_or_default(),
-        entries: arguments.map(argument).collect(),
+        entries: arguments.map(argument_entry).collect(),
     });
     for inner in command.get_subcommands().filter(|inner| !inner.is_hide_set()) {
-        collect(inner, sections);
+        collect_sections(inner, sections);
     }
 }
 
-fn argument(arg: &Arg) -> Entry {
+fn argument_entry(arg: &Arg) -> ReferenceEntry {
     let takes_value = arg.get_action().takes_values();
     let names = arg.get_value_names().filter(|_| takes_value).unwrap_or_default();
     let value = names.iter().map(|name| format!("<{name}>")).collect::<Vec<_>>().join(" ");
@@ -50,12 +50,12 @@ fn argument(arg: &Arg) -> Entry {
     } else {
         String::new()
     };
-    let word = |word: &clap::builder::PossibleValue| Entry {
+    let word = |word: &clap::builder::PossibleValue| ReferenceEntry {
         term: word.get_name().to_owned(),
         about: word.get_help().map(ToString::to_string).unwrap_or_default(),
-        ..Entry::default()
+        ..ReferenceEntry::default()
     };
-    Entry {
+    ReferenceEntry {
         term: if flags.is_empty() { value.clone() } else { flags.join(", ") },
         value: if flags.is_empty() { String::new() } else { value },
         note: if arg.is_required_set() { "needed".to_owned() } else { String::new() },

@@ -1,8 +1,8 @@
 //! The reference as one page of HTML that needs no other file.
 
-use super::{Entry, Section};
+use super::{ReferenceEntry, ReferenceSection};
 
-const STYLE: &str = "\
+const PAGE_STYLE: &str = "\
 body { font: 16px/1.5 system-ui, sans-serif; margin: 0; display: grid; grid-template-columns: 15rem 1fr; color: #1a1f26; background: #fff }
 nav { position: sticky; top: 0; height: 100vh; overflow: auto; padding: 1rem; background: #f4f1ea; box-sizing: border-box }
 nav a { display: block } main { padding: 1rem 2rem; max-width: 50rem }
@@ -11,27 +11,28 @@ dd { margin-left: 1.5rem } a { color: #1f4e79; text-decoration: none } .note { c
 @media (prefers-color-scheme: dark) { body { color: #e6e6e6; background: #16191d } nav { background: #20242a } a { color: #8ab8e6 } }
 ";
 
-pub(super) fn page(title: &str, sections: &[Section]) -> String {
+pub(super) fn format_html(title: &str, sections: &[ReferenceSection]) -> String {
     let titles: Vec<&str> = sections.iter().map(|section| section.title.as_str()).collect();
-    let links = titles.iter().map(|title| format!("<a href=\"#{}\">{title}</a>\n", anchor(title)));
+    let links =
+        titles.iter().map(|title| format!("<a href=\"#{}\">{title}</a>\n", section_anchor(title)));
     let links: String = links.collect();
     let mut page = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{title}</title>\n<style>\n{STYLE}</style>\n\
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{title}</title>\n<style>\n{PAGE_STYLE}</style>\n\
          <nav>\n{links}</nav>\n<main>\n<h1>{title}</h1>\n"
     );
     for section in sections {
-        let id = anchor(&section.title);
+        let id = section_anchor(&section.title);
         page.push_str(&format!("<h2 id=\"{id}\">{}</h2>\n", section.title));
         for paragraph in section.about.split("\n\n").filter(|text| !text.is_empty()) {
-            page.push_str(&format!("<p>{}</p>\n", marked(paragraph)));
+            page.push_str(&format!("<p>{}</p>\n", mark_code(paragraph)));
         }
-        list(&mut page, &section.entries, &titles);
+        write_entries(&mut page, &section.entries, &titles);
     }
     page.push_str("</main>\n</html>\n");
     page
 }
 
-fn list(page: &mut String, entries: &[Entry], titles: &[&str]) {
+fn write_entries(page: &mut String, entries: &[ReferenceEntry], titles: &[&str]) {
     if entries.is_empty() {
         return;
     }
@@ -39,43 +40,43 @@ fn list(page: &mut String, entries: &[Entry], titles: &[&str]) {
     for entry in entries {
         let flag = entry.term.starts_with('-');
         let gap = if entry.value.is_empty() || flag { " " } else { ": " };
-        let term = if flag { escaped(&entry.term) } else { linked(&entry.term, titles) };
-        let value = linked(&entry.value, titles);
+        let term = if flag { escape_html(&entry.term) } else { link_titles(&entry.term, titles) };
+        let value = link_titles(&entry.value, titles);
         let note = &entry.note;
         page.push_str(&format!(
             "<dt><b>{term}</b>{gap}{value} <span class=\"note\">{note}</span></dt>\n<dd>{}\n",
-            marked(&entry.about)
+            mark_code(&entry.about)
         ));
-        list(page, &entry.inner, titles);
+        write_entries(page, &entry.inner, titles);
         page.push_str("</dd>\n");
     }
     page.push_str("</dl>\n");
 }
 
-fn anchor(title: &str) -> String {
+fn section_anchor(title: &str) -> String {
     title.replace(' ', "-")
 }
 
 /// Words that are titles of sections become links to them, wherever they stand behind a bracket or a blank.
-fn linked(text: &str, titles: &[&str]) -> String {
+fn link_titles(text: &str, titles: &[&str]) -> String {
     let mut html = String::new();
     for (number, part) in text.split_inclusive(|c: char| !c.is_alphanumeric()).enumerate() {
         let word = part.trim_end_matches(|c: char| !c.is_alphanumeric());
-        let rest = escaped(&part[word.len()..]);
+        let rest = escape_html(&part[word.len()..]);
         // The first word of a variant is its own name.
         let is_link = titles.contains(&word) && (number > 0 || !text.contains('('));
         if is_link {
-            html.push_str(&format!("<a href=\"#{}\">{word}</a>{rest}", anchor(word)));
+            html.push_str(&format!("<a href=\"#{}\">{word}</a>{rest}", section_anchor(word)));
         } else {
-            html.push_str(&format!("{}{rest}", escaped(word)));
+            html.push_str(&format!("{}{rest}", escape_html(word)));
         }
     }
     html
 }
 
 /// What stands between backticks is code.
-fn marked(text: &str) -> String {
-    let parts = escaped(text).split('`').map(str::to_owned).collect::<Vec<_>>();
+fn mark_code(text: &str) -> String {
+    let parts = escape_html(text).split('`').map(str::to_owned).collect::<Vec<_>>();
     let part = |(number, part): (usize, &String)| match number % 2 {
         0 => part.clone(),
         _ => format!("<code>{part}</code>"),
@@ -83,6 +84,6 @@ fn marked(text: &str) -> String {
     parts.iter().enumerate().map(part).collect()
 }
 
-fn escaped(text: &str) -> String {
+fn escape_html(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

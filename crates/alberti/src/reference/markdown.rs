@@ -1,37 +1,37 @@
 //! The reference as Markdown.
 
-use super::{Entry, Section};
+use super::{ReferenceEntry, ReferenceSection};
 
-pub(super) fn page(title: &str, sections: &[Section]) -> String {
+pub(super) fn format_markdown(title: &str, sections: &[ReferenceSection]) -> String {
     let mut page = format!("# {title}\n");
     for section in sections {
         page.push_str(&format!("\n## {}\n", section.title));
         if !section.about.is_empty() {
-            page.push_str(&format!("\n{}\n", escaped(&section.about)));
+            page.push_str(&format!("\n{}\n", escape_markdown(&section.about)));
         }
         if !section.entries.is_empty() {
             page.push('\n');
         }
-        section.entries.iter().for_each(|entry| write(&mut page, entry, 0));
+        section.entries.iter().for_each(|entry| write_entry(&mut page, entry, 0));
     }
     page
 }
 
-fn write(page: &mut String, entry: &Entry, depth: usize) {
+fn write_entry(page: &mut String, entry: &ReferenceEntry, depth: usize) {
     let value = match (entry.value.is_empty(), entry.term.starts_with('-')) {
         (true, _) => String::new(),
         (false, true) => format!(" `{}`", entry.value),
         (false, false) => format!(": {}", entry.value),
     };
     let note = if entry.note.is_empty() { String::new() } else { format!(" ({})", entry.note) };
-    let about = escaped(&entry.about).replace("\n\n", " ");
+    let about = escape_markdown(&entry.about).replace("\n\n", " ");
     let dash = if about.is_empty() { "" } else { " — " };
     page.push_str(&format!("{}- `{}`{value}{note}{dash}{about}\n", "  ".repeat(depth), entry.term));
-    entry.inner.iter().for_each(|inner| write(page, inner, depth + 1));
+    entry.inner.iter().for_each(|inner| write_entry(page, inner, depth + 1));
 }
 
 /// Outside of code, angle brackets and stars are text and not markup.
-fn escaped(text: &str) -> String {
+fn escape_markdown(text: &str) -> String {
     let parts = text.split('`').enumerate().map(|(number, part)| match number % 2 {
         0 => part.replace('<', "&lt;").replace('*', "\\*").replace('_', "\\_"),
         _ => part.to_owned(),

@@ -1,67 +1,78 @@
 //! The part of the reference that somebody asks for by a word.
 
-use super::{Entry, Section};
+use super::{ReferenceEntry, ReferenceSection};
 
 /// The sections and entries that `word` names: a section by its title; a path of fields from the scene on, with the types at its
 /// end; or entries of that name wherever they are.
 ///
 /// # Errors
 /// If there is nothing of that name: what there is that looks like it.
-pub(super) fn matching(sections: &[Section], word: &str) -> Result<Vec<Section>, String> {
-    let titled: Vec<Section> =
+pub(super) fn find_sections(
+    sections: &[ReferenceSection],
+    word: &str,
+) -> Result<Vec<ReferenceSection>, String> {
+    let titled: Vec<ReferenceSection> =
         sections.iter().filter(|section| is_titled(section, word)).cloned().collect();
     if !titled.is_empty() {
         return Ok(titled);
     }
     let steps: Vec<&str> = word.split('.').collect();
-    let found = if steps.len() > 1 { by_path(sections, &steps) } else { named(sections, word) };
-    if found.is_empty() { Err(unknown(sections, word)) } else { Ok(found) }
+    let found =
+        if steps.len() > 1 { find_by_path(sections, &steps) } else { find_entries(sections, word) };
+    if found.is_empty() { Err(unknown_word(sections, word)) } else { Ok(found) }
 }
 
 /// Whether it is the type or the command of this name.
-fn is_titled(section: &Section, word: &str) -> bool {
+fn is_titled(section: &ReferenceSection, word: &str) -> bool {
     let title = &section.title;
     title.eq_ignore_ascii_case(word)
         || title.strip_prefix("alberti ").is_some_and(|command| command == word)
 }
 
 /// The entries of one name, each under the title of its section.
-fn named(sections: &[Section], word: &str) -> Vec<Section> {
-    let with = |section: &Section| {
-        let entries: Vec<Entry> =
-            section.entries.iter().filter_map(|entry| pruned(entry, word)).collect();
-        (!entries.is_empty()).then(|| Section { entries, about: String::new(), ..section.clone() })
+fn find_entries(sections: &[ReferenceSection], word: &str) -> Vec<ReferenceSection> {
+    let with = |section: &ReferenceSection| {
+        let entries: Vec<ReferenceEntry> =
+            section.entries.iter().filter_map(|entry| prune_entry(entry, word)).collect();
+        (!entries.is_empty()).then(|| ReferenceSection {
+            entries,
+            about: String::new(),
+            ..section.clone()
+        })
     };
     sections.iter().filter_map(with).collect()
 }
 
 /// An entry of this name, or one with such entries inside, and no others.
-fn pruned(entry: &Entry, word: &str) -> Option<Entry> {
+fn prune_entry(entry: &ReferenceEntry, word: &str) -> Option<ReferenceEntry> {
     if is_named(entry, word) {
         return Some(entry.clone());
     }
-    let inner: Vec<Entry> = entry.inner.iter().filter_map(|inner| pruned(inner, word)).collect();
-    (!inner.is_empty()).then(|| Entry { inner, ..entry.clone() })
+    let inner: Vec<ReferenceEntry> =
+        entry.inner.iter().filter_map(|inner| prune_entry(inner, word)).collect();
+    (!inner.is_empty()).then(|| ReferenceEntry { inner, ..entry.clone() })
 }
 
-fn is_named(entry: &Entry, word: &str) -> bool {
-    names(entry).any(|name| name == word || name.trim_start_matches('-') == word)
+fn is_named(entry: &ReferenceEntry, word: &str) -> bool {
+    entry_names(entry).any(|name| name == word || name.trim_start_matches('-') == word)
 }
 
 /// The name of a field or a variant, or the short and the long one of a flag.
-fn names(entry: &Entry) -> impl Iterator<Item = &str> {
+fn entry_names(entry: &ReferenceEntry) -> impl Iterator<Item = &str> {
     entry.term.split(", ").map(|name| name.split('(').next().unwrap_or(name))
 }
 
 /// The entries at the end of a path such as `camera.view.eye`; variants may be named on it or not.
-fn by_path(sections: &[Section], steps: &[&str]) -> Vec<Section> {
-    let is_scene = |section: &&Section| section.title == "Scene";
-    let mut scopes: Vec<Section> = sections.iter().filter(is_scene).cloned().collect();
+fn find_by_path(sections: &[ReferenceSection], steps: &[&str]) -> Vec<ReferenceSection> {
+    let is_scene = |section: &&ReferenceSection| section.title == "Scene";
+    let mut scopes: Vec<ReferenceSection> = sections.iter().filter(is_scene).cloned().collect();
     let mut found = Vec::new();
     for step in steps {
-        found = named(&scopes, step);
-        scopes =
-            found.iter().flat_map(|part| opened(sections, part, &part.entries, step)).collect();
+        found = find_entries(&scopes, step);
+        scopes = found
+            .iter()
+            .flat_map(|part| open_entries(sections, part, &part.entries, step))
+            .collect();
     }
     // What can stand there.
     let types =
@@ -71,27 +82,35 @@ fn by_path(sections: &[Section], steps: &[&str]) -> Vec<Section> {
 }
 
 /// What the entries of this name lead to: their own fields, and the types of their values.
-fn opened(sections: &[Section], part: &Section, entries: &[Entry], name: &str) -> Vec<Section> {
-    let open = |entry: &Entry| {
+fn open_entries(
+    sections: &[ReferenceSection],
+    part: &ReferenceSection,
+    entries: &[ReferenceEntry],
+    name: &str,
+) -> Vec<ReferenceSection> {
+    let open = |entry: &ReferenceEntry| {
         if !is_named(entry, name) {
-            return opened(sections, part, &entry.inner, name);
+            return open_entries(sections, part, &entry.inner, name);
         }
         let written = format!("{} {}", entry.value, entry.term);
         let words: Vec<&str> = written.split(|c: char| !c.is_alphanumeric()).collect();
         let types = sections.iter().filter(|section| words.contains(&section.title.as_str()));
-        let own = Section { entries: entry.inner.clone(), ..part.clone() };
+        let own = ReferenceSection { entries: entry.inner.clone(), ..part.clone() };
         types.cloned().chain([own]).collect()
     };
     entries.iter().flat_map(open).collect()
 }
 
-fn unknown(sections: &[Section], word: &str) -> String {
-    fn all<'a>(entry: &'a Entry, found: &mut Vec<&'a str>) {
-        found.extend(names(entry));
-        entry.inner.iter().for_each(|inner| all(inner, found));
+fn unknown_word(sections: &[ReferenceSection], word: &str) -> String {
+    fn collect_names<'a>(entry: &'a ReferenceEntry, found: &mut Vec<&'a str>) {
+        found.extend(entry_names(entry));
+        entry.inner.iter().for_each(|inner| collect_names(inner, found));
     }
     let mut names: Vec<&str> = sections.iter().map(|section| section.title.as_str()).collect();
-    sections.iter().flat_map(|section| &section.entries).for_each(|entry| all(entry, &mut names));
+    sections
+        .iter()
+        .flat_map(|section| &section.entries)
+        .for_each(|entry| collect_names(entry, &mut names));
     let last = word.rsplit('.').next().unwrap_or(word);
     let likeness = |name: &&str| strsim::jaro_winkler(last, name);
     let best = names.into_iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));

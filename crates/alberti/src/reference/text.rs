@@ -1,11 +1,11 @@
 //! The reference as text for a terminal.
 
-use super::{Entry, Section};
+use super::{ReferenceEntry, ReferenceSection};
 
 /// The width of a line.
-const WIDTH: usize = 100;
+const LINE_WIDTH: usize = 100;
 
-pub(super) fn page(sections: &[Section]) -> String {
+pub(super) fn format_text(sections: &[ReferenceSection]) -> String {
     let mut page = String::new();
     for (number, section) in sections.iter().enumerate() {
         if number > 0 {
@@ -13,13 +13,13 @@ pub(super) fn page(sections: &[Section]) -> String {
         }
         page.push_str(&section.title);
         page.push('\n');
-        wrap(&mut page, &section.about, 2);
-        section.entries.iter().for_each(|entry| write(&mut page, entry, 2));
+        wrap_paragraphs(&mut page, &section.about, 2);
+        section.entries.iter().for_each(|entry| write_entry(&mut page, entry, 2));
     }
     page
 }
 
-fn write(page: &mut String, entry: &Entry, indent: usize) {
+fn write_entry(page: &mut String, entry: &ReferenceEntry, indent: usize) {
     page.push_str(&" ".repeat(indent));
     page.push_str(&entry.term);
     if !entry.value.is_empty() {
@@ -30,17 +30,17 @@ fn write(page: &mut String, entry: &Entry, indent: usize) {
         page.push_str(&format!(" ({})", entry.note));
     }
     page.push('\n');
-    wrap(page, &entry.about, indent + 4);
-    entry.inner.iter().for_each(|inner| write(page, inner, indent + 4));
+    wrap_paragraphs(page, &entry.about, indent + 4);
+    entry.inner.iter().for_each(|inner| write_entry(page, inner, indent + 4));
 }
 
 /// Paragraphs, broken between words.
-fn wrap(page: &mut String, text: &str, indent: usize) {
+fn wrap_paragraphs(page: &mut String, text: &str, indent: usize) {
     for line in text.lines().filter(|line| !line.is_empty()) {
         let mut column = 0;
         for word in line.split_whitespace() {
             let length = word.chars().count();
-            if column > 0 && column + 1 + length > WIDTH {
+            if column > 0 && column + 1 + length > LINE_WIDTH {
                 page.push('\n');
                 column = 0;
             }

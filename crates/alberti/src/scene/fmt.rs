@@ -1,7 +1,7 @@
 //! `alberti scene fmt`: lays out scene files.
 
-use crate::{Failure, say};
-use pipeline::scene::{laid_out, parse};
+use crate::{CliError, print_stdout};
+use pipeline::scene::{format_source, parse_scene};
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -16,20 +16,20 @@ pub(crate) struct FmtArgs {
     check: bool,
 }
 
-pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, Failure> {
+pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, CliError> {
     let mut differ = Vec::new();
     for path in &args.files {
-        let text = read(path)?;
+        let text = read_source(path)?;
         let name = path.display().to_string();
-        parse(&name, &text).map_err(pipeline::ResolveError::from)?;
-        let better = laid_out(&name, &text).map_err(pipeline::ResolveError::from)?;
+        parse_scene(&name, &text).map_err(pipeline::ResolveError::from)?;
+        let better = format_source(&name, &text).map_err(pipeline::ResolveError::from)?;
         let same = better == text;
         if !same {
             differ.push(name);
         }
         match (args.check, path.as_os_str() == "-") {
             (true, _) => {}
-            (false, true) => say(better.as_bytes())?,
+            (false, true) => print_stdout(better.as_bytes())?,
             (false, false) if same => {}
             (false, false) => pipeline::write_file(path, better.as_bytes())?,
         }
@@ -37,17 +37,17 @@ pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, Failure> {
     if !args.check || differ.is_empty() {
         return Ok(ExitCode::SUCCESS);
     }
-    say(format!("{}\n", differ.join("\n")).as_bytes())?;
+    print_stdout(format!("{}\n", differ.join("\n")).as_bytes())?;
     Ok(ExitCode::FAILURE)
 }
 
-fn read(path: &Path) -> Result<String, Failure> {
+fn read_source(path: &Path) -> Result<String, CliError> {
     let mut text = String::new();
     let read = if path.as_os_str() == "-" {
         std::io::stdin().read_to_string(&mut text).map(drop)
     } else {
         std::fs::read_to_string(path).map(|read| text = read)
     };
-    read.map_err(|cause| Failure::Usage(format!("cannot read {}: {cause}", path.display())))?;
+    read.map_err(|cause| CliError::Usage(format!("cannot read {}: {cause}", path.display())))?;
     Ok(text)
 }

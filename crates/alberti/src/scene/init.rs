@@ -1,9 +1,9 @@
 //! `alberti scene init`: a scene file for a model, to go on from.
 
-use crate::loading::LoadArgs;
-use crate::{Failure, complain, say};
+use crate::load_options::LoadArgs;
+use crate::{CliError, print_message, print_stdout};
 use model::{Model, Topology};
-use pipeline::scene::{ResolveOptions, laid_out};
+use pipeline::scene::{ResolveOptions, format_source};
 use pipeline::{Origin, ResolveError, Scene};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -19,26 +19,30 @@ pub(crate) struct InitArgs {
     #[arg(long)]
     force: bool,
     #[command(flatten)]
-    load: LoadArgs,
+    load_options: LoadArgs,
 }
 
-pub(crate) fn run(args: &InitArgs) -> Result<(), Failure> {
+pub(crate) fn run(args: &InitArgs) -> Result<(), CliError> {
     let output = args.output.clone().unwrap_or_else(|| args.model.with_extension("ron"));
     let to_stdout = output.as_os_str() == "-";
     if !to_stdout && !args.force && output.exists() {
         let name = output.display();
-        return Err(Failure::Usage(format!(
+        return Err(CliError::Usage(format!(
             "{name} is there already\n  = help: choose another name with -o FILE, or replace it with --force"
         )));
     }
-    let (origin, file) = Origin::bare_model(&args.model);
-    let scene = Scene::resolve(&origin, &file, &ResolveOptions { import: args.load.options() })?;
+    let (origin, file) = Origin::from_model_path(&args.model);
+    let scene = Scene::resolve(
+        &origin,
+        &file,
+        &ResolveOptions { import: args.load_options.import_options() },
+    )?;
     let folder = if to_stdout { Path::new("") } else { output.parent().unwrap_or(Path::new("")) };
-    let path = from_folder(folder, &args.model);
-    let text = starter(&path, &output.display().to_string(), &scene);
-    let text = laid_out(&path, &text).map_err(ResolveError::from)?;
+    let path = relative_path(folder, &args.model);
+    let text = starter_scene(&path, &output.display().to_string(), &scene);
+    let text = format_source(&path, &text).map_err(ResolveError::from)?;
     if to_stdout {
-        say(text.as_bytes())?;
+        print_stdout(text.as_bytes())?;
     } else {
         pipeline::write_file(&output, text.as_bytes())?;
     }
@@ -47,13 +51,13 @@ pub(crate) fn run(args: &InitArgs) -> Result<(), Failure> {
         let message = format!(
             "the model is not below the scene's folder: give --allow-outside {folder} to whoever reads it"
         );
-        complain("warning", &message);
+        print_message("warning", &message);
     }
     Ok(())
 }
 
 /// The path of a file as it is written in a scene of this folder, with `/` between its parts.
-fn from_folder(folder: &Path, file: &Path) -> String {
+fn relative_path(folder: &Path, file: &Path) -> String {
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let (Ok(from), Ok(to)) = (here.canonicalize(), file.canonicalize()) else {
         return file.display().to_string();
@@ -66,16 +70,16 @@ fn from_folder(folder: &Path, file: &Path) -> String {
 }
 
 /// The text of the scene. Writing to a `String` cannot fail.
-fn starter(path: &str, output: &str, scene: &Scene) -> String {
+fn starter_scene(path: &str, output: &str, scene: &Scene) -> String {
     let placed = &scene.models[0];
     let model = &placed.model;
-    let mut text = head(model, path, output);
+    let mut text = header_comment(model, path, output);
     let _ = write!(text, "Scene(\nmodels: [\nModel(\npath: {path:?},\n");
-    states(&mut text, model);
+    write_model_states(&mut text, model);
     text.push_str(
         "// translate: (0, 0, 0), rotate_degrees: (0, 30, 0), scale: 1,\n),\n],\ncamera: Camera(\n",
     );
-    views(&mut text, scene);
+    write_views(&mut text, scene);
     text.push_str("// or Orthographic(), Isometric, Cavalier(), TwoPoint() …\nprojection: Perspective(fov_y_degrees: 35),\n),\n");
     if model.lights.is_empty() {
         text.push_str("// Lux of a sun, besides the light from all around; a white matt surface shows lux / π.\n");
@@ -93,10 +97,10 @@ fn starter(path: &str, output: &str, scene: &Scene) -> String {
 }
 
 /// What the model is, and what to do with the scene.
-fn head(model: &Model, path: &str, output: &str) -> String {
+fn header_comment(model: &Model, path: &str, output: &str) -> String {
     let triangles =
-        model.shown_primitives().filter(|(_, part)| part.topology == Topology::Triangles);
-    let triangles: usize = triangles.map(|(_, part)| part.count()).sum();
+        model.scene_primitives().filter(|(_, part)| part.topology == Topology::Triangles);
+    let triangles: usize = triangles.map(|(_, part)| part.item_count()).sum();
     let size =
         model.bounds().map_or([0.0; 3], |bounds| (bounds.max() - bounds.min()).raw().to_array());
     let [x, y, z] = size;
@@ -105,12 +109,12 @@ fn head(model: &Model, path: &str, output: &str) -> String {
          // Draw it: alberti render {output}\n\
          // What is wrong with it: alberti scene check {output}\n\
          // What else it may say: alberti scene doc\n",
-        one_line(path)
+        single_line(path)
     )
 }
 
 /// The states that the model's file offers.
-fn states(text: &mut String, model: &Model) {
+fn write_model_states(text: &mut String, model: &Model) {
     let names = |all: Vec<Option<&str>>, field: &str, text: &mut String| {
         for (number, name) in all.into_iter().enumerate() {
             let choice = name.map_or(format!("Index({number})"), |name| format!("Name({name:?})"));
@@ -134,7 +138,7 @@ fn states(text: &mut String, model: &Model) {
 }
 
 /// The view that frames everything, the same in numbers, and the cameras of the model.
-fn views(text: &mut String, scene: &Scene) {
+fn write_views(text: &mut String, scene: &Scene) {
     let model = &scene.models[0].model;
     let camera = scene.view_projection.camera;
     let middle = model.bounds().map(|bounds| bounds.center().raw()).unwrap_or_default();
@@ -147,7 +151,7 @@ fn views(text: &mut String, scene: &Scene) {
     );
     let _ = writeln!(text, "// view: LookAt(eye: {}, target: {}),", triple(eye), triple(target));
     let mut cameras = Vec::new();
-    for instance in model.instances() {
+    for instance in model.node_instances() {
         let node = &model.nodes[instance.node];
         let Some(number) = node.camera else { continue };
         let name = model.cameras[number].name.as_ref().or(node.name.as_ref());
@@ -162,6 +166,6 @@ fn views(text: &mut String, scene: &Scene) {
 }
 
 /// A name that cannot end a comment.
-fn one_line(name: &str) -> String {
+fn single_line(name: &str) -> String {
     name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }

@@ -1,7 +1,7 @@
 //! The axes of charts: where a value is, and which values are named.
 
 /// The most ticks of an axis.
-const MOST_TICKS: usize = 9;
+const MAX_TICKS: usize = 9;
 
 /// An axis.
 #[derive(Clone, PartialEq, Debug)]
@@ -28,7 +28,7 @@ pub enum Spacing {
 impl Axis {
     /// Where a value is on the axis: 0 at its begin, 1 at its end. What is beside it is brought to the ends.
     #[must_use]
-    pub fn part(&self, value: f64) -> f64 {
+    pub fn fraction_at(&self, value: f64) -> f64 {
         let part = match self.spacing {
             Spacing::Linear => (value - self.from) / (self.to - self.from),
             Spacing::Logarithmic => {
@@ -53,11 +53,11 @@ impl Axis {
         let power = libm::floor(libm::log10(span)) as i32;
         let steps = [power - 1, power].into_iter().flat_map(|n| [1.0, 2.0, 5.0].map(|d| (d, n)));
         for (digit, power) in steps {
-            let step = decimal(digit, power);
+            let step = nearest_decimal(digit, power);
             // Half a thousandth of a step beside the ends is at the ends.
             let first = libm::ceil(self.from / step - 5e-4) as i64;
             let last = libm::floor(self.to / step + 5e-4) as i64;
-            if last - first < MOST_TICKS as i64 {
+            if last - first < MAX_TICKS as i64 {
                 // By a quotient where the step is a fraction: 3 / 10 is the number that 0.3 is written as.
                 let value = |n: i64| match power {
                     ..0 => n as f64 * digit / power_of_ten(-power),
@@ -73,7 +73,8 @@ impl Axis {
         let [low, high] = [self.from, self.to].map(|end| libm::floor(libm::log10(end)) as i32);
         let fitting = |digits: &[f64], every: i32| -> Vec<f64> {
             let powers = (low..=high).filter(|power| power.rem_euclid(every) == 0);
-            let values = powers.flat_map(|power| digits.iter().map(move |&d| decimal(d, power)));
+            let values =
+                powers.flat_map(|power| digits.iter().map(move |&d| nearest_decimal(d, power)));
             let range = self.from * (1.0 - 1e-9)..=self.to * (1.0 + 1e-9);
             values.filter(|value| range.contains(value)).collect()
         };
@@ -83,22 +84,22 @@ impl Axis {
         }
         let coarser = (1..).map(|every| fitting(&[1.0], every));
         let mut all = std::iter::once(fine).chain(coarser);
-        all.find(|ticks| ticks.len() <= MOST_TICKS).unwrap_or_default()
+        all.find(|ticks| ticks.len() <= MAX_TICKS).unwrap_or_default()
     }
 }
 
 /// The number nearest to a digit times a power of ten: the one that is written so.
-fn decimal(digit: f64, power: i32) -> f64 {
+fn nearest_decimal(digit: f64, power: i32) -> f64 {
     format!("{digit}e{power}").parse().unwrap_or(1.0)
 }
 
 /// The number nearest to a power of ten.
 fn power_of_ten(power: i32) -> f64 {
-    decimal(1.0, power)
+    nearest_decimal(1.0, power)
 }
 
 /// A round number as short as it can be written.
-pub(super) fn tick_text(value: f64) -> String {
+pub(super) fn format_tick(value: f64) -> String {
     let value = value + 0.0;
     let size = value.abs();
     if size == 0.0 || (1e-3..1e5).contains(&size) {
@@ -136,10 +137,11 @@ mod tests {
                 for ratio in [1.001, 1.5, 7.0, 1e3, 1e7] {
                     let from = power_of_ten(power) * 1.7;
                     let found = ticks(from, from * ratio, spacing);
-                    assert!((2..=MOST_TICKS).contains(&found.len()), "{from} {ratio} {found:?}");
+                    assert!((2..=MAX_TICKS).contains(&found.len()), "{from} {ratio} {found:?}");
                     assert!(found.windows(2).all(|pair| pair[0] < pair[1]), "{found:?}");
                     if (-9..9).contains(&power) && ratio > 1.4 {
-                        let long = found.iter().map(|tick| tick_text(*tick)).find(|t| t.len() > 7);
+                        let long =
+                            found.iter().map(|tick| format_tick(*tick)).find(|t| t.len() > 7);
                         assert_eq!(long, None, "{from} {ratio} {spacing:?}");
                     }
                     let room = from * (ratio - 1.0) * 1e-3;
@@ -152,7 +154,7 @@ mod tests {
 
     #[test]
     fn numbers_are_written_short() {
-        let texts = [0.0, -0.0, 0.3, 1e-7, 2e5, 1000.0].map(tick_text);
+        let texts = [0.0, -0.0, 0.3, 1e-7, 2e5, 1000.0].map(format_tick);
         assert_eq!(texts, ["0", "0", "0.3", "1e-7", "2e5", "1000"]);
     }
 }

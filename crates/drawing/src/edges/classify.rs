@@ -1,20 +1,20 @@
 //! Why an edge is drawn: what the faces on its two sides do there.
 
-use super::gather::{Face, Shape};
-use super::sides::Side;
-use crate::sight::Sight;
-use crate::{EdgeClass, Options};
+use super::half_edges::HalfEdge;
+use super::world_mesh::{Face, WorldMesh};
+use crate::projector::Projector;
+use crate::{DrawOptions, EdgeClass};
 use glam::DVec3;
 use model::EdgeVisibility;
 
 /// Of each face the unit normal, and whether it looks to the viewer.
 #[derive(Clone, Debug)]
-struct Normals(Vec<(DVec3, bool)>);
+struct FaceNormals(Vec<(DVec3, bool)>);
 
-impl Normals {
-    fn of(shape: &Shape, sight: &Sight) -> Self {
+impl FaceNormals {
+    fn new(shape: &WorldMesh, sight: &Projector) -> Self {
         let normal = |face: &Face| {
-            let [a, b, c] = face.corners.map(|corner| shape.points[corner as usize]);
+            let [a, b, c] = face.vertices.map(|corner| shape.points[corner as usize]);
             let normal = (b - a).cross(c - a).normalize_or_zero();
             (normal, normal.dot(sight.towards_viewer(a)) > 0.0)
         };
@@ -22,42 +22,49 @@ impl Normals {
     }
 
     /// The normal and the look of a side's face, as if it ran along the rising edge.
-    fn beside(&self, side: Side) -> (DVec3, bool) {
+    fn normal_along(&self, side: HalfEdge) -> (DVec3, bool) {
         let (normal, looks) = self.0[side.face as usize];
-        if side.rises { (normal, looks) } else { (-normal, !looks) }
+        if side.is_forward { (normal, looks) } else { (-normal, !looks) }
     }
 }
 
-pub(super) struct Classifier<'a> {
+pub(super) struct EdgeClassifier<'a> {
     faces: &'a [Face],
     /// The edges that sections made, sorted.
-    cuts: &'a [[u32; 2]],
-    normals: Normals,
+    section_edges: &'a [[u32; 2]],
+    normals: FaceNormals,
     /// The cosine of the crease angle.
-    bend: f64,
+    crease_cosine: f64,
 }
 
-impl<'a> Classifier<'a> {
-    pub(super) fn of(shape: &'a Shape, sight: &Sight, options: &Options) -> Self {
-        let normals = Normals::of(shape, sight);
-        Self { faces: &shape.faces, cuts: &shape.cuts, normals, bend: libm::cos(options.crease) }
+impl<'a> EdgeClassifier<'a> {
+    pub(super) fn new(shape: &'a WorldMesh, sight: &Projector, options: &DrawOptions) -> Self {
+        let normals = FaceNormals::new(shape, sight);
+        Self {
+            faces: &shape.faces,
+            section_edges: &shape.section_edges,
+            normals,
+            crease_cosine: libm::cos(options.crease_angle),
+        }
     }
 
-    fn face(&self, side: Side) -> &Face {
+    fn face_of_half_edge(&self, side: HalfEdge) -> &Face {
         &self.faces[side.face as usize]
     }
 
     /// The first of the objects that meet at an edge.
-    pub(super) fn object(&self, sides: &[Side]) -> u32 {
-        sides.iter().map(|&side| self.face(side).object).min().unwrap_or(0)
+    pub(super) fn lowest_object(&self, sides: &[HalfEdge]) -> u32 {
+        sides.iter().map(|&side| self.face_of_half_edge(side).object).min().unwrap_or(0)
     }
 
-    pub(super) fn class(&self, ends: [u32; 2], sides: &[Side]) -> EdgeClass {
-        if self.cuts.binary_search(&ends).is_ok() {
+    pub(super) fn classify_edge(&self, ends: [u32; 2], sides: &[HalfEdge]) -> EdgeClass {
+        if self.section_edges.binary_search(&ends).is_ok() {
             return EdgeClass::Section;
         }
-        let shape = self.shape(sides);
-        let mark = |&side: &Side| Some(self.face(side).marks?[usize::from(side.number)]);
+        let shape = self.class_by_geometry(sides);
+        let mark = |&side: &HalfEdge| {
+            Some(self.face_of_half_edge(side).edge_visibility?[usize::from(side.side)])
+        };
         match (sides.iter().filter_map(mark).max(), shape) {
             (None, shape) => shape,
             (Some(EdgeVisibility::Hard | EdgeVisibility::RepeatedHard), _) => EdgeClass::Marked,
@@ -67,42 +74,44 @@ impl<'a> Classifier<'a> {
     }
 
     /// The class by the shape alone: the strongest that any object has there. Borders of two objects make a pair.
-    fn shape(&self, sides: &[Side]) -> EdgeClass {
+    fn class_by_geometry(&self, sides: &[HalfEdge]) -> EdgeClass {
         if let &[one, other] = sides {
-            return self.between(one, other);
+            return self.class_between(one, other);
         }
         // A third face of an object makes more than a surface of it.
-        let of_object =
-            |object| sides.iter().filter(move |&&side| self.face(side).object == object);
-        let (mut class, mut alone) = (EdgeClass::Facet, Vec::new());
+        let of_object = |object| {
+            sides.iter().filter(move |&&side| self.face_of_half_edge(side).object == object)
+        };
+        let (mut class, mut unpaired) = (EdgeClass::Facet, Vec::new());
         for &side in sides {
-            let mut same = of_object(self.face(side).object);
+            let mut same = of_object(self.face_of_half_edge(side).object);
             class = class.min(match (same.next(), same.next(), same.next()) {
-                (Some(&one), Some(&other), None) => self.between(one, other),
+                (Some(&one), Some(&other), None) => self.class_between(one, other),
                 (Some(_), Some(_), Some(_)) => EdgeClass::Crease,
                 _ => {
-                    alone.push(side);
+                    unpaired.push(side);
                     EdgeClass::Facet
                 }
             });
         }
-        match *alone {
+        match *unpaired {
             [] => class,
-            [one, other] => class.min(self.between(one, other)),
+            [one, other] => class.min(self.class_between(one, other)),
             [_] => class.min(EdgeClass::Boundary),
             _ => class.min(EdgeClass::Crease),
         }
     }
 
     /// The class of an edge between two faces.
-    fn between(&self, one: Side, other: Side) -> EdgeClass {
-        let ((n, looks), (m, other_looks)) = (self.normals.beside(one), self.normals.beside(other));
+    fn class_between(&self, one: HalfEdge, other: HalfEdge) -> EdgeClass {
+        let ((n, looks), (m, other_looks)) =
+            (self.normals.normal_along(one), self.normals.normal_along(other));
         // As if both ran along the rising edge: then one of the normals of a smooth surface points inwards.
         if looks == other_looks {
             EdgeClass::Silhouette
-        } else if n.dot(-m) < self.bend {
+        } else if n.dot(-m) < self.crease_cosine {
             EdgeClass::Crease
-        } else if self.face(one).material != self.face(other).material {
+        } else if self.face_of_half_edge(one).material != self.face_of_half_edge(other).material {
             EdgeClass::Tangent
         } else {
             EdgeClass::Facet

@@ -6,57 +6,62 @@
 //! ```
 //! Only borders are looked at, so that closed surfaces stay as they are, however fine.
 
-use super::gather::{Face, Shape};
-use super::sides::{Side, Sides};
-use super::weld::renumber;
-use crate::visibility::{Aabb, Bvh};
+use super::half_edges::{HalfEdge, HalfEdges};
+use super::weld::remap_vertices;
+use super::world_mesh::{Face, WorldMesh};
+use crate::hidden_line::{Aabb, Bvh};
 use glam::DVec3;
 
 /// Points of borders nearer than this are one, in diagonals of the smaller of their objects: what quantisation to 12 bits
 /// may part.
-pub(super) const NEAR: f64 = 1.0 / 4096.0;
+pub(super) const WELD_FRACTION: f64 = 1.0 / 4096.0;
 
 /// An edge that one face alone has, or a part of it.
-pub(super) type Border = ([u32; 2], Side);
+pub(super) type BorderEdge = ([u32; 2], HalfEdge);
 
 /// Of each point the greatest distance at which it may be one with another.
 #[derive(Clone, Debug)]
-pub(super) struct Reach(Vec<f64>);
+pub(super) struct WeldRadii(Vec<f64>);
 
-impl Reach {
-    pub(super) fn of(shape: &Shape) -> Self {
-        let mut boxes = vec![Aabb::NONE; shape.objects.len()];
-        let corners = || shape.faces.iter().flat_map(|f| f.corners.map(|c| (c as usize, f.object)));
+impl WeldRadii {
+    pub(super) fn from_mesh(shape: &WorldMesh) -> Self {
+        let mut boxes = vec![Aabb::EMPTY; shape.objects.len()];
+        let corners =
+            || shape.faces.iter().flat_map(|f| f.vertices.map(|c| (c as usize, f.object)));
         for (corner, object) in corners() {
             let bounds = &mut boxes[object as usize];
-            *bounds = bounds.union(Aabb::around([shape.points[corner]]));
+            *bounds = bounds.union(Aabb::from_points([shape.points[corner]]));
         }
         let mut reach = vec![f64::INFINITY; shape.points.len()];
         for (corner, object) in corners() {
             let bounds = boxes[object as usize];
-            reach[corner] = reach[corner].min((bounds.max - bounds.min).length() * NEAR);
+            reach[corner] = reach[corner].min((bounds.max - bounds.min).length() * WELD_FRACTION);
         }
         Self(reach)
     }
 
     /// The lesser of those of two ends.
-    pub(super) fn of_edge(&self, [a, b]: [u32; 2]) -> f64 {
+    pub(super) fn edge_radius(&self, [a, b]: [u32; 2]) -> f64 {
         self.0[a as usize].min(self.0[b as usize])
     }
 }
 
 /// The edges that one face alone has.
-pub(super) fn borders(sides: &Sides) -> Vec<Border> {
+pub(super) fn border_edges(sides: &HalfEdges) -> Vec<BorderEdge> {
     let alone = sides.edges().filter(|(_, sides)| sides.len() == 1);
     alone.map(|(ends, sides)| (ends, sides[0])).collect()
 }
 
 /// Makes points of borders that nearly coincide one. True if there were any.
-pub(super) fn weld_near(shape: &mut Shape, borders: &[Border], reach: &Reach) -> bool {
-    let points = points_of(borders);
-    let places: Vec<Aabb> =
-        points.iter().map(|&at| Aabb::around([shape.points[at as usize]])).collect();
-    let tree = Bvh::new(&places, surface);
+pub(super) fn weld_near_borders(
+    shape: &mut WorldMesh,
+    borders: &[BorderEdge],
+    reach: &WeldRadii,
+) -> bool {
+    let points = border_vertices(borders);
+    let boxes: Vec<Aabb> =
+        points.iter().map(|&at| Aabb::from_points([shape.points[at as usize]])).collect();
+    let tree = Bvh::new(&boxes, half_surface_area);
     let mut same: Vec<u32> = (0..shape.points.len() as u32).collect();
     let mut is_taken = vec![false; points.len()];
     let mut open = Vec::new();
@@ -65,12 +70,12 @@ pub(super) fn weld_near(shape: &mut Shape, borders: &[Border], reach: &Reach) ->
         if is_taken[number] {
             continue;
         }
-        let (here, far) = (places[number].min, reach.0[at as usize]);
-        let area = places[number].grown(DVec3::splat(far));
-        tree.for_each_near(&area, usize::MAX, &mut open, |item| {
+        let (here, far) = (boxes[number].min, reach.0[at as usize]);
+        let area = boxes[number].expanded_by(DVec3::splat(far));
+        tree.for_each_overlapping(&area, usize::MAX, &mut open, |item| {
             let other = points[item as usize];
-            let near = far.min(reach.0[other as usize]);
-            let is_near = (places[item as usize].min - here).length() <= near;
+            let radius = far.min(reach.0[other as usize]);
+            let is_near = (boxes[item as usize].min - here).length() <= radius;
             if item as usize > number && !is_taken[item as usize] && is_near {
                 is_taken[item as usize] = true;
                 same[other as usize] = at;
@@ -79,54 +84,63 @@ pub(super) fn weld_near(shape: &mut Shape, borders: &[Border], reach: &Reach) ->
         });
     }
     if any {
-        renumber(shape, &same);
+        remap_vertices(shape, &same);
     }
     any
 }
 
 /// Cuts borders at points of other borders that lie on them; and the triangles between each border and its parts, which have
 /// a width where the points lie on it but for rounding.
-pub(super) fn cut(shape: &Shape, borders: &[Border], reach: &Reach) -> (Vec<Border>, Vec<Face>) {
-    let points = points_of(borders);
-    let place = |at: u32| shape.points[at as usize];
-    let places: Vec<Aabb> = points.iter().map(|&at| Aabb::around([place(at)])).collect();
-    let tree = Bvh::new(&places, surface);
+pub(super) fn split_at_t_junctions(
+    shape: &WorldMesh,
+    borders: &[BorderEdge],
+    reach: &WeldRadii,
+) -> (Vec<BorderEdge>, Vec<Face>) {
+    let points = border_vertices(borders);
+    let position = |at: u32| shape.points[at as usize];
+    let boxes: Vec<Aabb> = points.iter().map(|&at| Aabb::from_points([position(at)])).collect();
+    let tree = Bvh::new(&boxes, half_surface_area);
     let (mut open, mut cuts) = (Vec::new(), Vec::new());
-    let most = Bvh::fair_share(borders.len());
+    let most = Bvh::query_budget(borders.len());
     let (mut parts, mut fillings) = (Vec::with_capacity(borders.len()), Vec::new());
     for &([a, b], side) in borders {
-        let (from, along) = (place(a), place(b) - place(a));
-        let near = reach.of_edge([a, b]);
+        let (from, along) = (position(a), position(b) - position(a));
+        let radius = reach.edge_radius([a, b]);
         cuts.clear();
-        let area = Aabb::around([place(a), place(b)]).grown(DVec3::splat(near));
-        tree.for_each_near(&area, most, &mut open, |item| {
-            let (at, offset) = (points[item as usize], places[item as usize].min - from);
+        let area = Aabb::from_points([position(a), position(b)]).expanded_by(DVec3::splat(radius));
+        tree.for_each_overlapping(&area, most, &mut open, |item| {
+            let (at, offset) = (points[item as usize], boxes[item as usize].min - from);
             let t = offset.dot(along) / along.length_squared();
-            let is_on = t > 0.0 && t < 1.0 && (offset - along * t).length() <= near;
+            let is_on = t > 0.0 && t < 1.0 && (offset - along * t).length() <= radius;
             if at != a && at != b && is_on {
                 cuts.push((t, at));
             }
         });
         cuts.sort_unstable_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
-        let turns =
+        let neighbors =
             cuts.iter().map(|&(_, at)| at).zip(cuts.iter().skip(1).map(|&(_, at)| at).chain([b]));
         let face = shape.faces[side.face as usize];
-        let filling = |(from, to)| Face { corners: [a, from, to], ..face };
-        fillings.extend(turns.map(filling));
+        let filling = |(from, to)| Face { vertices: [a, from, to], ..face };
+        fillings.extend(neighbors.map(filling));
         let stops = cuts.iter().map(|&(_, at)| at).chain([b]);
-        parts.extend(stops.scan(a, |from, to| Some(part([std::mem::replace(from, to), to], side))));
+        parts.extend(
+            stops.scan(a, |from, to| Some(border_part([std::mem::replace(from, to), to], side))),
+        );
     }
     parts.sort_unstable();
     (parts, fillings)
 }
 
 /// A part of a rising edge as an edge of its own.
-fn part([from, to]: [u32; 2], side: Side) -> Border {
-    let rises = side.rises == (from < to);
-    ([from.min(to), from.max(to)], Side { high: from.max(to), rises, ..side })
+fn border_part([from, to]: [u32; 2], side: HalfEdge) -> BorderEdge {
+    let rises = side.is_forward == (from < to);
+    (
+        [from.min(to), from.max(to)],
+        HalfEdge { high_vertex: from.max(to), is_forward: rises, ..side },
+    )
 }
 
-fn points_of(borders: &[Border]) -> Vec<u32> {
+fn border_vertices(borders: &[BorderEdge]) -> Vec<u32> {
     let mut points: Vec<u32> = borders.iter().flat_map(|(ends, _)| *ends).collect();
     points.sort_unstable();
     points.dedup();
@@ -134,6 +148,6 @@ fn points_of(borders: &[Border]) -> Vec<u32> {
 }
 
 /// Half the surface of a box.
-pub(super) fn surface(size: DVec3) -> f64 {
+pub(super) fn half_surface_area(size: DVec3) -> f64 {
     size.x * size.y + size.y * size.z + size.z * size.x
 }

@@ -3,25 +3,25 @@
 //! Files split the vertices of a surface where texture coordinates, normals or materials jump, and give each side of the seam
 //! its own copy. Copies have the same bits, or those of a neighbouring grid where positions were quantised apart.
 
-use super::gather::{Face, Shape};
+use super::world_mesh::{Face, WorldMesh};
 use glam::DVec3;
 
 /// Gives all points at exactly the same place one number, and leaves out faces that have lost a corner and faces that
 /// are there twice.
-pub(super) fn weld_equal(shape: &mut Shape) {
-    let order = sorted(&shape.points);
-    let mut same: Vec<u32> = (0..shape.points.len() as u32).collect();
-    for pair in order.windows(2) {
+pub(super) fn weld_equal_vertices(shape: &mut WorldMesh) {
+    let sorted_order = sort_by_position(&shape.points);
+    let mut representative: Vec<u32> = (0..shape.points.len() as u32).collect();
+    for pair in sorted_order.windows(2) {
         let [a, b] = [pair[0], pair[1]].map(|at| at as usize);
         if shape.points[a] == shape.points[b] {
-            same[b] = same[a];
+            representative[b] = representative[a];
         }
     }
-    renumber(shape, &same);
+    remap_vertices(shape, &representative);
 }
 
 /// The numbers of the points in the order of their coordinates, equal ones in the order of their numbers.
-fn sorted(points: &[DVec3]) -> Vec<u32> {
+fn sort_by_position(points: &[DVec3]) -> Vec<u32> {
     let mut keyed: Vec<([f64; 3], u32)> =
         points.iter().zip(0..).map(|(point, at)| (point.to_array(), at)).collect();
     keyed.sort_unstable_by(|(a, i), (b, j)| {
@@ -32,32 +32,32 @@ fn sorted(points: &[DVec3]) -> Vec<u32> {
 }
 
 /// Replaces each point by another.
-pub(super) fn renumber(shape: &mut Shape, same: &[u32]) {
+pub(super) fn remap_vertices(shape: &mut WorldMesh, same: &[u32]) {
     for face in &mut shape.faces {
-        face.corners = face.corners.map(|corner| same[corner as usize]);
+        face.vertices = face.vertices.map(|corner| same[corner as usize]);
     }
-    for stroke in &mut shape.strokes {
+    for stroke in &mut shape.line_edges {
         stroke.ends = stroke.ends.map(|end| same[end as usize]);
     }
-    for cut in &mut shape.cuts {
+    for cut in &mut shape.section_edges {
         let [a, b] = cut.map(|end| same[end as usize]);
         *cut = [a.min(b), a.max(b)];
     }
-    shape.cuts.sort_unstable();
-    shape.cuts.dedup();
-    shape.faces.retain(|Face { corners: [a, b, c], .. }| a != b && b != c && c != a);
-    shape.strokes.retain(|stroke| stroke.ends[0] != stroke.ends[1]);
-    drop_copies(&mut shape.faces, shape.keeps_copies);
+    shape.section_edges.sort_unstable();
+    shape.section_edges.dedup();
+    shape.faces.retain(|Face { vertices: [a, b, c], .. }| a != b && b != c && c != a);
+    shape.line_edges.retain(|stroke| stroke.ends[0] != stroke.ends[1]);
+    drop_duplicate_faces(&mut shape.faces, shape.keeps_duplicates);
 }
 
 /// Leaves one of faces with the same three corners, whichever way they run: two-sided surfaces are often made of two. If it is
 /// wanted, each object is looked at by itself.
-fn drop_copies(faces: &mut Vec<Face>, by_object: bool) {
+fn drop_duplicate_faces(faces: &mut Vec<Face>, by_object: bool) {
     let mut keyed: Vec<(([u32; 3], u32), u32)> = faces
         .iter()
         .zip(0..)
         .map(|(face, at)| {
-            let mut corners = face.corners;
+            let mut corners = face.vertices;
             corners.sort_unstable();
             ((corners, if by_object { face.object } else { 0 }), at)
         })

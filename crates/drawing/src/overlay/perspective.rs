@@ -1,42 +1,42 @@
 //! The horizon, and the vanishing points of the axes (C80, C81).
 
-use super::{AXES, BROWN, Glass, LETTERS, layer};
-use crate::{Align, Group, Label, Layer, LineType, Polyline};
+use super::{AXES, BROWN, LETTER_HEIGHT, PicturePlane, overlay_layer};
+use crate::{Group, Label, Layer, LineType, Polyline, TextAlign};
 use glam::{DVec2, DVec3};
 use homog::Vector;
 
 /// The radius of the ring around a vanishing point, in millimetres.
-const RING: f64 = 0.8;
+const RING_RADIUS: f64 = 0.8;
 
 /// The sides of a ring.
-const SIDES: u32 = 24;
+const RING_SIDES: u32 = 24;
 
 /// What is less than this part of the other coordinates is 0 but for rounding.
-const TINY: f64 = 1e-12;
+const ZERO_TOLERANCE: f64 = 1e-12;
 
-impl Glass {
+impl PicturePlane {
     /// The line in which the images of all horizontal directions lie; there is none in a parallel projection.
-    pub(super) fn horizon(&self) -> Vec<Layer> {
+    pub(super) fn horizon_layers(&self) -> Vec<Layer> {
         let Some(ends) = self.horizon_ends() else { return Vec::new() };
-        let mut line = layer("horizon", "horizon", BROWN);
-        line.pen.dashes = LineType::LongDashedDotted.dashes(line.pen.width);
-        let strokes = Polyline::through(&ends, false).into_iter().collect();
+        let mut line = overlay_layer("horizon", "horizon", BROWN);
+        line.pen.dashes = LineType::LongDashedDotted.dash_pattern(line.pen.width);
+        let strokes = Polyline::through_points(&ends, false).into_iter().collect();
         line.groups.push(Group { strokes, ..Group::default() });
-        let mut text = layer("horizon-text", "horizon: text", BROWN);
+        let mut text = overlay_layer("horizon-text", "horizon: text", BROWN);
         let along = (ends[1] - ends[0]).normalize_or(DVec2::X);
         // Below the line, for the names of vanishing points stand above it.
-        let (height, below) = (0.8 * LETTERS, DVec2::new(-along.y, along.x));
+        let (height, below) = (0.8 * LETTER_HEIGHT, DVec2::new(-along.y, along.x));
         let at = ends[0] + along * 2.0 + below * (height + 0.8);
         let label = Label::new("horizon", at, height);
-        let strokes = label.along(along).strokes();
+        let strokes = label.with_direction(along).strokes();
         text.groups.push(Group { strokes, ..Group::default() });
         vec![line, text]
     }
 
     /// Where the horizon enters and leaves the picture, from left to right.
     fn horizon_ends(&self) -> Option<[DVec2; 2]> {
-        let [x, z] = [Vector::X, Vector::Z].map(|direction| self.far_image(direction));
-        if x.z.max(z.z) <= TINY * x.length().max(z.length()) {
+        let [x, z] = [Vector::X, Vector::Z].map(|direction| self.project_direction(direction));
+        if x.z.max(z.z) <= ZERO_TOLERANCE * x.length().max(z.length()) {
             return None;
         }
         // The line a x + b y + c = 0 through two images is their cross product.
@@ -50,26 +50,30 @@ impl Glass {
         }
         let along = DVec2::new(normal.y, -normal.x).normalize_or(DVec2::X) * reach;
         let [from, to] = [foot - along, foot + along].map(|place| place.extend(1.0));
-        let [a, b] = self.segment(from, to)?;
+        let [a, b] = self.clip_to_picture(from, to)?;
         Some(if a.x <= b.x { [a, b] } else { [b, a] })
     }
 
     /// Rings around the vanishing points of the axes, and the lines that run to them from the corners of the models' box.
-    pub(super) fn vanishing_points(&self) -> Vec<Layer> {
+    pub(super) fn vanishing_point_layers(&self) -> Vec<Layer> {
         let mut layers = Vec::new();
         for (direction, name, ink) in AXES {
-            let image = self.far_image(direction);
-            if image.z <= TINY * image.length() {
+            let image = self.project_direction(direction);
+            if image.z <= ZERO_TOLERANCE * image.length() {
                 continue;
             }
-            let mut lines = layer(&format!("to-{name}"), &format!("lines along {name}"), ink);
+            let mut lines =
+                overlay_layer(&format!("to-{name}"), &format!("lines along {name}"), ink);
             lines.pen.width *= 0.5;
-            let to_it = |corner| self.to_point(self.image(corner), image);
+            let to_it = |corner| self.line_to_vanishing_point(self.project_point(corner), image);
             let strokes = self.bounds.corners().into_iter().filter_map(to_it).collect();
             lines.groups.push(Group { strokes, ..Group::default() });
             let title = format!("vanishing point of {name}");
-            let mut mark = layer(&format!("vanishing-{name}"), &title, ink);
-            let strokes = self.seen(image).map(|place| ring(place, name)).unwrap_or_default();
+            let mut mark = overlay_layer(&format!("vanishing-{name}"), &title, ink);
+            let strokes = self
+                .point_in_picture(image)
+                .map(|place| vanishing_point_mark(place, name))
+                .unwrap_or_default();
             mark.groups.push(Group { strokes, ..Group::default() });
             layers.extend([lines, mark]);
         }
@@ -77,19 +81,21 @@ impl Glass {
     }
 
     /// The line from the image of a corner to a vanishing point.
-    fn to_point(&self, from: DVec3, vanishing: DVec3) -> Option<Polyline> {
-        Polyline::through(&self.segment(from, vanishing)?, false)
+    fn line_to_vanishing_point(&self, from: DVec3, vanishing: DVec3) -> Option<Polyline> {
+        Polyline::through_points(&self.clip_to_picture(from, vanishing)?, false)
     }
 }
 
 /// A ring with a name.
-fn ring(place: DVec2, name: &str) -> Vec<Polyline> {
+fn vanishing_point_mark(place: DVec2, name: &str) -> Vec<Polyline> {
     let point = |k: u32| {
-        let (sin, cos) = libm::sincos(core::f64::consts::TAU * f64::from(k) / f64::from(SIDES));
-        place + DVec2::new(cos, sin) * RING
+        let (sin, cos) =
+            libm::sincos(core::f64::consts::TAU * f64::from(k) / f64::from(RING_SIDES));
+        place + DVec2::new(cos, sin) * RING_RADIUS
     };
-    let circle = Polyline::through(&(0..SIDES).map(point).collect::<Vec<_>>(), true);
+    let circle = Polyline::through_points(&(0..RING_SIDES).map(point).collect::<Vec<_>>(), true);
     let text = format!("V{name}");
-    let label = Label::new(&text, place - DVec2::new(0.0, 1.8), LETTERS).aligned(Align::Middle);
+    let label = Label::new(&text, place - DVec2::new(0.0, 1.8), LETTER_HEIGHT)
+        .with_align(TextAlign::Middle);
     circle.into_iter().chain(label.strokes()).collect()
 }

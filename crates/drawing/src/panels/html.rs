@@ -1,11 +1,11 @@
 //! Panels as a web page that needs no other file: figures that flow as the window is wide, with text that can be searched.
 
-use super::super::svg::escaped;
+use super::super::svg::escape_xml;
 use super::{Page, Panel, Panels};
 use glam::DVec2;
 use std::fmt::Write as _;
 
-const STYLE: &str = "
+const STYLE_SHEET: &str = "
   body { margin: 2rem auto; max-width: 100rem; padding: 0 2rem; font: 15px/1.5 Georgia, serif; color: #1a1f26; background: #fff; }
   main { display: flex; flex-wrap: wrap; gap: 2rem 1.5rem; }
   figure { margin: 0; }
@@ -18,25 +18,25 @@ impl Panels {
     /// All of them as an HTML page.
     #[must_use]
     pub fn to_html(&self) -> String {
-        let title = escaped(&self.title);
+        let title = escape_xml(&self.title);
         let mut html = format!(
             "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{title}</title>\n\
-             <style>{STYLE}</style>\n<h1>{title}</h1>\n<main>\n"
+             <style>{STYLE_SHEET}</style>\n<h1>{title}</h1>\n<main>\n"
         );
-        self.panels.iter().for_each(|panel| figure(&mut html, panel));
+        self.panels.iter().for_each(|panel| push_figure(&mut html, panel));
         html += "</main>\n</html>\n";
         html
     }
 }
 
-fn figure(html: &mut String, panel: &Panel) {
+fn push_figure(html: &mut String, panel: &Panel) {
     // Names are unique on the page only with that of the panel before them.
     let mut page = Page::new(panel.page.size, panel.title.clone(), panel.page.paper);
-    page.paste(&panel.page, DVec2::ZERO, &format!("{}-", panel.id));
-    let (id, svg, title) = (escaped(&panel.id), page.to_svg(), escaped(&panel.title));
+    page.paste_page(&panel.page, DVec2::ZERO, &format!("{}-", panel.id));
+    let (id, svg, title) = (escape_xml(&panel.id), page.to_svg(), escape_xml(&panel.title));
     let _ = write!(html, "<figure id=\"{id}\">\n{svg}<figcaption><b>{title}</b>");
     for note in &panel.notes {
-        let _ = write!(html, "<span>{}</span>", escaped(note));
+        let _ = write!(html, "<span>{}</span>", escape_xml(note));
     }
     *html += "</figcaption>\n</figure>\n";
 }

@@ -8,77 +8,87 @@
 //! ```
 
 use super::Sheet;
-use super::arrange::Arrangement;
-use crate::{Align, Group, Ink, Label, Layer, Pen, Polyline};
+use super::view_layout::ViewLayout;
+use crate::{Group, Ink, Label, Layer, Pen, Polyline, TextAlign};
 use camera::NamedView;
 use glam::DVec2;
 
 /// From the outline to the dimension line, in heights of letters.
-const DISTANCE: f64 = 2.4;
+const LINE_DISTANCE: f64 = 2.4;
 
 /// From the outline to the beginning of the extension line.
-const GAP: f64 = 0.25;
+const EXTENSION_GAP: f64 = 0.25;
 
 /// How far an extension line goes beyond the dimension line.
-const BEYOND: f64 = 0.5;
+const EXTENSION_OVERHANG: f64 = 0.5;
 
 /// The length of an arrowhead; it is a third as wide.
-const ARROW: f64 = 0.9;
+const ARROW_LENGTH: f64 = 0.9;
 
 /// From the dimension line to the text above it.
-const TEXT: f64 = 0.35;
+const TEXT_GAP: f64 = 0.35;
 
 /// A length to be given: between two places of an outline, on the side `out` of it.
-struct Dimension {
+struct LinearDimension {
     ends: [DVec2; 2],
     /// The unit vector from the outline to the dimension line.
-    out: DVec2,
+    outward: DVec2,
     /// The length of the thing in millimetres.
     length: f64,
 }
 
 /// The overall width, height and depth of the object.
-pub(super) fn overall(sheet: &Sheet, arrangement: &Arrangement<'_>, ink: Ink) -> Vec<Layer> {
-    let height = sheet.lettering();
-    let group = sheet.line_group();
-    let lines = Pen { cap: crate::Cap::Butt, ..Pen::of_width(group.narrow(), ink) };
+pub(super) fn overall_dimension_layers(
+    sheet: &Sheet,
+    arrangement: &ViewLayout<'_>,
+    ink: Ink,
+) -> Vec<Layer> {
+    let height = sheet.lettering_height();
+    let group = sheet.line_width_group();
+    let lines = Pen { cap: crate::Cap::Butt, ..Pen::solid(group.narrow_width(), ink) };
     let mut lines = Layer::new("dimensions", "dimensions", lines);
     let mut texts =
-        Layer::new("dimensions-text", "dimensions: text", Pen::of_width(height * 0.1, ink));
-    for dimension in dimensions(arrangement, sheet.side) {
-        let text = number(dimension.length);
-        lines.groups.push(dimension.lines(height, &text));
-        texts.groups.push(Group { strokes: dimension.text(height, &text), ..Group::default() });
+        Layer::new("dimensions-text", "dimensions: text", Pen::solid(height * 0.1, ink));
+    for dimension in overall_dimensions(arrangement, sheet.side_view) {
+        let text = format_length(dimension.length);
+        lines.groups.push(dimension.line_group(height, &text));
+        texts
+            .groups
+            .push(Group { strokes: dimension.text_strokes(height, &text), ..Group::default() });
     }
     vec![lines, texts]
 }
 
-fn dimensions(arrangement: &Arrangement<'_>, side: NamedView) -> Vec<Dimension> {
+fn overall_dimensions(arrangement: &ViewLayout<'_>, side: NamedView) -> Vec<LinearDimension> {
     let scale = arrangement.scale;
-    let level = |name: NamedView| {
-        let area = arrangement.area_of(name)?;
+    let horizontal = |name: NamedView| {
+        let area = arrangement.view_area(name)?;
         let (left, right) = (area.x(), area.x() + area.width());
-        let (y, out) = if arrangement.top_is_below {
+        let (y, out) = if arrangement.is_top_below {
             (area.y(), -DVec2::Y)
         } else {
             (area.y() + area.height(), DVec2::Y)
         };
         let ends = [DVec2::new(left, y), DVec2::new(right, y)];
-        Some(Dimension { ends, out, length: scale.to_thing(area.width()) })
+        Some(LinearDimension { ends, outward: out, length: scale.to_object_length(area.width()) })
     };
-    let upright = |name: NamedView| {
-        let area = arrangement.area_of(name)?;
+    let vertical = |name: NamedView| {
+        let area = arrangement.view_area(name)?;
         let (x, bottom) = (area.x(), area.y() + area.height());
         let ends = [DVec2::new(x, bottom), DVec2::new(x, area.y())];
-        Some(Dimension { ends, out: -DVec2::X, length: scale.to_thing(area.height()) })
+        Some(LinearDimension {
+            ends,
+            outward: -DVec2::X,
+            length: scale.to_object_length(area.height()),
+        })
     };
     // What has no extent has no dimension either.
-    let all = [level(NamedView::Front), upright(NamedView::Front), level(side)];
+    let all = [horizontal(NamedView::Front), vertical(NamedView::Front), horizontal(side)];
     all.into_iter().flatten().filter(|dimension| dimension.length > 1e-3).collect()
 }
 
 /// A length in millimetres: to a hundredth, and for things above ten metres to a millimetre.
-fn number(length: f64) -> String {
+fn format_length(length: f64) -> String {
     let places = if length < 10_000.0 { 2 } else { 0 };
     let text = format!("{length:.places$}");
     if text.contains('.') {
@@ -88,76 +98,80 @@ fn number(length: f64) -> String {
     }
 }
 
-impl Dimension {
+impl LinearDimension {
     /// The direction of the dimension line; its text reads along it from the bottom or from the right of the sheet.
-    fn along(&self) -> DVec2 {
+    fn line_direction(&self) -> DVec2 {
         (self.ends[1] - self.ends[0]).normalize_or(DVec2::X)
     }
 
     /// The dimension line's ends.
-    fn line(&self, height: f64) -> [DVec2; 2] {
-        self.ends.map(|end| end + self.out * (DISTANCE * height))
+    fn dimension_line(&self, height: f64) -> [DVec2; 2] {
+        self.ends.map(|end| end + self.outward * (LINE_DISTANCE * height))
     }
 
     /// Whether arrows and text have room between the extension lines.
-    fn is_wide(&self, height: f64) -> bool {
-        (self.ends[1] - self.ends[0]).length() > 3.5 * ARROW * height
+    fn fits_arrows(&self, height: f64) -> bool {
+        (self.ends[1] - self.ends[0]).length() > 3.5 * ARROW_LENGTH * height
     }
 
-    fn lines(&self, height: f64, text: &str) -> Group {
-        let [start, end] = self.line(height);
-        let (along, arrow) = (self.along(), ARROW * height);
-        let outwards = if self.is_wide(height) { 0.0 } else { 2.0 * arrow };
-        let tail = if self.text_is_outside(height, text) {
-            outwards + self.label(height, text).width()
+    fn line_group(&self, height: f64, text: &str) -> Group {
+        let [start, end] = self.dimension_line(height);
+        let (along, arrow) = (self.line_direction(), ARROW_LENGTH * height);
+        let outwards = if self.fits_arrows(height) { 0.0 } else { 2.0 * arrow };
+        let tail = if self.is_text_outside(height, text) {
+            outwards + self.unplaced_label(height, text).width()
         } else {
             outwards
         };
         let mut strokes: Vec<Polyline> = Vec::new();
         for (place, line) in self.ends.iter().zip([start, end]) {
-            let from = *place + self.out * (GAP * height);
-            strokes.extend(Polyline::through(&[from, line + self.out * (BEYOND * height)], false));
+            let from = *place + self.outward * (EXTENSION_GAP * height);
+            strokes.extend(Polyline::through_points(
+                &[from, line + self.outward * (EXTENSION_OVERHANG * height)],
+                false,
+            ));
         }
-        strokes.extend(Polyline::through(
+        strokes.extend(Polyline::through_points(
             &[start - along * outwards, end + along * tail.max(outwards)],
             false,
         ));
         let inwards = if outwards > 0.0 { -1.0 } else { 1.0 };
-        let heads = [head(start, along * inwards, arrow), head(end, -along * inwards, arrow)];
+        let heads =
+            [arrowhead(start, along * inwards, arrow), arrowhead(end, -along * inwards, arrow)];
         Group { strokes, fills: heads.into_iter().flatten().collect(), ..Group::default() }
     }
 
     /// Whether the text is wider than what is measured, so that it must stand beside it.
-    fn text_is_outside(&self, height: f64, text: &str) -> bool {
+    fn is_text_outside(&self, height: f64, text: &str) -> bool {
         let room = (self.ends[1] - self.ends[0]).length();
-        self.label(height, text).width() > room - 0.5 * height
+        self.unplaced_label(height, text).width() > room - 0.5 * height
     }
 
-    fn label<'a>(&self, height: f64, text: &'a str) -> Label<'a> {
-        Label::new(text, DVec2::ZERO, height).along(self.along())
+    fn unplaced_label<'a>(&self, height: f64, text: &'a str) -> Label<'a> {
+        Label::new(text, DVec2::ZERO, height).with_direction(self.line_direction())
     }
 
-    fn text(&self, height: f64, text: &str) -> Vec<Polyline> {
-        let [start, end] = self.line(height);
-        let along = self.along();
+    fn text_strokes(&self, height: f64, text: &str) -> Vec<Polyline> {
+        let [start, end] = self.dimension_line(height);
+        let along = self.line_direction();
         // Above the line as the text reads: to the left of its direction.
-        let above = DVec2::new(along.y, -along.x) * (TEXT * height);
-        let label = self.label(height, text);
-        let label = if self.text_is_outside(height, text) {
-            let outwards = if self.is_wide(height) { 0.5 } else { 2.0 * ARROW };
-            Label { at: end + along * (outwards * height) + above, ..label }
+        let above = DVec2::new(along.y, -along.x) * (TEXT_GAP * height);
+        let label = self.unplaced_label(height, text);
+        let label = if self.is_text_outside(height, text) {
+            let outwards = if self.fits_arrows(height) { 0.5 } else { 2.0 * ARROW_LENGTH };
+            Label { anchor: end + along * (outwards * height) + above, ..label }
         } else {
-            Label { at: (start + end) * 0.5 + above, align: Align::Middle, ..label }
+            Label { anchor: (start + end) * 0.5 + above, align: TextAlign::Middle, ..label }
         };
         label.strokes()
     }
 }
 
 /// An arrowhead with its tip at a place; `into` is the direction from the tip to its base.
-fn head(tip: DVec2, into: DVec2, length: f64) -> Option<Polyline> {
+fn arrowhead(tip: DVec2, into: DVec2, length: f64) -> Option<Polyline> {
     let across = DVec2::new(-into.y, into.x) * (length / 6.0);
     let base = tip + into * length;
-    Polyline::through(&[tip, base + across, base - across], true)
+    Polyline::through_points(&[tip, base + across, base - across], true)
 }
 
 #[cfg(test)]
@@ -174,19 +188,20 @@ mod tests {
             (12_345.6, "12346"),
             (100.0, "100"),
         ] {
-            assert_eq!(number(length), text);
+            assert_eq!(format_length(length), text);
         }
     }
 
     #[test]
     fn narrow_dimensions_have_their_arrows_outside() {
-        let of = |width: f64| Dimension {
+        let of = |width: f64| LinearDimension {
             ends: [DVec2::new(50.0, 50.0), DVec2::new(50.0 + width, 50.0)],
-            out: -DVec2::Y,
+            outward: -DVec2::Y,
             length: width,
         };
-        let span = |dimension: &Dimension| {
-            let points = dimension.lines(3.5, "7").strokes.into_iter().flat_map(|line| line.points);
+        let span = |dimension: &LinearDimension| {
+            let points =
+                dimension.line_group(3.5, "7").strokes.into_iter().flat_map(|line| line.points);
             points.fold([i32::MAX, i32::MIN], |[low, high], [x, _]| [low.min(x), high.max(x)])
         };
         assert_eq!(span(&of(40.0)), [50_000, 90_000]);

@@ -1,54 +1,54 @@
 //! The frame of a sheet (ISO 5457): a margin of 20 mm at the left for filing and of 10 mm elsewhere, a line of 0.7 mm around the
 //! drawing area, and marks at the middles of the sides.
 
-use super::rectangle;
+use super::rectangle_from_size;
 use crate::{Cap, Group, Ink, Join, Layer, Pen, Polyline};
 use glam::DVec2;
 use viewport::{Paper, Rectangle};
 
-const LEFT: f64 = 20.0;
+const FILING_MARGIN: f64 = 20.0;
 const MARGIN: f64 = 10.0;
 
 /// The width of the frame's line in millimetres.
-const WIDTH: f64 = 0.7;
+const FRAME_LINE_WIDTH: f64 = 0.7;
 
 /// How far centring marks begin from the edge of the paper, and reach into the drawing area.
-const MARK: [f64; 2] = [5.0, 5.0];
+const CENTERING_MARK: [f64; 2] = [5.0, 5.0];
 
 /// The area within the frame. Where paper is too small for the margins, they are a tenth of it.
-pub(super) fn inside(paper: Paper) -> Rectangle {
+pub(super) fn area_within_frame(paper: Paper) -> Rectangle {
     let margin = |margin: f64, side: f64| margin.min(side * 0.1);
-    let (left, right) = (margin(LEFT, paper.width()), margin(MARGIN, paper.width()));
+    let (left, right) = (margin(FILING_MARGIN, paper.width()), margin(MARGIN, paper.width()));
     let edge = margin(MARGIN, paper.height());
-    rectangle(left, edge, paper.width() - left - right, paper.height() - 2.0 * edge)
+    rectangle_from_size(left, edge, paper.width() - left - right, paper.height() - 2.0 * edge)
 }
 
 /// The frame and its marks; these do not reach into the title block.
-pub(super) fn layer(paper: Paper, block: Rectangle, ink: Ink) -> Layer {
-    let pen = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::of_width(WIDTH, ink) };
+pub(super) fn frame_layer(paper: Paper, block: Rectangle, ink: Ink) -> Layer {
+    let pen = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(FRAME_LINE_WIDTH, ink) };
     let mut layer = Layer::new("frame", "frame", pen);
-    let mut strokes = vec![outline(inside(paper))];
-    strokes.extend(centring_marks(paper, block));
+    let mut strokes = vec![rectangle_outline(area_within_frame(paper))];
+    strokes.extend(centering_marks(paper, block));
     layer.groups.push(Group { strokes, ..Group::default() });
     layer
 }
 
 /// The border of a rectangle.
-pub(super) fn outline(area: Rectangle) -> Polyline {
+pub(super) fn rectangle_outline(area: Rectangle) -> Polyline {
     let (x, y) = (area.x(), area.y());
     let (right, bottom) = (x + area.width(), y + area.height());
     let corners = [[x, y], [right, y], [right, bottom], [x, bottom]].map(DVec2::from);
-    Polyline::through(&corners, true)
+    Polyline::through_points(&corners, true)
         .unwrap_or(Polyline { points: vec![[0, 0], [1, 0]], closed: false })
 }
 
 /// Marks that help to place a sheet in a copier.
-fn centring_marks(paper: Paper, block: Rectangle) -> Vec<Polyline> {
+fn centering_marks(paper: Paper, block: Rectangle) -> Vec<Polyline> {
     let size = DVec2::new(paper.width(), paper.height());
-    let (middle, area) = (size * 0.5, inside(paper));
+    let (middle, area) = (size * 0.5, area_within_frame(paper));
     let (left, top) = (area.x(), area.y());
     let (right, bottom) = (left + area.width(), top + area.height());
-    let [edge, reach] = MARK;
+    let [edge, reach] = CENTERING_MARK;
     let at_foot = if block.x() > middle.x { reach } else { 0.0 };
     let marks = [
         [DVec2::new(edge, middle.y), DVec2::new(left + reach, middle.y)],
@@ -56,5 +56,5 @@ fn centring_marks(paper: Paper, block: Rectangle) -> Vec<Polyline> {
         [DVec2::new(middle.x, edge), DVec2::new(middle.x, top + reach)],
         [DVec2::new(middle.x, size.y - edge), DVec2::new(middle.x, bottom - at_foot)],
     ];
-    marks.iter().filter_map(|mark| Polyline::through(mark, false)).collect()
+    marks.iter().filter_map(|mark| Polyline::through_points(mark, false)).collect()
 }

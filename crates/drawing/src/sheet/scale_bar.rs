@@ -7,51 +7,53 @@
 //!   0              100 mm
 //! ```
 
-use super::{Sheet, rectangle};
-use crate::{Align, Cap, Group, Ink, Join, Label, Layer, Pen, Polyline};
+use super::{Sheet, rectangle_from_size};
+use crate::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline, TextAlign};
 use glam::DVec2;
 use viewport::{DrawingScale, Rectangle};
 
 /// The longest bar in millimetres.
-const LONGEST: f64 = 60.0;
+const MAX_BAR_LENGTH: f64 = 60.0;
 
 /// The height of the bar.
-const HEIGHT: f64 = 1.2;
+const BAR_HEIGHT: f64 = 1.2;
 
 /// The height of its labels, in heights of the sheet's letters.
-const LETTERS: f64 = 0.7;
+const LABEL_HEIGHT_FACTOR: f64 = 0.7;
 
 /// The parts of the bar, every other one filled.
-const PARTS: u32 = 4;
+const BAR_SEGMENTS: u32 = 4;
 
 /// The room for the bar and its labels.
-pub(super) fn area(sheet: &Sheet) -> Rectangle {
+pub(super) fn scale_bar_area(sheet: &Sheet) -> Rectangle {
     let (frame, block) = (sheet.drawing_area(), sheet.title_block_area());
-    let letters = sheet.lettering() * LETTERS;
-    let (width, height) = (LONGEST.min(frame.width() * 0.5) + 16.0, HEIGHT + letters + 6.0);
+    let letters = sheet.lettering_height() * LABEL_HEIGHT_FACTOR;
+    let (width, height) =
+        (MAX_BAR_LENGTH.min(frame.width() * 0.5) + 16.0, BAR_HEIGHT + letters + 6.0);
     let is_beside = block.x() - frame.x() > width;
     let bottom = if is_beside { frame.y() + frame.height() } else { block.y() };
-    rectangle(frame.x(), bottom - height, width, height)
+    rectangle_from_size(frame.x(), bottom - height, width, height)
 }
 
 /// The bar, in its area.
-pub(super) fn layer(sheet: &Sheet, scale: DrawingScale, ink: Ink) -> Layer {
-    let area = area(sheet);
-    let letters = sheet.lettering() * LETTERS;
-    let thing = round_length(scale.to_thing(area.width() - 16.0));
-    let length = scale.to_paper(thing);
+pub(super) fn scale_bar_layer(sheet: &Sheet, scale: DrawingScale, ink: Ink) -> Layer {
+    let area = scale_bar_area(sheet);
+    let letters = sheet.lettering_height() * LABEL_HEIGHT_FACTOR;
+    let thing = round_length(scale.to_object_length(area.width() - 16.0));
+    let length = scale.to_paper_length(thing);
     let corner = DVec2::new(area.x() + 6.0, area.y() + 1.0);
-    let pen = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::of_width(0.18, ink) };
+    let pen = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(0.18, ink) };
     let mut layer = Layer::new("scale-bar", "scale bar", pen);
-    let mut bar = Group { strokes: vec![part(corner, 0.0, length)], ..Group::default() };
-    let step = length / f64::from(PARTS);
-    let filled = (0..PARTS).step_by(2).map(|at| part(corner, f64::from(at) * step, step));
+    let mut bar = Group { strokes: vec![bar_segment(corner, 0.0, length)], ..Group::default() };
+    let step = length / f64::from(BAR_SEGMENTS);
+    let filled =
+        (0..BAR_SEGMENTS).step_by(2).map(|at| bar_segment(corner, f64::from(at) * step, step));
     bar.fills.extend(filled);
-    let (unit, name) = unit(thing);
+    let (unit, name) = length_unit(thing);
     let marks = [("0".to_owned(), 0.0), (format!("{} {name}", thing / unit), length)];
     for (text, x) in marks {
-        let at = corner + DVec2::new(x, HEIGHT + 1.2 + letters);
-        let label = Label::new(&text, at, letters).aligned(Align::Middle);
+        let at = corner + DVec2::new(x, BAR_HEIGHT + 1.2 + letters);
+        let label = Label::new(&text, at, letters).with_align(TextAlign::Middle);
         bar.strokes.extend(label.strokes());
     }
     layer.groups.push(bar);
@@ -59,15 +61,15 @@ pub(super) fn layer(sheet: &Sheet, scale: DrawingScale, ink: Ink) -> Layer {
 }
 
 /// A part of the bar as a rectangle.
-fn part(corner: DVec2, from: f64, length: f64) -> Polyline {
+fn bar_segment(corner: DVec2, from: f64, length: f64) -> Polyline {
     let low = corner + DVec2::new(from, 0.0);
     let corners = [
         low,
         low + DVec2::new(length, 0.0),
-        low + DVec2::new(length, HEIGHT),
-        low + DVec2::new(0.0, HEIGHT),
+        low + DVec2::new(length, BAR_HEIGHT),
+        low + DVec2::new(0.0, BAR_HEIGHT),
     ];
-    Polyline::through(&corners, true)
+    Polyline::through_points(&corners, true)
         .unwrap_or(Polyline { points: vec![[0, 0], [1, 0]], closed: false })
 }
 
@@ -84,7 +86,7 @@ fn round_length(most: f64) -> f64 {
 }
 
 /// The unit a length is told in: millimetres in it, and its name.
-fn unit(length: f64) -> (f64, &'static str) {
+fn length_unit(length: f64) -> (f64, &'static str) {
     if length >= 1e6 {
         (1e6, "km")
     } else if length >= 1e3 {
@@ -105,6 +107,6 @@ mod tests {
         {
             assert_eq!(round_length(most), round);
         }
-        assert_eq!(unit(2000.0), (1e3, "m"));
+        assert_eq!(length_unit(2000.0), (1e3, "m"));
     }
 }

@@ -10,26 +10,26 @@
 //!   └───────┴───────┴──────────────┴───────────┴────────────┘
 //! ```
 
-use super::frame::outline;
-use super::symbol::projection_symbol;
-use super::{Sheet, rectangle};
+use super::frame::rectangle_outline;
+use super::projection_symbol::projection_symbol;
+use super::{Sheet, rectangle_from_size};
 use crate::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline};
 use glam::DVec2;
 use viewport::{DrawingScale, Rectangle};
 
 /// The width of the block where the paper is wide enough, and its height, in millimetres.
-const SIZE: [f64; 2] = [180.0, 32.0];
+const BLOCK_SIZE: [f64; 2] = [180.0, 32.0];
 
 /// The heights of letters: of names of fields, of what is in them, of the title.
-const NAME: f64 = 1.8;
-const VALUE: f64 = 3.5;
-const TITLE: f64 = 5.0;
+const NAME_HEIGHT: f64 = 1.8;
+const VALUE_HEIGHT: f64 = 3.5;
+const TITLE_HEIGHT: f64 = 5.0;
 
 /// From the border of a field to its text.
-const INSET: f64 = 1.5;
+const FIELD_INSET: f64 = 1.5;
 
 /// A field: where it begins and ends, as parts of the block; its name; and what is in it.
-struct Field<'a> {
+struct TitleBlockField<'a> {
     x: [f64; 2],
     y: [f64; 2],
     name: &'a str,
@@ -38,63 +38,69 @@ struct Field<'a> {
 }
 
 /// Where the block is within the frame.
-pub(super) fn area(frame: Rectangle) -> Rectangle {
-    let width = SIZE[0].min(frame.width());
-    let height = SIZE[1].min(frame.height() * 0.3);
+pub(super) fn title_block_area(frame: Rectangle) -> Rectangle {
+    let width = BLOCK_SIZE[0].min(frame.width());
+    let height = BLOCK_SIZE[1].min(frame.height() * 0.3);
     let (right, bottom) = (frame.x() + frame.width(), frame.y() + frame.height());
-    rectangle(right - width, bottom - height, width, height)
+    rectangle_from_size(right - width, bottom - height, width, height)
 }
 
 /// The borders, the lettering in its three widths, and the symbol.
-pub(super) fn layers(
+pub(super) fn title_block_layers(
     sheet: &Sheet,
     title: &str,
     scale: DrawingScale,
     area: Rectangle,
     ink: Ink,
 ) -> Vec<Layer> {
-    let fields = fields(sheet, title, scale);
-    let border = |width| Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::of_width(width, ink) };
+    let fields = title_block_fields(sheet, title, scale);
+    let border = |width| Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(width, ink) };
     let mut borders = Layer::new("title-block", "title block", border(0.35));
-    borders.groups.push(Group { strokes: vec![outline(area)], ..Group::default() });
-    let mut names = Layer::new("title-block-names", "title block: names", Pen::of_width(0.18, ink));
-    let heading = Pen::of_width(0.5, ink);
+    borders.groups.push(Group { strokes: vec![rectangle_outline(area)], ..Group::default() });
+    let mut names = Layer::new("title-block-names", "title block: names", Pen::solid(0.18, ink));
+    let heading = Pen::solid(0.5, ink);
     let mut heading = Layer::new("title-block-title", "title block: title", heading);
-    let mut values = Layer::new("title-block-text", "title block: text", Pen::of_width(0.35, ink));
+    let mut values = Layer::new("title-block-text", "title block: text", Pen::solid(0.35, ink));
     for field in &fields {
-        let place =
+        let block_point =
             |x: f64, y: f64| DVec2::new(area.x() + x * area.width(), area.y() + y * area.height());
-        let (low, high) = (place(field.x[0], field.y[0]), place(field.x[1], field.y[1]));
+        let (low, high) =
+            (block_point(field.x[0], field.y[0]), block_point(field.x[1], field.y[1]));
         let size = high - low;
-        let cell = rectangle(low.x, low.y, size.x, size.y);
-        borders.groups[0].strokes.push(outline(cell));
-        let room = size.x - 2.0 * INSET;
-        let small = NAME.min(size.y * 0.2);
-        let name = Label::new(field.name, low + DVec2::new(INSET, INSET * 0.8 + small), small);
-        names.groups.push(text(&name.no_wider_than(room)));
-        let foot = low + DVec2::new(INSET, size.y - size.y * 0.19);
+        let cell = rectangle_from_size(low.x, low.y, size.x, size.y);
+        borders.groups[0].strokes.push(rectangle_outline(cell));
+        let text_width = size.x - 2.0 * FIELD_INSET;
+        let small = NAME_HEIGHT.min(size.y * 0.2);
+        let name =
+            Label::new(field.name, low + DVec2::new(FIELD_INSET, FIELD_INSET * 0.8 + small), small);
+        names.groups.push(label_group(&name.fit_to_width(text_width)));
+        let foot = low + DVec2::new(FIELD_INSET, size.y - size.y * 0.19);
         let value = Label::new(&field.value, foot, field.height.min(size.y * 0.42));
-        let layer = if field.height == TITLE { &mut heading } else { &mut values };
-        layer.groups.push(text(&value.no_wider_than(room)));
-        if field.name == PROJECTION {
-            names.groups.push(symbol(sheet, cell));
+        let layer = if field.height == TITLE_HEIGHT { &mut heading } else { &mut values };
+        layer.groups.push(label_group(&value.fit_to_width(text_width)));
+        if field.name == PROJECTION_FIELD {
+            names.groups.push(symbol_group(sheet, cell));
         }
     }
     vec![borders, names, heading, values]
 }
 
-const PROJECTION: &str = "Projection";
+const PROJECTION_FIELD: &str = "Projection";
 
-fn fields<'a>(sheet: &Sheet, title: &str, scale: DrawingScale) -> Vec<Field<'a>> {
+fn title_block_fields<'a>(
+    sheet: &Sheet,
+    title: &str,
+    scale: DrawingScale,
+) -> Vec<TitleBlockField<'a>> {
     let rows = [[0.0, 0.31], [0.31, 0.69], [0.69, 1.0]];
-    let field = |row: usize, from: f64, to: f64, name: &'a str, value: &str| Field {
+    let field = |row: usize, from: f64, to: f64, name: &'a str, value: &str| TitleBlockField {
         x: [from, to],
         y: rows[row],
         name,
         value: value.to_owned(),
-        height: if row == 1 { TITLE } else { VALUE },
+        height: if row == 1 { TITLE_HEIGHT } else { VALUE_HEIGHT },
     };
-    let titles = &sheet.titles;
+    let titles = &sheet.title_block;
     vec![
         field(0, 0.0, 0.4, "Author", &titles.author),
         field(0, 0.4, 0.64, "Date", &titles.date),
@@ -103,18 +109,18 @@ fn fields<'a>(sheet: &Sheet, title: &str, scale: DrawingScale) -> Vec<Field<'a>>
         field(2, 0.0, 0.17, "Scale", &scale.to_string()),
         field(2, 0.17, 0.31, "Paper", &sheet.paper_name),
         field(2, 0.31, 0.52, "Dimensions in", "mm"),
-        field(2, 0.52, 0.74, PROJECTION, ""),
+        field(2, 0.52, 0.74, PROJECTION_FIELD, ""),
         field(2, 0.74, 1.0, "Drawn with", "alberti"),
     ]
 }
 
-fn symbol(sheet: &Sheet, cell: Rectangle) -> Group {
+fn symbol_group(sheet: &Sheet, cell: Rectangle) -> Group {
     let height = (cell.height() * 0.62).min(cell.width() * 0.2);
     let middle = DVec2::new(cell.x() + cell.width() * 0.6, cell.y() + cell.height() - height * 0.8);
-    let strokes: Vec<Polyline> = projection_symbol(sheet.angle, middle, height);
+    let strokes: Vec<Polyline> = projection_symbol(sheet.projection_angle, middle, height);
     Group { strokes, ..Group::default() }
 }
 
-fn text(label: &Label<'_>) -> Group {
+fn label_group(label: &Label<'_>) -> Group {
     Group { strokes: label.strokes(), ..Group::default() }
 }

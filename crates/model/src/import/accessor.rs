@@ -5,155 +5,184 @@
 //! bytes there are. Arrays are made by [`Source::floats`] and its like, which count what they make: an accessor without
 //! bytes (zeros, by the specification), or the same bytes used a thousand times, must not take all memory.
 
-use super::buffers::{Buffers, slice};
-use super::elements::{Elements, Run, Sparse};
-use super::error::Fault;
+use super::buffers::{Buffers, checked_slice};
+use super::elements::{ResolvedAccessor, SparseElements, StridedBytes};
+use super::error::Diagnostic;
 use super::limits::Limits;
 use gltf::json::Root;
 use gltf::json::accessor::{Accessor, ComponentType, IndexComponentType, Type, sparse};
 use gltf::json::validation::Checked;
 
 /// The file's accessors.
-pub(super) struct Source<'a> {
+pub(super) struct AccessorReader<'a> {
     pub(super) root: &'a Root,
     pub(super) buffers: &'a Buffers<'a>,
     pub(super) limits: &'a Limits,
 }
 
-impl<'a> Source<'a> {
+impl<'a> AccessorReader<'a> {
     pub(super) fn new(root: &'a Root, buffers: &'a Buffers<'a>, limits: &'a Limits) -> Self {
         Self { root, buffers, limits }
     }
 
     /// The elements of an accessor. `user` is the pointer to the member that names it.
-    pub(super) fn elements(&self, accessor: usize, user: &str) -> Result<Elements<'_>, Fault> {
+    pub(super) fn resolve_accessor(
+        &self,
+        accessor: usize,
+        user: &str,
+    ) -> Result<ResolvedAccessor<'_>, Diagnostic> {
         let Some(json) = self.root.accessors.get(accessor) else {
-            return Err(Fault::unresolved(user, "accessor", accessor, self.root.accessors.len()));
+            return Err(Diagnostic::unresolved_index(
+                user,
+                "accessor",
+                accessor,
+                self.root.accessors.len(),
+            ));
         };
         let pointer = format!("/accessors/{accessor}");
-        let (component, shape) = format(json, &pointer)?;
+        let (component, shape) = accessor_format(json, &pointer)?;
         let count = usize::try_from(json.count.0).unwrap_or(usize::MAX);
-        let block = Block { pointer: &pointer, count, size: element_size(component, shape) };
+        let block =
+            ElementLayout { pointer: &pointer, count, size: element_size(component, shape) };
         let offset = json.byte_offset.unwrap_or_default().0;
-        let run = json.buffer_view.map(|view| self.run(view.value(), offset, block)).transpose()?;
-        let sparse = json.sparse.as_ref().map(|json| self.sparse(json, accessor, block));
-        Ok(Elements {
+        let run = json
+            .buffer_view
+            .map(|view| self.strided_bytes(view.value(), offset, block))
+            .transpose()?;
+        let sparse = json.sparse.as_ref().map(|json| self.resolve_sparse(json, accessor, block));
+        Ok(ResolvedAccessor {
             accessor,
-            run,
+            data: run,
             sparse: sparse.transpose()?,
             first: 0,
             count,
-            component,
-            shape,
+            component_type: component,
+            element_type: shape,
             normalized: json.normalized,
         })
     }
 
     /// Whether an accessor exists and has no bytes.
-    pub(super) fn is_empty(&self, accessor: usize) -> bool {
+    pub(super) fn has_no_data(&self, accessor: usize) -> bool {
         let json = self.root.accessors.get(accessor);
         json.is_some_and(|json| json.buffer_view.is_none() && json.sparse.is_none())
     }
 
     /// The first `N` components of every element as floats.
-    pub(super) fn floats<const N: usize>(&self, of: &Elements<'_>) -> Result<Vec<[f32; N]>, Fault> {
-        self.charge(of.accessor, of.count, 4 * N)?;
-        Ok(of.floats())
+    pub(super) fn read_floats<const N: usize>(
+        &self,
+        of: &ResolvedAccessor<'_>,
+    ) -> Result<Vec<[f32; N]>, Diagnostic> {
+        self.charge_array(of.accessor, of.count, 4 * N)?;
+        Ok(of.to_floats())
     }
 
     /// The first `N` components of every element as unsigned shorts.
-    pub(super) fn shorts<const N: usize>(&self, of: &Elements<'_>) -> Result<Vec<[u16; N]>, Fault> {
-        self.charge(of.accessor, of.count, 2 * N)?;
-        Ok(of.shorts())
+    pub(super) fn read_u16s<const N: usize>(
+        &self,
+        of: &ResolvedAccessor<'_>,
+    ) -> Result<Vec<[u16; N]>, Diagnostic> {
+        self.charge_array(of.accessor, of.count, 2 * N)?;
+        Ok(of.to_u16s())
     }
 
     /// The elements as indices.
-    pub(super) fn indices(&self, of: &Elements<'_>) -> Result<Vec<u32>, Fault> {
-        self.charge(of.accessor, of.count, 4)?;
-        Ok(of.indices())
+    pub(super) fn read_indices(&self, of: &ResolvedAccessor<'_>) -> Result<Vec<u32>, Diagnostic> {
+        self.charge_array(of.accessor, of.count, 4)?;
+        Ok(of.to_indices())
     }
 
     /// Counts an array that is about to be made of an accessor.
-    pub(super) fn charge(&self, accessor: usize, count: usize, bytes: usize) -> Result<(), Fault> {
+    pub(super) fn charge_array(
+        &self,
+        accessor: usize,
+        count: usize,
+        bytes: usize,
+    ) -> Result<(), Diagnostic> {
         let bytes = (count as u64).saturating_mul(bytes as u64);
-        self.buffers.charge(&format!("/accessors/{accessor}/count"), bytes)
+        self.buffers.charge_bytes(&format!("/accessors/{accessor}/count"), bytes)
     }
 
     /// The bytes of a block from an offset in a buffer view on.
-    fn run(&self, view: usize, offset: u64, block: Block<'_>) -> Result<Run<'_>, Fault> {
-        let view = self.buffers.view(view, &format!("{}/bufferView", block.pointer))?;
+    fn strided_bytes(
+        &self,
+        view: usize,
+        offset: u64,
+        block: ElementLayout<'_>,
+    ) -> Result<StridedBytes<'_>, Diagnostic> {
+        let view = self.buffers.buffer_view(view, &format!("{}/bufferView", block.pointer))?;
         let stride = view.stride.unwrap_or(block.size);
         if stride < block.size && block.count > 1 {
             let problem = format!("the stride is {stride}, an element has {} bytes", block.size);
-            return Err(Fault::invalid(&format!("{}/byteStride", view.pointer), problem));
+            return Err(Diagnostic::invalid(&format!("{}/byteStride", view.pointer), problem));
         }
         let stride = stride.max(block.size);
         let gaps = (block.count as u64).saturating_sub(1).saturating_mul(stride as u64);
         let length = if block.count == 0 { 0 } else { gaps.saturating_add(block.size as u64) };
-        match slice(view.bytes, offset, length) {
-            Some(bytes) => Ok(Run { bytes, stride }),
+        match checked_slice(view.bytes, offset, length) {
+            Some(bytes) => Ok(StridedBytes { bytes, stride }),
             None => {
                 let (count, pointer, there) = (block.count, view.pointer, view.bytes.len());
                 let problem = format!(
                     "{count} elements from byte {offset} on need {length} bytes, and {pointer} has {there}"
                 );
-                Err(Fault::invalid(block.pointer, problem))
+                Err(Diagnostic::invalid(block.pointer, problem))
             }
         }
     }
 
     /// The elements that replace some of the `base`.
-    fn sparse(
+    fn resolve_sparse(
         &self,
         json: &sparse::Sparse,
         accessor: usize,
-        base: Block<'_>,
-    ) -> Result<Sparse<'_>, Fault> {
+        base: ElementLayout<'_>,
+    ) -> Result<SparseElements<'_>, Diagnostic> {
         let count = usize::try_from(json.count.0).unwrap_or(usize::MAX);
         let pointer = format!("{}/sparse/indices", base.pointer);
         let Checked::Valid(IndexComponentType(component)) = json.indices.component_type else {
             let problem = "the component type is not one of 5121, 5123 and 5125";
-            return Err(Fault::invalid(&format!("{pointer}/componentType"), problem));
+            return Err(Diagnostic::invalid(&format!("{pointer}/componentType"), problem));
         };
-        let block = Block { pointer: &pointer, count, size: component.size() };
+        let block = ElementLayout { pointer: &pointer, count, size: component.size() };
         let (view, offset) = (json.indices.buffer_view.value(), json.indices.byte_offset.0);
-        let indices = self.indices(&Elements {
+        let indices = self.read_indices(&ResolvedAccessor {
             accessor,
-            run: Some(self.run(view, offset, block)?),
+            data: Some(self.strided_bytes(view, offset, block)?),
             sparse: None,
             first: 0,
             count,
-            component,
-            shape: Type::Scalar,
+            component_type: component,
+            element_type: Type::Scalar,
             normalized: false,
         })?;
         if let Some(&index) = indices.iter().find(|&&index| index as usize >= base.count) {
             let problem = format!("element {index} is to be replaced and there are {}", base.count);
-            return Err(Fault::invalid(&pointer, problem));
+            return Err(Diagnostic::invalid(&pointer, problem));
         }
         let pointer = format!("{}/sparse/values", base.pointer);
-        let block = Block { pointer: &pointer, count, size: base.size };
+        let block = ElementLayout { pointer: &pointer, count, size: base.size };
         let (view, offset) = (json.values.buffer_view.value(), json.values.byte_offset.0);
-        Ok(Sparse { indices, values: self.run(view, offset, block)? })
+        Ok(SparseElements { indices, values: self.strided_bytes(view, offset, block)? })
     }
 }
 
 /// What a run must hold: so many elements of such a size; `pointer` says who wants them.
 #[derive(Clone, Copy)]
-struct Block<'a> {
+struct ElementLayout<'a> {
     pointer: &'a str,
     count: usize,
     size: usize,
 }
 
-fn format(json: &Accessor, pointer: &str) -> Result<(ComponentType, Type), Fault> {
+fn accessor_format(json: &Accessor, pointer: &str) -> Result<(ComponentType, Type), Diagnostic> {
     let Checked::Valid(component) = json.component_type else {
         let problem = "the component type is not one of 5120, 5121, 5122, 5123, 5125 and 5126";
-        return Err(Fault::invalid(&format!("{pointer}/componentType"), problem));
+        return Err(Diagnostic::invalid(&format!("{pointer}/componentType"), problem));
     };
     let Checked::Valid(shape) = json.type_ else {
         let problem = "the type is not one of SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 and MAT4";
-        return Err(Fault::invalid(&format!("{pointer}/type"), problem));
+        return Err(Diagnostic::invalid(&format!("{pointer}/type"), problem));
     };
     Ok((component.0, shape))
 }

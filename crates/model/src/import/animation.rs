@@ -1,14 +1,16 @@
 //! Animations: key times and values become curves. A channel that cannot be used is left out with a warning.
 
-use super::accessor::Source;
-use super::attribute::{Format, KEYS, PAIRS, PLACE, TRIPLES, TURN};
-use super::error::Fault;
-use super::pointer::{self, Kind};
-use super::untyped::PointerChannel;
-use super::warnings::Warnings;
+use super::accessor::AccessorReader;
+use super::animation_pointer::{self, ChannelValueKind};
+use super::attribute::{
+    AllowedFormats, ROTATION, SCALAR_VALUES, TRANSLATION_OR_SCALE, VEC2_VALUES, VEC3_VALUES,
+};
+use super::error::Diagnostic;
+use super::untyped_members::PointerChannel;
+use super::warnings::ImportWarnings;
 use crate::{
-    Animation, Channel, Curve, Interpolation, Lens, Material, Node, Property, PunctualLight,
-    Target, UvTransform,
+    Animation, AnimationChannel, AnimationCurve, AnimationTarget, Interpolation, Material,
+    ModelCamera, Node, NodeProperty, PunctualLight, UvTransform,
 };
 use gltf::json;
 use gltf::json::accessor::{ComponentType, Type};
@@ -16,38 +18,38 @@ use gltf::json::animation::{Interpolation as JsonInterpolation, Property as Json
 use gltf::json::validation::Checked;
 
 /// What channels can change, and where textures get their transforms from.
-pub(super) struct Targets<'a> {
+pub(super) struct AnimatedObjects<'a> {
     pub(super) nodes: &'a [Node],
     pub(super) materials: &'a mut [Material],
     pub(super) lights: &'a [PunctualLight],
-    pub(super) cameras: &'a [Lens],
+    pub(super) cameras: &'a [ModelCamera],
     pub(super) uv_transforms: &'a mut Vec<UvTransform>,
 }
 
 /// Reads all animations of a file.
-pub(super) fn animations(
-    source: &Source<'_>,
+pub(super) fn import_animations(
+    source: &AccessorReader<'_>,
     pointers: &[PointerChannel],
-    targets: &mut Targets<'_>,
-    warnings: &mut Warnings,
-) -> Result<Vec<Animation>, Fault> {
+    targets: &mut AnimatedObjects<'_>,
+    warnings: &mut ImportWarnings,
+) -> Result<Vec<Animation>, Diagnostic> {
     let mut animations = Vec::with_capacity(source.root.animations.len());
     for (at, json) in source.root.animations.iter().enumerate() {
         let mut channels = Vec::with_capacity(json.channels.len());
-        let reader = Reader { source, samplers: &json.samplers, animation: at };
-        let mut keep = |read: Result<Channel, Fault>| match read {
-            Err(fault) if fault.is_soft() => {
-                warnings.soft(&fault, "the channel is left out");
+        let reader = AnimationReader { source, samplers: &json.samplers, animation: at };
+        let mut keep = |read: Result<AnimationChannel, Diagnostic>| match read {
+            Err(fault) if fault.is_downgradable() => {
+                warnings.downgrade(&fault, "the channel is left out");
                 Ok(())
             }
             read => read.map(|channel| channels.push(channel)),
         };
         for (number, channel) in json.channels.iter().enumerate() {
             let pointer = format!("/animations/{at}/channels/{number}");
-            keep(reader.channel(targets.nodes, channel, &pointer))?;
+            keep(reader.read_channel(targets.nodes, channel, &pointer))?;
         }
         for json in pointers.iter().filter(|json| json.animation == at) {
-            keep(reader.pointer_channel(targets, json))?;
+            keep(reader.read_pointer_channel(targets, json))?;
         }
         let ends = channels.iter().filter_map(|channel| channel.curve.times.last());
         let duration_seconds = ends.map(|&time| f64::from(time)).fold(0.0, f64::max);
@@ -56,75 +58,87 @@ pub(super) fn animations(
     Ok(animations)
 }
 
-struct Reader<'a> {
-    source: &'a Source<'a>,
+struct AnimationReader<'a> {
+    source: &'a AccessorReader<'a>,
     samplers: &'a [json::animation::Sampler],
     animation: usize,
 }
 
-impl Reader<'_> {
-    fn channel(
+impl AnimationReader<'_> {
+    fn read_channel(
         &self,
         nodes: &[Node],
         json: &json::animation::Channel,
         pointer: &str,
-    ) -> Result<Channel, Fault> {
+    ) -> Result<AnimationChannel, Diagnostic> {
         let node = json.target.node.value();
         let Some(target) = nodes.get(node) else {
             let pointer = format!("{pointer}/target/node");
-            return Err(Fault::unresolved(&pointer, "node", node, nodes.len()));
+            return Err(Diagnostic::unresolved_index(&pointer, "node", node, nodes.len()));
         };
         let property = match json.target.path {
-            Checked::Valid(JsonProperty::Translation) => Property::Translation,
-            Checked::Valid(JsonProperty::Rotation) => Property::Rotation,
-            Checked::Valid(JsonProperty::Scale) => Property::Scale,
-            Checked::Valid(JsonProperty::MorphTargetWeights) => Property::Weights,
+            Checked::Valid(JsonProperty::Translation) => NodeProperty::Translation,
+            Checked::Valid(JsonProperty::Rotation) => NodeProperty::Rotation,
+            Checked::Valid(JsonProperty::Scale) => NodeProperty::Scale,
+            Checked::Valid(JsonProperty::MorphTargetWeights) => NodeProperty::Weights,
             Checked::Invalid => {
                 let pointer = format!("{pointer}/target/path");
-                return Err(Fault::invalid(&pointer, "the path is not known"));
+                return Err(Diagnostic::invalid(&pointer, "the path is not known"));
             }
         };
-        if property != Property::Weights && target.parts.is_none() {
+        if property != NodeProperty::Weights && target.trs.is_none() {
             let problem = format!("node {node} has a matrix, which cannot be animated");
-            return Err(Fault::invalid(&format!("{pointer}/target/node"), problem));
+            return Err(Diagnostic::invalid(&format!("{pointer}/target/node"), problem));
         }
-        let kind = Kind::of(property);
-        let curve = self.sampler(json.sampler.value(), kind, &format!("{pointer}/sampler"))?;
-        Ok(Channel { target: Target::Node { node, property }, curve })
+        let kind = ChannelValueKind::for_property(property);
+        let curve = self.read_sampler(json.sampler.value(), kind, &format!("{pointer}/sampler"))?;
+        Ok(AnimationChannel { target: AnimationTarget::Node { node, property }, curve })
     }
 
     /// A channel that names its target by a pointer.
-    fn pointer_channel(
+    fn read_pointer_channel(
         &self,
-        targets: &mut Targets<'_>,
+        targets: &mut AnimatedObjects<'_>,
         json: &PointerChannel,
-    ) -> Result<Channel, Fault> {
+    ) -> Result<AnimationChannel, Diagnostic> {
         let pointer = format!("/animations/{}/channels/{}", self.animation, json.channel);
-        let Some((target, kind)) = pointer::target(self.source.root, targets, &json.target) else {
+        let Some((target, kind)) =
+            animation_pointer::resolve_pointer(self.source.root, targets, &json.target)
+        else {
             let pointer = format!("{pointer}/target/extensions/KHR_animation_pointer/pointer");
             let problem = format!("\"{}\" is nothing that can be animated here", json.target);
-            return Err(Fault::invalid(&pointer, problem));
+            return Err(Diagnostic::invalid(&pointer, problem));
         };
-        let curve = self.sampler(json.sampler, kind, &format!("{pointer}/sampler"))?;
-        Ok(Channel { target, curve })
+        let curve = self.read_sampler(json.sampler, kind, &format!("{pointer}/sampler"))?;
+        Ok(AnimationChannel { target, curve })
     }
 
     /// The curve of a sampler; `pointer` is the member that names it.
-    fn sampler(&self, sampler: usize, kind: Kind, pointer: &str) -> Result<Curve, Fault> {
+    fn read_sampler(
+        &self,
+        sampler: usize,
+        kind: ChannelValueKind,
+        pointer: &str,
+    ) -> Result<AnimationCurve, Diagnostic> {
         let Some(json) = self.samplers.get(sampler) else {
-            return Err(Fault::unresolved(pointer, "sampler", sampler, self.samplers.len()));
+            return Err(Diagnostic::unresolved_index(
+                pointer,
+                "sampler",
+                sampler,
+                self.samplers.len(),
+            ));
         };
-        self.curve(json, kind, &format!("/animations/{}/samplers/{sampler}", self.animation))
+        self.read_curve(json, kind, &format!("/animations/{}/samplers/{sampler}", self.animation))
     }
 
-    fn curve(
+    fn read_curve(
         &self,
         json: &json::animation::Sampler,
-        kind: Kind,
+        kind: ChannelValueKind,
         pointer: &str,
-    ) -> Result<Curve, Fault> {
+    ) -> Result<AnimationCurve, Diagnostic> {
         let interpolation = match json.interpolation {
-            Checked::Valid(JsonInterpolation::Linear) if kind == Kind::Rotation => {
+            Checked::Valid(JsonInterpolation::Linear) if kind == ChannelValueKind::Rotation => {
                 Interpolation::Spherical
             }
             Checked::Valid(JsonInterpolation::Linear) => Interpolation::Linear,
@@ -132,24 +146,34 @@ impl Reader<'_> {
             Checked::Valid(JsonInterpolation::CubicSpline) => Interpolation::CubicSpline,
             Checked::Invalid => {
                 let pointer = format!("{pointer}/interpolation");
-                return Err(Fault::invalid(&pointer, "the interpolation is not known"));
+                return Err(Diagnostic::invalid(&pointer, "the interpolation is not known"));
             }
         };
-        let times = self.times(json.input.value(), &format!("{pointer}/input"))?;
+        let times = self.read_key_times(json.input.value(), &format!("{pointer}/input"))?;
         let (accessor, pointer) = (json.output.value(), format!("{pointer}/output"));
         let values = match kind {
-            Kind::Place => self.values::<3>(accessor, &PLACE, &pointer)?,
-            Kind::Weights | Kind::Numbers(1) => self.values::<1>(accessor, &KEYS, &pointer)?,
-            Kind::Numbers(2) => self.values::<2>(accessor, &PAIRS, &pointer)?,
-            Kind::Numbers(3) => self.values::<3>(accessor, &TRIPLES, &pointer)?,
-            Kind::Rotation | Kind::Numbers(_) => self.values::<4>(accessor, &TURN, &pointer)?,
+            ChannelValueKind::TranslationOrScale => {
+                self.read_values::<3>(accessor, &TRANSLATION_OR_SCALE, &pointer)?
+            }
+            ChannelValueKind::Weights | ChannelValueKind::Numbers(1) => {
+                self.read_values::<1>(accessor, &SCALAR_VALUES, &pointer)?
+            }
+            ChannelValueKind::Numbers(2) => {
+                self.read_values::<2>(accessor, &VEC2_VALUES, &pointer)?
+            }
+            ChannelValueKind::Numbers(3) => {
+                self.read_values::<3>(accessor, &VEC3_VALUES, &pointer)?
+            }
+            ChannelValueKind::Rotation | ChannelValueKind::Numbers(_) => {
+                self.read_values::<4>(accessor, &ROTATION, &pointer)?
+            }
         };
         let rows = if interpolation == Interpolation::CubicSpline { 3 } else { 1 } * times.len();
         let width = match kind {
-            Kind::Place => 3,
-            Kind::Rotation => 4,
-            Kind::Weights => values.len() / rows,
-            Kind::Numbers(width) => width,
+            ChannelValueKind::TranslationOrScale => 3,
+            ChannelValueKind::Rotation => 4,
+            ChannelValueKind::Weights => values.len() / rows,
+            ChannelValueKind::Numbers(width) => width,
         };
         if values.len() != rows * width || width == 0 {
             let problem = format!(
@@ -157,39 +181,39 @@ impl Reader<'_> {
                 values.len(),
                 times.len()
             );
-            return Err(Fault::invalid(&pointer, problem));
+            return Err(Diagnostic::invalid(&pointer, problem));
         }
-        Ok(Curve { interpolation, times, values, width })
+        Ok(AnimationCurve { interpolation, times, values, components: width })
     }
 
     /// The times of the keys: at least one, finite, rising.
-    fn times(&self, accessor: usize, pointer: &str) -> Result<Vec<f32>, Fault> {
-        let elements = self.source.elements(accessor, pointer)?;
-        if (elements.shape, elements.component) != (Type::Scalar, ComponentType::F32) {
-            return Err(Fault::invalid(pointer, "the times must be SCALAR of floats"));
+    fn read_key_times(&self, accessor: usize, pointer: &str) -> Result<Vec<f32>, Diagnostic> {
+        let elements = self.source.resolve_accessor(accessor, pointer)?;
+        if (elements.element_type, elements.component_type) != (Type::Scalar, ComponentType::F32) {
+            return Err(Diagnostic::invalid(pointer, "the times must be SCALAR of floats"));
         }
-        let times = self.source.floats::<1>(&elements)?.into_flattened();
+        let times = self.source.read_floats::<1>(&elements)?.into_flattened();
         let rise = times.windows(2).all(|pair| pair[0] < pair[1]);
         if times.is_empty() || !rise || times.iter().any(|time| !time.is_finite()) {
-            return Err(Fault::invalid(pointer, "the times are not finite numbers that rise"));
+            return Err(Diagnostic::invalid(pointer, "the times are not finite numbers that rise"));
         }
         Ok(times)
     }
 
-    fn values<const N: usize>(
+    fn read_values<const N: usize>(
         &self,
         accessor: usize,
-        format: &Format,
+        format: &AllowedFormats,
         pointer: &str,
-    ) -> Result<Vec<f32>, Fault> {
-        let mut elements = self.source.elements(accessor, pointer)?;
-        format.check(&elements, pointer)?;
+    ) -> Result<Vec<f32>, Diagnostic> {
+        let mut elements = self.source.resolve_accessor(accessor, pointer)?;
+        format.check_elements(&elements, pointer)?;
         // Integers are normalised even if the file forgot to say so: there is no other way to read them.
         elements.normalized = true;
-        let values = self.source.floats::<N>(&elements)?.into_flattened();
+        let values = self.source.read_floats::<N>(&elements)?.into_flattened();
         if values.iter().all(|value| value.is_finite()) {
             return Ok(values);
         }
-        Err(Fault::invalid(pointer, "a value is not a finite number"))
+        Err(Diagnostic::invalid(pointer, "a value is not a finite number"))
     }
 }

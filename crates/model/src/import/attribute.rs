@@ -1,59 +1,73 @@
 //! Attributes of vertices: the formats each may have, and reading those that the picture can do without.
 
-use super::accessor::Source;
-use super::draco::Decoded;
-use super::elements::Elements;
-use super::error::Fault;
-use super::warnings::Warnings;
+use super::accessor::AccessorReader;
+use super::draco::DracoData;
+use super::elements::ResolvedAccessor;
+use super::error::Diagnostic;
+use super::warnings::ImportWarnings;
 use gltf::json::accessor::ComponentType::{self, F32, I8, I16, U8, U16, U32};
 use gltf::json::accessor::Type;
 use std::ops::Range;
 
 /// The formats an attribute of vertices or instances, or the values of an animation, may have, those of KHR_mesh_quantization among them.
-pub(super) struct Format {
-    shapes: &'static [Type],
-    components: &'static [ComponentType],
+pub(super) struct AllowedFormats {
+    element_types: &'static [Type],
+    component_types: &'static [ComponentType],
 }
 
-pub(super) const INDICES: Format = Format { shapes: &[Type::Scalar], components: &[U8, U16, U32] };
-pub(super) const POSITION: Format =
-    Format { shapes: &[Type::Vec3], components: &[F32, I8, U8, I16, U16] };
-pub(super) const NORMAL: Format = Format { shapes: &[Type::Vec3], components: &[F32, I8, I16] };
-pub(super) const TANGENT: Format = Format { shapes: &[Type::Vec4], components: &[F32, I8, I16] };
-pub(super) const TEXCOORD: Format =
-    Format { shapes: &[Type::Vec2], components: &[F32, I8, U8, I16, U16] };
-pub(super) const COLOR: Format =
-    Format { shapes: &[Type::Vec3, Type::Vec4], components: &[F32, U8, U16] };
-pub(super) const JOINTS: Format = Format { shapes: &[Type::Vec4], components: &[U8, U16] };
-pub(super) const WEIGHTS: Format = Format { shapes: &[Type::Vec4], components: &[F32, U8, U16] };
-pub(super) const PLACE: Format = Format { shapes: &[Type::Vec3], components: &[F32] };
-pub(super) const TURN: Format =
-    Format { shapes: &[Type::Vec4], components: &[F32, I8, U8, I16, U16] };
-pub(super) const KEYS: Format =
-    Format { shapes: &[Type::Scalar], components: &[F32, I8, U8, I16, U16] };
-pub(super) const PAIRS: Format = Format { shapes: &[Type::Vec2], ..KEYS };
-pub(super) const TRIPLES: Format = Format { shapes: &[Type::Vec3], ..KEYS };
+pub(super) const INDICES: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Scalar], component_types: &[U8, U16, U32] };
+pub(super) const POSITION: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec3], component_types: &[F32, I8, U8, I16, U16] };
+pub(super) const NORMAL: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec3], component_types: &[F32, I8, I16] };
+pub(super) const TANGENT: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec4], component_types: &[F32, I8, I16] };
+pub(super) const TEXCOORD: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec2], component_types: &[F32, I8, U8, I16, U16] };
+pub(super) const COLOR: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec3, Type::Vec4], component_types: &[F32, U8, U16] };
+pub(super) const JOINTS: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec4], component_types: &[U8, U16] };
+pub(super) const WEIGHTS: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec4], component_types: &[F32, U8, U16] };
+pub(super) const TRANSLATION_OR_SCALE: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec3], component_types: &[F32] };
+pub(super) const ROTATION: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec4], component_types: &[F32, I8, U8, I16, U16] };
+pub(super) const SCALAR_VALUES: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Scalar], component_types: &[F32, I8, U8, I16, U16] };
+pub(super) const VEC2_VALUES: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec2], ..SCALAR_VALUES };
+pub(super) const VEC3_VALUES: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec3], ..SCALAR_VALUES };
 
-impl Format {
-    pub(super) fn check(&self, elements: &Elements<'_>, pointer: &str) -> Result<(), Fault> {
-        if self.shapes.contains(&elements.shape) && self.components.contains(&elements.component) {
+impl AllowedFormats {
+    pub(super) fn check_elements(
+        &self,
+        elements: &ResolvedAccessor<'_>,
+        pointer: &str,
+    ) -> Result<(), Diagnostic> {
+        if self.element_types.contains(&elements.element_type)
+            && self.component_types.contains(&elements.component_type)
+        {
             return Ok(());
         }
-        let shapes: Vec<&str> = self.shapes.iter().map(|&shape| name(shape)).collect();
+        let shapes: Vec<&str> = self.element_types.iter().map(|&shape| type_name(shape)).collect();
         let components: Vec<String> =
-            self.components.iter().map(|c| c.as_gl_enum().to_string()).collect();
+            self.component_types.iter().map(|c| c.as_gl_enum().to_string()).collect();
         let problem = format!(
             "must be {} of component type {}, not {} of {}",
             shapes.join(" or "),
             components.join(" or "),
-            name(elements.shape),
-            elements.component.as_gl_enum()
+            type_name(elements.element_type),
+            elements.component_type.as_gl_enum()
         );
-        Err(Fault::invalid(pointer, problem))
+        Err(Diagnostic::invalid(pointer, problem))
     }
 }
 
-fn name(shape: Type) -> &'static str {
+fn type_name(shape: Type) -> &'static str {
     match shape {
         Type::Scalar => "SCALAR",
         Type::Vec2 => "VEC2",
@@ -66,7 +80,7 @@ fn name(shape: Type) -> &'static str {
 }
 
 /// The vertices of a primitive, and which of them are used.
-pub(super) struct Span {
+pub(super) struct VertexRange {
     /// How many the file has.
     pub(super) vertices: usize,
     /// Which ones the indices use.
@@ -74,46 +88,47 @@ pub(super) struct Span {
 }
 
 /// Reads the attributes of one primitive.
-pub(super) struct Attributes<'a, 'w> {
-    pub(super) source: &'a Source<'a>,
-    pub(super) span: Span,
+pub(super) struct AttributeReader<'a, 'w> {
+    pub(super) source: &'a AccessorReader<'a>,
+    pub(super) range: VertexRange,
     /// What the primitive has in a compressed stream. An accessor without bytes then is not zeros.
-    pub(super) decoded: Option<&'a Decoded>,
-    pub(super) warnings: &'w mut Warnings,
+    pub(super) draco: Option<&'a DracoData>,
+    pub(super) warnings: &'w mut ImportWarnings,
 }
 
-impl Attributes<'_, '_> {
+impl AttributeReader<'_, '_> {
     /// An attribute that the picture can do without: one that cannot be read is left out with a warning.
-    pub(super) fn read<T>(
+    pub(super) fn read_attribute<T>(
         &mut self,
         accessor: Option<usize>,
         pointer: &str,
-        format: &Format,
-        read: impl Fn(&Source<'_>, Elements<'_>) -> Result<Vec<T>, Fault>,
-    ) -> Result<Option<Vec<T>>, Fault> {
+        format: &AllowedFormats,
+        read: impl Fn(&AccessorReader<'_>, ResolvedAccessor<'_>) -> Result<Vec<T>, Diagnostic>,
+    ) -> Result<Option<Vec<T>>, Diagnostic> {
         let Some(accessor) = accessor else { return Ok(None) };
-        let is_absent =
-            |decoded: &Decoded| !decoded.has(accessor) && self.source.is_empty(accessor);
-        if self.decoded.is_some_and(is_absent) {
+        let is_absent = |decoded: &DracoData| {
+            !decoded.has_accessor(accessor) && self.source.has_no_data(accessor)
+        };
+        if self.draco.is_some_and(is_absent) {
             return Ok(None);
         }
-        let checked = self.source.elements(accessor, pointer).and_then(|elements| {
-            format.check(&elements, pointer)?;
-            let elements = match self.decoded {
-                Some(decoded) => decoded.lend(elements),
+        let checked = self.source.resolve_accessor(accessor, pointer).and_then(|elements| {
+            format.check_elements(&elements, pointer)?;
+            let elements = match self.draco {
+                Some(decoded) => decoded.attach_data(elements),
                 None => elements,
             };
-            let Span { vertices, used } = &self.span;
+            let VertexRange { vertices, used } = &self.range;
             if elements.count == *vertices {
-                return read(self.source, elements.only(used.clone()));
+                return read(self.source, elements.slice_range(used.clone()));
             }
             let problem = format!("{} values for {vertices} vertices", elements.count);
-            Err(Fault::invalid(pointer, problem))
+            Err(Diagnostic::invalid(pointer, problem))
         });
         match checked {
-            Err(fault) if fault.is_soft() => {
+            Err(fault) if fault.is_downgradable() => {
                 let name = pointer.rsplit('/').next().unwrap_or(pointer);
-                self.warnings.soft(&fault, &format!("the attribute {name} is left out"));
+                self.warnings.downgrade(&fault, &format!("the attribute {name} is left out"));
                 Ok(None)
             }
             values => values.map(Some),
@@ -121,12 +136,13 @@ impl Attributes<'_, '_> {
     }
 
     /// Texture coordinates, finite.
-    pub(super) fn texcoords(
+    pub(super) fn read_texcoords(
         &mut self,
         accessor: Option<usize>,
         pointer: &str,
-    ) -> Result<Option<Vec<[f32; 2]>>, Fault> {
-        let read = self.read(accessor, pointer, &TEXCOORD, |source, e| source.floats(&e))?;
+    ) -> Result<Option<Vec<[f32; 2]>>, Diagnostic> {
+        let read =
+            self.read_attribute(accessor, pointer, &TEXCOORD, |source, e| source.read_floats(&e))?;
         let Some(mut uvs) = read else { return Ok(None) };
         let is_lost = |uv: &[f32; 2]| !(uv[0].is_finite() && uv[1].is_finite());
         let mut lost = 0;
@@ -136,23 +152,23 @@ impl Attributes<'_, '_> {
         }
         if lost > 0 {
             let message = format!("coordinates are no numbers; they are 0 (vertices: {lost})");
-            self.warnings.add(pointer, message);
+            self.warnings.push_warning(pointer, message);
         }
         Ok(Some(uvs))
     }
 
     /// Colours of three or four components as four, each in [0, 1].
-    pub(super) fn colors(
+    pub(super) fn read_colors(
         &mut self,
         accessor: Option<usize>,
         pointer: &str,
-    ) -> Result<Option<Vec<[f32; 4]>>, Fault> {
-        self.read(accessor, pointer, &COLOR, |source, mut elements| {
+    ) -> Result<Option<Vec<[f32; 4]>>, Diagnostic> {
+        self.read_attribute(accessor, pointer, &COLOR, |source, mut elements| {
             // Integers are normalised even if the file forgot to say so: there is no other way to read them.
             elements.normalized = true;
-            let mut colors: Vec<[f32; 4]> = source.floats(&elements)?;
+            let mut colors: Vec<[f32; 4]> = source.read_floats(&elements)?;
             for color in &mut colors {
-                if elements.shape == Type::Vec3 {
+                if elements.element_type == Type::Vec3 {
                     color[3] = 1.0;
                 }
                 // What is not a number becomes 0.

@@ -1,101 +1,124 @@
 //! The bytes of the file's buffers and buffer views, each read, and decompressed, once and when it is first needed.
 
-use super::budget::Budget;
-use super::error::{Fault, FaultKind};
+use super::error::{Diagnostic, ImportErrorKind};
 use super::limits::Limits;
-use super::meshopt::Packed;
-use super::resolver::Resolver;
+use super::memory_budget::MemoryBudget;
+use super::meshopt::CompressedView;
+use super::uri_resolver::UriResolver;
 use gltf::json::Root;
 use std::sync::OnceLock;
 
 /// The buffers of a file.
 pub(super) struct Buffers<'a> {
     root: &'a Root,
-    pub(super) resolver: &'a Resolver<'a>,
+    pub(super) resolver: &'a UriResolver<'a>,
     /// The binary chunk of the file itself.
-    chunk: Option<&'a [u8]>,
+    binary_chunk: Option<&'a [u8]>,
     /// What has been read from elsewhere.
-    read: Vec<OnceLock<Vec<u8>>>,
+    loaded: Vec<OnceLock<Vec<u8>>>,
     /// The views that have been decompressed.
-    unpacked: Vec<OnceLock<Vec<u8>>>,
-    budget: Budget<'a>,
+    decompressed: Vec<OnceLock<Vec<u8>>>,
+    budget: MemoryBudget<'a>,
 }
 
 impl<'a> Buffers<'a> {
     pub(super) fn new(
         root: &'a Root,
-        resolver: &'a Resolver<'a>,
-        chunk: Option<&'a [u8]>,
+        resolver: &'a UriResolver<'a>,
+        binary_chunk: Option<&'a [u8]>,
         limits: &'a Limits,
     ) -> Self {
-        let read = root.buffers.iter().map(|_| OnceLock::new()).collect();
-        let unpacked = root.buffer_views.iter().map(|_| OnceLock::new()).collect();
-        Self { root, resolver, chunk, read, unpacked, budget: Budget::new(limits) }
+        let loaded = root.buffers.iter().map(|_| OnceLock::new()).collect();
+        let decompressed = root.buffer_views.iter().map(|_| OnceLock::new()).collect();
+        Self {
+            root,
+            resolver,
+            binary_chunk,
+            loaded,
+            decompressed,
+            budget: MemoryBudget::new(limits),
+        }
     }
 
     /// Counts an array that is about to be made; `pointer` is the member that says how long it is.
-    pub(super) fn charge(&self, pointer: &str, bytes: u64) -> Result<(), Fault> {
-        self.budget.charge(pointer, bytes, self.resolver.total_bytes())
+    pub(super) fn charge_bytes(&self, pointer: &str, bytes: u64) -> Result<(), Diagnostic> {
+        self.budget.charge_bytes(pointer, bytes, self.resolver.total_bytes())
     }
 
     /// The bytes of a buffer view, and its stride if it has one. `user` is the pointer to the member that names it.
-    pub(super) fn view(&self, view: usize, user: &str) -> Result<View<'_>, Fault> {
+    pub(super) fn buffer_view(
+        &self,
+        view: usize,
+        user: &str,
+    ) -> Result<BufferView<'_>, Diagnostic> {
         let Some(json) = self.root.buffer_views.get(view) else {
             let count = self.root.buffer_views.len();
-            return Err(Fault::unresolved(user, "buffer view", view, count));
+            return Err(Diagnostic::unresolved_index(user, "buffer view", view, count));
         };
         let pointer = format!("/bufferViews/{view}");
-        let bytes = match Packed::of(json, &pointer)? {
-            Some(packed) => self.unpacked(view, &packed)?,
+        let bytes = match CompressedView::from_view(json, &pointer)? {
+            Some(packed) => self.decompressed_view(view, &packed)?,
             None => {
                 let start = json.byte_offset.unwrap_or_default().0;
-                self.part(json.buffer.value(), start, json.byte_length.0, &pointer)?
+                self.buffer_range(json.buffer.value(), start, json.byte_length.0, &pointer)?
             }
         };
-        Ok(View { bytes, stride: json.byte_stride.map(|stride| stride.0), pointer })
+        Ok(BufferView { bytes, stride: json.byte_stride.map(|stride| stride.0), pointer })
     }
 
     /// The bytes of a compressed view. The buffer that the view itself names need not have any.
-    fn unpacked(&self, view: usize, packed: &Packed) -> Result<&[u8], Fault> {
-        let slot = &self.unpacked[view];
+    fn decompressed_view(&self, view: usize, packed: &CompressedView) -> Result<&[u8], Diagnostic> {
+        let slot = &self.decompressed[view];
         if let Some(bytes) = slot.get() {
             return Ok(bytes);
         }
-        let stream = self.part(packed.buffer, packed.offset, packed.length, &packed.pointer)?;
-        self.charge(&format!("{}/count", packed.pointer), packed.unpacked_length())?;
-        let bytes = packed.unpack(stream)?;
+        let stream =
+            self.buffer_range(packed.buffer, packed.offset, packed.length, &packed.pointer)?;
+        self.charge_bytes(&format!("{}/count", packed.pointer), packed.decompressed_length())?;
+        let bytes = packed.decompress(stream)?;
         Ok(slot.get_or_init(|| bytes))
     }
 
     /// So many bytes of a buffer; `user` is the pointer to what names it.
-    fn part(&self, buffer: usize, start: u64, length: u64, user: &str) -> Result<&[u8], Fault> {
-        let bytes = self.buffer(buffer, user)?;
-        slice(bytes, start, length).ok_or_else(|| {
+    fn buffer_range(
+        &self,
+        buffer: usize,
+        start: u64,
+        length: u64,
+        user: &str,
+    ) -> Result<&[u8], Diagnostic> {
+        let bytes = self.buffer_bytes(buffer, user)?;
+        checked_slice(bytes, start, length).ok_or_else(|| {
             let there = bytes.len();
             let problem = format!(
                 "bytes {start} to {start} + {length} are not all in buffer {buffer}, which has {there}"
             );
-            Fault::invalid(user, problem)
+            Diagnostic::invalid(user, problem)
         })
     }
 
-    fn buffer(&self, buffer: usize, view: &str) -> Result<&[u8], Fault> {
-        let (Some(json), Some(read)) = (self.root.buffers.get(buffer), self.read.get(buffer))
+    fn buffer_bytes(&self, buffer: usize, view: &str) -> Result<&[u8], Diagnostic> {
+        let (Some(json), Some(read)) = (self.root.buffers.get(buffer), self.loaded.get(buffer))
         else {
             let pointer = format!("{view}/buffer");
-            return Err(Fault::unresolved(&pointer, "buffer", buffer, self.root.buffers.len()));
+            return Err(Diagnostic::unresolved_index(
+                &pointer,
+                "buffer",
+                buffer,
+                self.root.buffers.len(),
+            ));
         };
-        let all = match (&json.uri, self.chunk) {
+        let all = match (&json.uri, self.binary_chunk) {
             (None, Some(chunk)) if buffer == 0 => chunk,
             (None, _) => {
                 let problem = "the buffer has no data: no URI, and no binary chunk for it";
-                return Err(Fault::no_data(&format!("/buffers/{buffer}"), problem));
+                return Err(Diagnostic::missing_data(&format!("/buffers/{buffer}"), problem));
             }
             (Some(uri), _) => match read.get() {
                 Some(bytes) => bytes,
                 None => {
-                    let bytes = self.resolver.read(uri, &format!("/buffers/{buffer}/uri"));
-                    let bytes = bytes.map_err(|fault| self.softened(fault))?;
+                    let bytes = self.resolver.read_uri(uri, &format!("/buffers/{buffer}/uri"));
+                    let bytes = bytes.map_err(|fault| self.soften_missing_file(fault))?;
                     read.get_or_init(|| bytes)
                 }
             },
@@ -107,15 +130,17 @@ impl<'a> Buffers<'a> {
 
 impl Buffers<'_> {
     /// A file that is missing is no reason to stop for a reader who is lenient: its data is missing, and no more.
-    fn softened(&self, fault: Fault) -> Fault {
-        let is_file = matches!(fault.kind, FaultKind::Unreadable | FaultKind::Forbidden);
-        let kind = if self.resolver.lenient && is_file { FaultKind::NoData } else { fault.kind };
-        Fault { kind, ..fault }
+    fn soften_missing_file(&self, fault: Diagnostic) -> Diagnostic {
+        let is_file =
+            matches!(fault.kind, ImportErrorKind::Unreadable | ImportErrorKind::Forbidden);
+        let kind =
+            if self.resolver.lenient && is_file { ImportErrorKind::NoData } else { fault.kind };
+        Diagnostic { kind, ..fault }
     }
 }
 
 /// A part of a buffer.
-pub(super) struct View<'a> {
+pub(super) struct BufferView<'a> {
     pub(super) bytes: &'a [u8],
     pub(super) stride: Option<usize>,
     /// Where it is declared.
@@ -123,7 +148,7 @@ pub(super) struct View<'a> {
 }
 
 /// The `length` bytes from `start` on, if they are all there.
-pub(super) fn slice(bytes: &[u8], start: u64, length: u64) -> Option<&[u8]> {
+pub(super) fn checked_slice(bytes: &[u8], start: u64, length: u64) -> Option<&[u8]> {
     let start = usize::try_from(start).ok()?;
     let length = usize::try_from(length).ok()?;
     bytes.get(start..)?.get(..length)

@@ -1,49 +1,57 @@
 //! Cameras: their numbers, checked for sense. One that makes no view is left out with a warning.
 
-use super::error::Fault;
-use super::warnings::Warnings;
-use crate::{Lens, LensKind};
+use super::error::Diagnostic;
+use super::warnings::ImportWarnings;
+use crate::{CameraProjection, ModelCamera};
 use gltf::json::Root;
 use gltf::json::camera::{Camera, Orthographic, Perspective, Type};
 use gltf::json::validation::Checked;
 use std::f64::consts::PI;
 
 /// The cameras of a file, and for each whether its numbers make a view.
-pub(super) fn cameras(root: &Root, warnings: &mut Warnings) -> (Vec<Lens>, Vec<bool>) {
+pub(super) fn import_cameras(
+    root: &Root,
+    warnings: &mut ImportWarnings,
+) -> (Vec<ModelCamera>, Vec<bool>) {
     let mut lenses = Vec::with_capacity(root.cameras.len());
     let mut usable = Vec::with_capacity(root.cameras.len());
     for (at, json) in root.cameras.iter().enumerate() {
-        let kind = kind(json, &format!("/cameras/{at}"));
+        let kind = camera_projection(json, &format!("/cameras/{at}"));
         usable.push(kind.is_ok());
         let kind = kind.unwrap_or_else(|fault| {
-            warnings.soft(&fault, "the camera is left out");
-            USUAL
+            warnings.downgrade(&fault, "the camera is left out");
+            DEFAULT_PROJECTION
         });
-        lenses.push(Lens { name: json.name.clone(), kind });
+        lenses.push(ModelCamera { name: json.name.clone(), projection: kind });
     }
     (lenses, usable)
 }
 
 /// What stands in the place of a camera that makes no view.
-const USUAL: LensKind =
-    LensKind::Perspective { fov_y: PI / 4.0, aspect: None, near: 0.1, far: f64::INFINITY };
+const DEFAULT_PROJECTION: CameraProjection =
+    CameraProjection::Perspective { fov_y: PI / 4.0, aspect: None, near: 0.1, far: f64::INFINITY };
 
-fn kind(json: &Camera, pointer: &str) -> Result<LensKind, Fault> {
+fn camera_projection(json: &Camera, pointer: &str) -> Result<CameraProjection, Diagnostic> {
     match (json.type_, &json.perspective, &json.orthographic) {
-        (Checked::Valid(Type::Perspective), Some(json), _) => perspective(json, pointer),
-        (Checked::Valid(Type::Orthographic), _, Some(json)) => orthographic(json, pointer),
-        (Checked::Valid(_), ..) => Err(Fault::invalid(pointer, "its numbers are missing")),
+        (Checked::Valid(Type::Perspective), Some(json), _) => perspective_projection(json, pointer),
+        (Checked::Valid(Type::Orthographic), _, Some(json)) => {
+            orthographic_projection(json, pointer)
+        }
+        (Checked::Valid(_), ..) => Err(Diagnostic::invalid(pointer, "its numbers are missing")),
         (Checked::Invalid, ..) => {
             let problem = "the type is neither perspective nor orthographic";
-            Err(Fault::invalid(&format!("{pointer}/type"), problem))
+            Err(Diagnostic::invalid(&format!("{pointer}/type"), problem))
         }
     }
 }
 
-fn perspective(json: &Perspective, pointer: &str) -> Result<LensKind, Fault> {
+fn perspective_projection(
+    json: &Perspective,
+    pointer: &str,
+) -> Result<CameraProjection, Diagnostic> {
     let fault = |member: &str, value: f64, rule: &str| {
         let pointer = format!("{pointer}/perspective/{member}");
-        Err(Fault::invalid(&pointer, format!("{member} is {value} and must be {rule}")))
+        Err(Diagnostic::invalid(&pointer, format!("{member} is {value} and must be {rule}")))
     };
     let (fov_y, near) = (f64::from(json.yfov), f64::from(json.znear));
     let far = json.zfar.map_or(f64::INFINITY, f64::from);
@@ -61,14 +69,17 @@ fn perspective(json: &Perspective, pointer: &str) -> Result<LensKind, Fault> {
         Some(aspect) if !(aspect > 0.0 && aspect.is_finite()) => {
             fault("aspectRatio", aspect, "above 0")
         }
-        _ => Ok(LensKind::Perspective { fov_y, aspect, near, far }),
+        _ => Ok(CameraProjection::Perspective { fov_y, aspect, near, far }),
     }
 }
 
-fn orthographic(json: &Orthographic, pointer: &str) -> Result<LensKind, Fault> {
+fn orthographic_projection(
+    json: &Orthographic,
+    pointer: &str,
+) -> Result<CameraProjection, Diagnostic> {
     let fault = |member: &str, value: f64, rule: &str| {
         let pointer = format!("{pointer}/orthographic/{member}");
-        Err(Fault::invalid(&pointer, format!("{member} is {value} and must be {rule}")))
+        Err(Diagnostic::invalid(&pointer, format!("{member} is {value} and must be {rule}")))
     };
     let (half_width, half_height) = (f64::from(json.xmag).abs(), f64::from(json.ymag).abs());
     let (near, far) = (f64::from(json.znear), f64::from(json.zfar));
@@ -84,7 +95,7 @@ fn orthographic(json: &Orthographic, pointer: &str) -> Result<LensKind, Fault> {
     if !(far > near && far.is_finite()) {
         return fault("zfar", far, "above znear");
     }
-    Ok(LensKind::Orthographic { half_width, half_height, near, far })
+    Ok(CameraProjection::Orthographic { half_width, half_height, near, far })
 }
 
 #[cfg(test)]
@@ -93,22 +104,26 @@ mod tests {
     use serde_json::json;
 
     /// What becomes of a camera: its kind, or pointer and problem.
-    fn read(camera: serde_json::Value) -> Result<LensKind, (String, String)> {
+    fn read_camera(camera: serde_json::Value) -> Result<CameraProjection, (String, String)> {
         let camera = serde_json::from_value(camera).unwrap();
-        kind(&camera, "/cameras/0").map_err(|fault| (fault.pointer, fault.problem))
+        camera_projection(&camera, "/cameras/0").map_err(|fault| (fault.location, fault.message))
     }
 
     #[test]
     fn numbers_that_make_a_view() {
         let camera = json!({"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.25}});
         let far = f64::INFINITY;
-        let kind = LensKind::Perspective { fov_y: 0.5, aspect: None, near: 0.25, far };
-        assert_eq!(read(camera), Ok(kind));
+        let kind = CameraProjection::Perspective { fov_y: 0.5, aspect: None, near: 0.25, far };
+        assert_eq!(read_camera(camera), Ok(kind));
         let camera = json!({"type": "orthographic",
             "orthographic": {"xmag": -2, "ymag": 1, "znear": 0, "zfar": 8}});
-        let kind =
-            LensKind::Orthographic { half_width: 2.0, half_height: 1.0, near: 0.0, far: 8.0 };
-        assert_eq!(read(camera), Ok(kind));
+        let kind = CameraProjection::Orthographic {
+            half_width: 2.0,
+            half_height: 1.0,
+            near: 0.0,
+            far: 8.0,
+        };
+        assert_eq!(read_camera(camera), Ok(kind));
     }
 
     #[test]
@@ -126,7 +141,7 @@ mod tests {
             let camera = json!({"type": "perspective", "perspective": perspective});
             let member = problem.split(' ').next().unwrap();
             let pointer = format!("/cameras/0/perspective/{member}");
-            assert_eq!(read(camera), Err((pointer, problem.to_owned())));
+            assert_eq!(read_camera(camera), Err((pointer, problem.to_owned())));
         }
         for (xmag, znear, zfar, problem) in [
             (0.0, 0.0, 2.0, "xmag is 0 and must be above 0"),
@@ -135,10 +150,10 @@ mod tests {
         ] {
             let orthographic = json!({"xmag": xmag, "ymag": 1, "znear": znear, "zfar": zfar});
             let camera = json!({"type": "orthographic", "orthographic": orthographic});
-            assert_eq!(read(camera).unwrap_err().1, problem);
+            assert_eq!(read_camera(camera).unwrap_err().1, problem);
         }
-        assert_eq!(read(json!({"type": "fisheye"})).unwrap_err().0, "/cameras/0/type");
+        assert_eq!(read_camera(json!({"type": "fisheye"})).unwrap_err().0, "/cameras/0/type");
         let lacking = json!({"type": "perspective"});
-        assert_eq!(read(lacking).unwrap_err().1, "its numbers are missing");
+        assert_eq!(read_camera(lacking).unwrap_err().1, "its numbers are missing");
     }
 }

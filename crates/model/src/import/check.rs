@@ -17,38 +17,39 @@ mod accessors;
 mod animations;
 mod codes;
 mod data;
+mod diagnostics;
 mod document;
+mod document_rules;
 mod elements;
-mod findings;
 mod formats;
 mod glb;
 mod images;
 mod layout;
-mod lists;
-mod loading;
+mod load_outcome;
 mod materials;
 mod meshes;
 mod nodes;
 mod report;
 mod schema;
+mod schema_walk;
 mod skins;
 mod store;
 mod uris;
 mod usage;
-mod walk;
 
-pub use report::{Problem, Report, Severity};
+pub use report::{CheckReport, Problem, Severity};
 
-use super::error::Fault;
-use super::resolver::{self, Resolver};
-use super::{ImportOptions, json, read_model};
-use data::Demands;
-use document::Document;
-use findings::Findings;
+use super::document::check_json_limits;
+use super::error::Diagnostic;
+use super::uri_resolver::{self, UriResolver};
+use super::{ImportOptions, import_gltf};
+use data::ElementRules;
+use diagnostics::Diagnostics;
+use document::CheckedDocument;
 use serde_json::Value;
 use std::path::Path;
-use store::Store;
-use usage::Usage;
+use store::BufferStore;
+use usage::UsageMap;
 
 /// Checks a `.gltf` or `.glb` file and all that belongs to it.
 ///
@@ -63,47 +64,58 @@ use usage::Usage;
 /// println!("{}", report.summary());
 /// ```
 #[must_use]
-pub fn check(path: &Path, options: &ImportOptions) -> Report {
-    let findings = Findings::default();
-    let resolver = |length| Resolver::new(path, length, options);
-    let result = resolver::read_file(path, &options.limits, "").and_then(|bytes| {
+pub fn check_file(path: &Path, options: &ImportOptions) -> CheckReport {
+    let findings = Diagnostics::default();
+    let resolver = |length| UriResolver::new(path, length, options);
+    let result = uri_resolver::read_file(path, &options.limits, "").and_then(|bytes| {
         check_content(&bytes, &resolver(bytes.len())?, &findings);
         // A resolver of its own: what the check has read does not count against the loader's limits.
-        read_model(path, &bytes, &resolver(bytes.len())?, options)
+        import_gltf(path, &bytes, &resolver(bytes.len())?, options)
     });
-    finish(path, result, findings)
+    build_report(path, result, findings)
 }
 
 /// Checks a file that is in memory; `name` stands for its path. As for [`load_bytes`](super::load_bytes), only with a
 /// [root](ImportOptions::root) are other files read.
 #[must_use]
-pub fn check_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Report {
+pub fn check_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> CheckReport {
     let path = Path::new(name);
-    let findings = Findings::default();
-    let resolver = || Resolver::in_memory(bytes.len(), options);
+    let findings = Diagnostics::default();
+    let resolver = || UriResolver::in_memory(bytes.len(), options);
     let result = resolver().and_then(|own| {
         check_content(bytes, &own, &findings);
-        read_model(path, bytes, &resolver()?, options)
+        import_gltf(path, bytes, &resolver()?, options)
     });
-    finish(path, result, findings)
+    build_report(path, result, findings)
 }
 
-fn finish(path: &Path, result: Result<crate::Model, Fault>, findings: Findings) -> Report {
-    let refusal = loading::tell(result, &findings);
+fn build_report(
+    path: &Path,
+    result: Result<crate::Model, Diagnostic>,
+    findings: Diagnostics,
+) -> CheckReport {
+    let refusal = load_outcome::add_load_outcome(result, &findings);
     let (problems, [errors, warnings, notes]) = findings.into_parts();
-    Report { file: path.to_owned(), problems, errors, warnings, notes, refusal }
+    CheckReport {
+        file: path.to_owned(),
+        diagnostics: problems,
+        errors,
+        warnings,
+        notes,
+        load_error: refusal,
+    }
 }
 
-fn check_content(bytes: &[u8], resolver: &Resolver<'_>, findings: &Findings) {
-    let parts = glb::check(bytes, findings);
+fn check_content(bytes: &[u8], resolver: &UriResolver<'_>, findings: &Diagnostics) {
+    let parts = glb::check_container(bytes, findings);
     let Some(text) = parts.json.map(|range| &bytes[range]) else { return };
     // What is too deep or has too many values, the loader refuses and tells.
-    if json::count(text, resolver.limits).is_err() {
+    if check_json_limits(text, resolver.limits).is_err() {
         return;
     }
     match serde_json::from_slice::<Value>(text) {
         Ok(root) => {
-            let document = Document::new(&root, findings);
+            let document = CheckedDocument::new(&root, findings);
             let chunk = parts.binary.map(|range| &bytes[range]);
             check_document(&document, resolver, chunk, parts.is_binary);
         }
@@ -116,31 +128,31 @@ fn check_content(bytes: &[u8], resolver: &Resolver<'_>, findings: &Findings) {
 }
 
 fn check_document(
-    document: &Document<'_>,
-    resolver: &Resolver<'_>,
+    document: &CheckedDocument<'_>,
+    resolver: &UriResolver<'_>,
     chunk: Option<&[u8]>,
     is_binary: bool,
 ) {
-    walk::walk(document);
-    lists::check_asset(document);
-    if document.findings.has_code(&codes::UNKNOWN_ASSET_MAJOR_VERSION) {
+    schema_walk::check_schema(document);
+    document_rules::check_asset(document);
+    if document.diagnostics.has_code(&codes::UNKNOWN_ASSET_MAJOR_VERSION) {
         return;
     }
-    lists::check_extensions(document);
-    lists::check_cameras(document);
-    lists::check_variants(document);
-    materials::check(document);
-    let tree = nodes::check(document);
+    document_rules::check_extensions(document);
+    document_rules::check_cameras(document);
+    document_rules::check_variants(document);
+    materials::check_materials(document);
+    let tree = nodes::check_nodes(document);
 
-    let store = Store::read(document, resolver, chunk, is_binary);
-    let (usage, mut demands) = (Usage::new(document), Demands::default());
-    store::check_views(document);
-    images::check(document, &store, &usage, resolver, is_binary);
-    accessors::check(document, &store, &usage);
-    meshes::check(document, &usage, &mut demands);
-    skins::check(document, &tree, &usage, &mut demands);
-    animations::check(document, &usage, &mut demands);
-    data::check(document, &store, &demands);
-    skins::check_weights(document, &store);
-    lists::check_unused(document);
+    let store = BufferStore::load_buffers(document, resolver, chunk, is_binary);
+    let (usage, mut demands) = (UsageMap::new(document), ElementRules::default());
+    store::check_buffer_views(document);
+    images::check_images(document, &store, &usage, resolver, is_binary);
+    accessors::check_accessors(document, &store, &usage);
+    meshes::check_meshes(document, &usage, &mut demands);
+    skins::check_skins(document, &tree, &usage, &mut demands);
+    animations::check_animations(document, &usage, &mut demands);
+    data::check_data(document, &store, &demands);
+    skins::check_skinned_meshes(document, &store);
+    document_rules::check_unused(document);
 }

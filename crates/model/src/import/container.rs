@@ -11,8 +11,8 @@
 //!
 //! with all numbers little-endian (glTF 2.0 §4.4). The lengths are not believed before they are checked.
 
-use super::error::{Fault, FaultKind};
-use super::warnings::Warnings;
+use super::error::{Diagnostic, ImportErrorKind};
+use super::warnings::ImportWarnings;
 use std::ops::Range;
 
 /// Where the parts of a file lie in its bytes.
@@ -28,33 +28,39 @@ const TRUNCATED: &str = "the file is cut off: copy or export it again";
 
 impl Container {
     /// Finds the parts of a file by its content.
-    pub(super) fn find(bytes: &[u8], warnings: &mut Warnings) -> Result<Self, Fault> {
+    pub(super) fn from_bytes(
+        bytes: &[u8],
+        warnings: &mut ImportWarnings,
+    ) -> Result<Self, Diagnostic> {
         if bytes.starts_with(b"glTF") {
-            return Self::binary(bytes, warnings);
+            return Self::from_glb(bytes, warnings);
         }
         let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
         match text.iter().find(|byte| !byte.is_ascii_whitespace()) {
             Some(b'{') => Ok(Self { json: bytes.len() - text.len()..bytes.len(), binary: None }),
-            None => Err(format("the file is empty", "give a .gltf or .glb file")),
+            None => Err(format_error("the file is empty", "give a .gltf or .glb file")),
             _ if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") => {
-                Err(format("the text is in UTF-16", "save it in UTF-8"))
+                Err(format_error("the text is in UTF-16", "save it in UTF-8"))
             }
-            _ => Err(format(
+            _ => Err(format_error(
                 "this is not a glTF file: it starts neither with { nor with glTF",
                 "give a .gltf or .glb file",
             )),
         }
     }
 
-    fn binary(bytes: &[u8], warnings: &mut Warnings) -> Result<Self, Fault> {
-        let end = check_header(bytes, warnings)?;
+    fn from_glb(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<Self, Diagnostic> {
+        let end = check_glb_header(bytes, warnings)?;
         if end < bytes.len() {
             let more = bytes.len() - end;
-            warnings.add("", format!("there is more after the end; it is ignored (bytes: {more})"));
+            warnings.push_warning(
+                "",
+                format!("there is more after the end; it is ignored (bytes: {more})"),
+            );
         }
-        let mut chunks = Chunks { bytes: &bytes[..end], at: HEADER };
+        let mut chunks = GlbChunks { bytes: &bytes[..end], offset: HEADER };
         let Some((b"JSON", json)) = chunks.next(warnings)? else {
-            return Err(format("the first chunk is not JSON", "export the file again"));
+            return Err(format_error("the first chunk is not JSON", "export the file again"));
         };
         let binary = match chunks.next(warnings)? {
             Some((b"BIN\0", range)) => Some(range),
@@ -65,13 +71,13 @@ impl Container {
 }
 
 /// Checks magic, version and length; gives the end of the file as declared.
-fn check_header(bytes: &[u8], warnings: &mut Warnings) -> Result<usize, Fault> {
-    let (Some(version), Some(length)) = (number(bytes, 4), number(bytes, 8)) else {
-        return Err(format(&format!("the file has only {} bytes", bytes.len()), TRUNCATED));
+fn check_glb_header(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<usize, Diagnostic> {
+    let (Some(version), Some(length)) = (read_u32(bytes, 4), read_u32(bytes, 8)) else {
+        return Err(format_error(&format!("the file has only {} bytes", bytes.len()), TRUNCATED));
     };
     if version != 2 {
-        return Err(Fault::new(
-            FaultKind::Version,
+        return Err(Diagnostic::new(
+            ImportErrorKind::Version,
             "",
             format!("the file is glTF {version}.0 and only glTF 2 is read"),
             "convert it to glTF 2.0",
@@ -79,53 +85,58 @@ fn check_header(bytes: &[u8], warnings: &mut Warnings) -> Result<usize, Fault> {
     }
     if length > bytes.len() {
         let problem = format!("the header says {length} bytes, the file has {}", bytes.len());
-        warnings.forgive(format(&problem, TRUNCATED), "what is there is read")?;
+        warnings
+            .downgrade_if_lenient(format_error(&problem, TRUNCATED), "what is there is read")?;
         return Ok(bytes.len());
     }
     if length < HEADER + CHUNK_HEADER {
         let problem = format!("the header says {length} bytes, too few for any content");
-        return Err(format(&problem, "export the file again"));
+        return Err(format_error(&problem, "export the file again"));
     }
     Ok(length)
 }
 
 /// A chunk's type and place.
-type Chunk<'a> = (&'a [u8; 4], Range<usize>);
+type GlbChunk<'a> = (&'a [u8; 4], Range<usize>);
 
-struct Chunks<'a> {
+struct GlbChunks<'a> {
     bytes: &'a [u8],
-    at: usize,
+    offset: usize,
 }
 
-impl<'a> Chunks<'a> {
+impl<'a> GlbChunks<'a> {
     /// The next chunk; `None` at the end.
-    fn next(&mut self, warnings: &mut Warnings) -> Result<Option<Chunk<'a>>, Fault> {
-        let rest = &self.bytes[self.at..];
+    fn next(&mut self, warnings: &mut ImportWarnings) -> Result<Option<GlbChunk<'a>>, Diagnostic> {
+        let rest = &self.bytes[self.offset..];
         if rest.is_empty() {
             return Ok(None);
         }
         let Some((header, data)) = rest.split_first_chunk::<CHUNK_HEADER>() else {
-            warnings.forgive(format("a chunk header is incomplete", TRUNCATED), "it is ignored")?;
+            warnings.downgrade_if_lenient(
+                format_error("a chunk header is incomplete", TRUNCATED),
+                "it is ignored",
+            )?;
             return Ok(None);
         };
-        let (length, kind) = (number(header, 0).unwrap_or(usize::MAX), header.last_chunk());
-        let (start, left) = (self.at + CHUNK_HEADER, data.len());
+        let (length, kind) = (read_u32(header, 0).unwrap_or(usize::MAX), header.last_chunk());
+        let (start, left) = (self.offset + CHUNK_HEADER, data.len());
         if length > left {
             let problem = format!("a chunk says {length} bytes, {left} are left");
-            warnings.forgive(format(&problem, TRUNCATED), "what is there is read")?;
+            warnings
+                .downgrade_if_lenient(format_error(&problem, TRUNCATED), "what is there is read")?;
         }
-        self.at = start + length.min(left);
-        Ok(kind.map(|kind| (kind, start..self.at)))
+        self.offset = start + length.min(left);
+        Ok(kind.map(|kind| (kind, start..self.offset)))
     }
 }
 
-fn number(bytes: &[u8], at: usize) -> Option<usize> {
+fn read_u32(bytes: &[u8], at: usize) -> Option<usize> {
     let number = u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?);
     usize::try_from(number).ok()
 }
 
-fn format(problem: &str, remedy: &str) -> Fault {
-    Fault::new(FaultKind::Format, "", problem.to_owned(), remedy)
+fn format_error(problem: &str, remedy: &str) -> Diagnostic {
+    Diagnostic::new(ImportErrorKind::Format, "", problem.to_owned(), remedy)
 }
 
 #[cfg(test)]
@@ -145,12 +156,13 @@ mod tests {
     }
 
     fn problem(bytes: &[u8]) -> String {
-        Container::find(bytes, &mut Warnings::default()).unwrap_err().problem
+        Container::from_bytes(bytes, &mut ImportWarnings::default()).unwrap_err().message
     }
 
     #[test]
     fn parts_are_found() {
-        let find = |bytes: &[u8]| Container::find(bytes, &mut Warnings::default()).unwrap();
+        let find =
+            |bytes: &[u8]| Container::from_bytes(bytes, &mut ImportWarnings::default()).unwrap();
         assert_eq!(find(b" {}"), Container { json: 0..3, binary: None });
         assert_eq!(find(b"\xEF\xBB\xBF{}"), Container { json: 3..5, binary: None });
         let two = glb(2, 36, &[(b"JSON", 4, b"{}  "), (b"BIN\0", 4, b"1234")]);
@@ -180,7 +192,10 @@ mod tests {
     fn every_truncation_is_an_error_and_no_panic() {
         let whole = glb(2, 36, &[(b"JSON", 4, b"{}  "), (b"BIN\0", 4, b"1234")]);
         for end in 0..whole.len() {
-            assert!(Container::find(&whole[..end], &mut Warnings::default()).is_err(), "{end}");
+            assert!(
+                Container::from_bytes(&whole[..end], &mut ImportWarnings::default()).is_err(),
+                "{end}"
+            );
         }
     }
 }

@@ -4,48 +4,51 @@
 //! result is trusted: counts are checked against the accessors, indices against the vertices. The accessors have no
 //! bytes of their own then; [`Decoded`] has them.
 
-use super::accessor::Source;
-use super::elements::{Elements, Run};
-use super::error::Fault;
+use super::accessor::AccessorReader;
+use super::elements::{ResolvedAccessor, StridedBytes};
+use super::error::Diagnostic;
 use gltf::json::mesh::Primitive;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
 /// The name of the extension.
-const NAME: &str = "KHR_draco_mesh_compression";
+const EXTENSION: &str = "KHR_draco_mesh_compression";
 
 /// What a stream had in it.
 #[derive(Debug, Default)]
-pub(super) struct Decoded {
+pub(super) struct DracoData {
     /// The vertices of triangles.
     pub(super) indices: Vec<u32>,
     /// For each accessor that the stream has data for its elements, tightly packed.
     attributes: BTreeMap<usize, Vec<u8>>,
 }
 
-impl Decoded {
+impl DracoData {
     /// Gives an accessor the bytes that the stream had for it.
-    pub(super) fn lend<'a>(&'a self, elements: Elements<'a>) -> Elements<'a> {
+    pub(super) fn attach_data<'a>(
+        &'a self,
+        elements: ResolvedAccessor<'a>,
+    ) -> ResolvedAccessor<'a> {
         let Some(bytes) = self.attributes.get(&elements.accessor) else { return elements };
-        let stride = elements.shape.multiplicity() * elements.component.size();
-        Elements { run: Some(Run { bytes, stride }), ..elements }
+        let stride = elements.element_type.multiplicity() * elements.component_type.size();
+        ResolvedAccessor { data: Some(StridedBytes { bytes, stride }), ..elements }
     }
 
     /// Whether the stream had data for an accessor.
-    pub(super) fn has(&self, accessor: usize) -> bool {
+    pub(super) fn has_accessor(&self, accessor: usize) -> bool {
         self.attributes.contains_key(&accessor)
     }
 }
 
 /// What a primitive says of its compression, if it is compressed.
-fn extension(json: &Primitive) -> Option<&Value> {
-    json.extensions.as_ref()?.others.get(NAME)
+fn draco_extension(json: &Primitive) -> Option<&Value> {
+    json.extensions.as_ref()?.others.get(EXTENSION)
 }
 
 /// A stream and what is due to be in it.
 #[cfg_attr(not(feature = "draco"), allow(dead_code, reason = "only the decoder reads the fields"))]
-struct Stream<'a> {
-    source: &'a Source<'a>,
+struct DracoStream<'a> {
+    source: &'a AccessorReader<'a>,
     bytes: &'a [u8],
     /// For each accessor of the primitive the stream's own number of the attribute.
     attributes: Vec<(usize, u32)>,
@@ -57,33 +60,36 @@ struct Stream<'a> {
 }
 
 /// Decodes the stream of a primitive, its tangents only if they are wanted; `pointer` is where the primitive is.
-pub(super) fn decode(
-    source: &Source<'_>,
+pub(super) fn decode_draco(
+    source: &AccessorReader<'_>,
     json: &Primitive,
     tangents: bool,
     pointer: &str,
-) -> Result<Option<Decoded>, Fault> {
-    let Some(extension) = extension(json) else { return Ok(None) };
-    let pointer = format!("{pointer}/extensions/{NAME}");
+) -> Result<Option<DracoData>, Diagnostic> {
+    let Some(extension) = draco_extension(json) else { return Ok(None) };
+    let pointer = format!("{pointer}/extensions/{EXTENSION}");
     let view = extension.get("bufferView").and_then(Value::as_u64);
     let ids = extension.get("attributes").and_then(Value::as_object);
     let (Some(view), Some(ids)) = (view, ids) else {
-        return Err(Fault::invalid(&pointer, "the members `bufferView` and `attributes` are due"));
+        return Err(Diagnostic::invalid(
+            &pointer,
+            "the members `bufferView` and `attributes` are due",
+        ));
     };
     let view = usize::try_from(view).unwrap_or(usize::MAX);
-    let bytes = source.buffers.view(view, &format!("{pointer}/bufferView"))?.bytes;
-    let attributes = attributes(json, ids, tangents, &pointer)?;
+    let bytes = source.buffers.buffer_view(view, &format!("{pointer}/bufferView"))?.bytes;
+    let attributes = stream_attributes(json, ids, tangents, &pointer)?;
     let mut vertices = None;
     for &(accessor, _) in &attributes {
-        let count = source.elements(accessor, &pointer)?.count;
+        let count = source.resolve_accessor(accessor, &pointer)?.count;
         if *vertices.get_or_insert(count) != count {
             let problem = "the attributes of a primitive must have equally many elements";
-            return Err(Fault::invalid(&format!("/accessors/{accessor}/count"), problem));
+            return Err(Diagnostic::invalid(&format!("/accessors/{accessor}/count"), problem));
         }
     }
     let indices = json.indices.map(|accessor| accessor.value());
-    let indices = indices.map(|at| source.elements(at, &pointer).map(|e| (at, e.count)));
-    let stream = Stream {
+    let indices = indices.map(|at| source.resolve_accessor(at, &pointer).map(|e| (at, e.count)));
+    let stream = DracoStream {
         source,
         bytes,
         attributes,
@@ -91,16 +97,16 @@ pub(super) fn decode(
         indices: indices.transpose()?,
         pointer,
     };
-    stream.decode().map(Some)
+    stream.decode_mesh().map(Some)
 }
 
 /// The attributes that are read, each by its accessor and its number in the stream.
-fn attributes(
+fn stream_attributes(
     json: &Primitive,
     ids: &Map<String, Value>,
     tangents: bool,
     pointer: &str,
-) -> Result<Vec<(usize, u32)>, Fault> {
+) -> Result<Vec<(usize, u32)>, Diagnostic> {
     use gltf::json::mesh::Semantic::{Extras, Tangents};
     use gltf::json::validation::Checked::Valid;
     let mut attributes = Vec::new();
@@ -113,7 +119,7 @@ fn attributes(
         let name = semantic.to_string();
         let Some(id) = ids.get(&name) else { continue };
         let id = id.as_u64().and_then(|id| u32::try_from(id).ok()).ok_or_else(|| {
-            Fault::invalid(&format!("{pointer}/attributes/{name}"), "an integer is due")
+            Diagnostic::invalid(&format!("{pointer}/attributes/{name}"), "an integer is due")
         })?;
         attributes.push((accessor.value(), id));
     }
@@ -121,25 +127,25 @@ fn attributes(
 }
 
 #[cfg(not(feature = "draco"))]
-impl Stream<'_> {
-    fn decode(self) -> Result<Decoded, Fault> {
-        Err(Fault::no_data(&self.pointer, "the data is compressed by Draco"))
+impl DracoStream<'_> {
+    fn decode(self) -> Result<DracoData, Diagnostic> {
+        Err(Diagnostic::no_data(&self.pointer, "the data is compressed by Draco"))
     }
 }
 
 #[cfg(feature = "draco")]
-mod stream {
-    use super::{Decoded, Fault, Stream};
+mod decoder {
+    use super::{Diagnostic, DracoData, DracoStream};
     use draco_core::{
         DataType, DecodeLimits, DecoderBuffer, Mesh, MeshDecoder, PointAttribute, PointIndex,
     };
     use gltf::json::accessor::ComponentType;
     use std::collections::BTreeMap;
 
-    impl Stream<'_> {
-        pub(super) fn decode(self) -> Result<Decoded, Fault> {
+    impl DracoStream<'_> {
+        pub(super) fn decode_mesh(self) -> Result<DracoData, Diagnostic> {
             for &(accessor, _) in &self.attributes {
-                self.source.charge(accessor, self.vertices, 16)?;
+                self.source.charge_array(accessor, self.vertices, 16)?;
             }
             let faces = self.indices.map(|(_, count)| count as u64 / 3);
             let mut mesh = Mesh::new();
@@ -150,39 +156,44 @@ mod stream {
             let mut buffer = DecoderBuffer::new(self.bytes).with_limits(limits);
             MeshDecoder::new().decode(&mut buffer, &mut mesh).map_err(|error| {
                 let problem = format!("the Draco stream is not valid: {}", error.message());
-                Fault::invalid(&self.pointer, problem)
+                Diagnostic::invalid(&self.pointer, problem)
             })?;
             if mesh.num_points() != self.vertices {
                 let (found, said) = (mesh.num_points(), self.vertices);
                 let problem = format!("the stream has {found} vertices and the accessors {said}");
-                return Err(Fault::invalid(&self.pointer, problem));
+                return Err(Diagnostic::invalid(&self.pointer, problem));
             }
-            let indices = self.indices(&mesh)?;
+            let indices = self.decode_indices(&mesh)?;
             let mut attributes = BTreeMap::new();
             for &(accessor, id) in &self.attributes {
-                attributes.insert(accessor, self.attribute(&mesh, accessor, id)?);
+                attributes.insert(accessor, self.decode_attribute(&mesh, accessor, id)?);
             }
-            Ok(Decoded { indices, attributes })
+            Ok(DracoData { indices, attributes })
         }
 
-        fn indices(&self, mesh: &Mesh) -> Result<Vec<u32>, Fault> {
+        fn decode_indices(&self, mesh: &Mesh) -> Result<Vec<u32>, Diagnostic> {
             let found = 3 * mesh.num_faces();
             if let Some((accessor, count)) = self.indices
                 && found != count
             {
                 let problem = format!("there are {count} indices and {found} in the Draco stream");
-                return Err(Fault::invalid(&format!("/accessors/{accessor}/count"), problem));
+                return Err(Diagnostic::invalid(&format!("/accessors/{accessor}/count"), problem));
             }
             let accessor = self.indices.map_or(0, |(accessor, _)| accessor);
-            self.source.charge(accessor, found, 4)?;
+            self.source.charge_array(accessor, found, 4)?;
             Ok(mesh.faces().iter().flatten().map(|&PointIndex(index)| index).collect())
         }
 
         /// The elements of an attribute in the format of its accessor.
-        fn attribute(&self, mesh: &Mesh, accessor: usize, id: u32) -> Result<Vec<u8>, Fault> {
-            let elements = self.source.elements(accessor, &self.pointer)?;
-            let (shape, component) = (elements.shape, elements.component);
-            let invalid = |problem: String| Err(Fault::invalid(&self.pointer, problem));
+        fn decode_attribute(
+            &self,
+            mesh: &Mesh,
+            accessor: usize,
+            id: u32,
+        ) -> Result<Vec<u8>, Diagnostic> {
+            let elements = self.source.resolve_accessor(accessor, &self.pointer)?;
+            let (shape, component) = (elements.element_type, elements.component_type);
+            let invalid = |problem: String| Err(Diagnostic::invalid(&self.pointer, problem));
             let Some(attribute) = mesh.attribute_by_unique_id(id) else {
                 return invalid(format!("the stream has no attribute {id}"));
             };
@@ -192,8 +203,10 @@ mod stream {
             }
             let mut bytes = Vec::with_capacity(self.vertices * due * component.size());
             for vertex in 0..self.vertices {
-                match value(attribute, vertex) {
-                    Some(value) => append(&mut bytes, value, attribute.data_type(), component),
+                match attribute_value(attribute, vertex) {
+                    Some(value) => {
+                        append_converted(&mut bytes, value, attribute.data_type(), component)
+                    }
                     None => return invalid(format!("attribute {id} lacks vertex {vertex}")),
                 }
             }
@@ -202,7 +215,7 @@ mod stream {
     }
 
     /// The bytes of an attribute of a vertex.
-    fn value(attribute: &PointAttribute, vertex: usize) -> Option<&[u8]> {
+    fn attribute_value(attribute: &PointAttribute, vertex: usize) -> Option<&[u8]> {
         let vertex = PointIndex(u32::try_from(vertex).ok()?);
         let at = attribute.mapped_index(vertex).0 as usize;
         let size = usize::from(attribute.num_components()) * attribute.data_type().byte_length();
@@ -211,7 +224,7 @@ mod stream {
     }
 
     /// Appends the numbers of a value in the type of the accessor, which nearly always is the type they have.
-    fn append(bytes: &mut Vec<u8>, value: &[u8], from: DataType, to: ComponentType) {
+    fn append_converted(bytes: &mut Vec<u8>, value: &[u8], from: DataType, to: ComponentType) {
         let same = match to {
             ComponentType::I8 => from == DataType::Int8,
             ComponentType::U8 => from == DataType::Uint8,
@@ -225,7 +238,7 @@ mod stream {
             return;
         }
         for word in value.chunks_exact(from.byte_length().max(1)) {
-            let number = number(word, from);
+            let number = read_number(word, from);
             match to {
                 ComponentType::I8 => bytes.extend((number as i8).to_le_bytes()),
                 ComponentType::U8 => bytes.extend((number as u8).to_le_bytes()),
@@ -237,7 +250,7 @@ mod stream {
         }
     }
 
-    fn number(word: &[u8], kind: DataType) -> f64 {
+    fn read_number(word: &[u8], kind: DataType) -> f64 {
         let mut bytes = [0; 8];
         for (to, &from) in bytes.iter_mut().zip(word) {
             *to = from;
@@ -270,7 +283,7 @@ mod stream {
             ];
             for (value, from, to, expected) in cases {
                 let mut bytes = Vec::new();
-                append(&mut bytes, value, from, to);
+                append_converted(&mut bytes, value, from, to);
                 assert_eq!(bytes, expected, "{from:?} as {to:?}");
             }
         }

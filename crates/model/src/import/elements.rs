@@ -8,42 +8,42 @@ use std::ops::Range;
 
 /// The elements of one accessor, or some of them, whose bytes are known to be there.
 #[derive(Debug)]
-pub(super) struct Elements<'a> {
+pub(super) struct ResolvedAccessor<'a> {
     /// The accessor's number.
     pub(super) accessor: usize,
     /// The elements' bytes; `None` for zeros.
-    pub(super) run: Option<Run<'a>>,
+    pub(super) data: Option<StridedBytes<'a>>,
     /// What replaces some of them.
-    pub(super) sparse: Option<Sparse<'a>>,
+    pub(super) sparse: Option<SparseElements<'a>>,
     /// The first element that is read.
     pub(super) first: usize,
     /// How many are read.
     pub(super) count: usize,
-    pub(super) component: ComponentType,
-    pub(super) shape: Type,
+    pub(super) component_type: ComponentType,
+    pub(super) element_type: Type,
     pub(super) normalized: bool,
 }
 
 /// A run of elements in bytes: every element has at least its size, and only the last one may have less than the
 /// stride.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Run<'a> {
+pub(super) struct StridedBytes<'a> {
     pub(super) bytes: &'a [u8],
     pub(super) stride: usize,
 }
 
 /// Elements that replace others.
 #[derive(Debug)]
-pub(super) struct Sparse<'a> {
+pub(super) struct SparseElements<'a> {
     /// Which elements, each below the number of elements.
     pub(super) indices: Vec<u32>,
     /// Their new values.
-    pub(super) values: Run<'a>,
+    pub(super) values: StridedBytes<'a>,
 }
 
-impl Elements<'_> {
+impl ResolvedAccessor<'_> {
     /// Only the elements of a range; what of it is not there is left out.
-    pub(super) fn only(mut self, range: Range<usize>) -> Self {
+    pub(super) fn slice_range(mut self, range: Range<usize>) -> Self {
         let end = range.end.min(self.count);
         self.first += range.start.min(end);
         self.count = end.saturating_sub(range.start);
@@ -52,48 +52,48 @@ impl Elements<'_> {
 
     /// The first `N` components of every element as floats. Normalised integers become numbers in [0, 1] or [−1, 1]
     /// (glTF 2.0 §3.11), other integers keep their value.
-    pub(super) fn floats<const N: usize>(&self) -> Vec<[f32; N]> {
+    pub(super) fn to_floats<const N: usize>(&self) -> Vec<[f32; N]> {
         use ComponentType::{F32, I8, I16, U8, U16, U32};
-        match (self.component, self.normalized) {
-            (F32, _) => self.read(|x: f32| x),
-            (I8, true) => self.read(|x: i8| (f32::from(x) / 127.0).max(-1.0)),
-            (U8, true) => self.read(|x: u8| f32::from(x) / 255.0),
-            (I16, true) => self.read(|x: i16| (f32::from(x) / 32_767.0).max(-1.0)),
-            (U16, true) => self.read(|x: u16| f32::from(x) / 65_535.0),
-            (I8, false) => self.read(|x: i8| f32::from(x)),
-            (U8, false) => self.read(|x: u8| f32::from(x)),
-            (I16, false) => self.read(|x: i16| f32::from(x)),
-            (U16, false) => self.read(|x: u16| f32::from(x)),
-            (U32, _) => self.read(|x: u32| x as f32),
+        match (self.component_type, self.normalized) {
+            (F32, _) => self.convert_components(|x: f32| x),
+            (I8, true) => self.convert_components(|x: i8| (f32::from(x) / 127.0).max(-1.0)),
+            (U8, true) => self.convert_components(|x: u8| f32::from(x) / 255.0),
+            (I16, true) => self.convert_components(|x: i16| (f32::from(x) / 32_767.0).max(-1.0)),
+            (U16, true) => self.convert_components(|x: u16| f32::from(x) / 65_535.0),
+            (I8, false) => self.convert_components(|x: i8| f32::from(x)),
+            (U8, false) => self.convert_components(|x: u8| f32::from(x)),
+            (I16, false) => self.convert_components(|x: i16| f32::from(x)),
+            (U16, false) => self.convert_components(|x: u16| f32::from(x)),
+            (U32, _) => self.convert_components(|x: u32| x as f32),
         }
     }
 
     /// The first `N` components of every element, of unsigned bytes or shorts; others saturate.
-    pub(super) fn shorts<const N: usize>(&self) -> Vec<[u16; N]> {
-        match self.component {
-            ComponentType::U8 => self.read(|x: u8| u16::from(x)),
-            ComponentType::U16 => self.read(|x: u16| x),
-            _ => self.floats::<N>().into_iter().map(|v| v.map(|x| x as u16)).collect(),
+    pub(super) fn to_u16s<const N: usize>(&self) -> Vec<[u16; N]> {
+        match self.component_type {
+            ComponentType::U8 => self.convert_components(|x: u8| u16::from(x)),
+            ComponentType::U16 => self.convert_components(|x: u16| x),
+            _ => self.to_floats::<N>().into_iter().map(|v| v.map(|x| x as u16)).collect(),
         }
     }
 
     /// The elements as indices. They must be unsigned; others saturate.
-    pub(super) fn indices(&self) -> Vec<u32> {
-        let words: Vec<[u32; 1]> = match self.component {
-            ComponentType::U8 => self.read(|x: u8| u32::from(x)),
-            ComponentType::U16 => self.read(|x: u16| u32::from(x)),
-            ComponentType::U32 => self.read(|x: u32| x),
-            _ => self.floats::<1>().into_iter().map(|v| v.map(|x| x as u32)).collect(),
+    pub(super) fn to_indices(&self) -> Vec<u32> {
+        let words: Vec<[u32; 1]> = match self.component_type {
+            ComponentType::U8 => self.convert_components(|x: u8| u32::from(x)),
+            ComponentType::U16 => self.convert_components(|x: u16| u32::from(x)),
+            ComponentType::U32 => self.convert_components(|x: u32| x),
+            _ => self.to_floats::<1>().into_iter().map(|v| v.map(|x| x as u32)).collect(),
         };
         words.into_flattened()
     }
 
-    fn read<const N: usize, C: Component, T: Copy + Default>(
+    fn convert_components<const N: usize, C: Component, T: Copy + Default>(
         &self,
         convert: impl Fn(C) -> T,
     ) -> Vec<[T; N]> {
         let mut elements = vec![[T::default(); N]; self.count];
-        if let Some(Run { bytes, stride }) = self.run {
+        if let Some(StridedBytes { bytes, stride }) = self.data {
             let bytes = bytes.get(self.first * stride..).unwrap_or(&[]);
             if stride == N * size_of::<C>() {
                 for (to, word) in elements.as_flattened_mut().iter_mut().zip(C::words(bytes)) {
@@ -101,15 +101,15 @@ impl Elements<'_> {
                 }
             } else {
                 for (to, from) in elements.iter_mut().zip(bytes.chunks(stride)) {
-                    copy(to, from, &convert);
+                    convert_element(to, from, &convert);
                 }
             }
         }
-        if let Some(Sparse { indices, values }) = &self.sparse {
+        if let Some(SparseElements { indices, values }) = &self.sparse {
             for (&index, from) in indices.iter().zip(values.bytes.chunks(values.stride)) {
                 let place = (index as usize).checked_sub(self.first);
                 if let Some(to) = place.and_then(|place| elements.get_mut(place)) {
-                    copy(to, from, &convert);
+                    convert_element(to, from, &convert);
                 }
             }
         }
@@ -117,7 +117,11 @@ impl Elements<'_> {
     }
 }
 
-fn copy<const N: usize, C: Component, T>(to: &mut [T; N], from: &[u8], convert: impl Fn(C) -> T) {
+fn convert_element<const N: usize, C: Component, T>(
+    to: &mut [T; N],
+    from: &[u8],
+    convert: impl Fn(C) -> T,
+) {
     for (to, word) in to.iter_mut().zip(C::words(from)) {
         *to = convert(C::read(word));
     }
@@ -153,16 +157,25 @@ component!(i8 u8 i16 u16 u32 f32);
 mod tests {
     use super::*;
 
-    fn elements(
+    fn accessor_over_bytes(
         bytes: &[u8],
         stride: usize,
         count: usize,
         component: ComponentType,
         normalized: bool,
-    ) -> Elements<'_> {
-        let run = Some(Run { bytes, stride });
+    ) -> ResolvedAccessor<'_> {
+        let run = Some(StridedBytes { bytes, stride });
         let shape = Type::Vec2;
-        Elements { accessor: 0, run, sparse: None, first: 0, count, component, shape, normalized }
+        ResolvedAccessor {
+            accessor: 0,
+            data: run,
+            sparse: None,
+            first: 0,
+            count,
+            component_type: component,
+            element_type: shape,
+            normalized,
+        }
     }
 
     #[test]
@@ -182,22 +195,26 @@ mod tests {
             (F32, false, &[0, 0, 0x80, 0x3F, 0, 0, 0, 0xC0], [1.0, -2.0]),
         ];
         for (component, normalized, bytes, values) in table {
-            let tight = elements(bytes, bytes.len(), 1, component, normalized);
-            assert_eq!(tight.floats::<2>(), [values], "{component:?} {normalized}");
+            let tight = accessor_over_bytes(bytes, bytes.len(), 1, component, normalized);
+            assert_eq!(tight.to_floats::<2>(), [values], "{component:?} {normalized}");
             let spread = [bytes, &[9; 4], bytes].concat();
-            let spread = elements(&spread, bytes.len() + 4, 2, component, normalized);
-            assert_eq!(spread.floats::<2>(), [values; 2], "{component:?} {normalized}, with gaps");
+            let spread = accessor_over_bytes(&spread, bytes.len() + 4, 2, component, normalized);
+            assert_eq!(
+                spread.to_floats::<2>(),
+                [values; 2],
+                "{component:?} {normalized}, with gaps"
+            );
         }
     }
 
     #[test]
     fn ranges_and_replaced_elements() {
         let bytes: Vec<u8> = (0..10).collect();
-        let values = Run { bytes: &[50, 51, 0, 60, 61], stride: 3 };
+        let values = StridedBytes { bytes: &[50, 51, 0, 60, 61], stride: 3 };
         let all = |range: Range<usize>| {
-            let mut all = elements(&bytes, 2, 5, ComponentType::U8, false);
-            all.sparse = Some(Sparse { indices: vec![1, 4], values });
-            all.only(range).shorts::<2>()
+            let mut all = accessor_over_bytes(&bytes, 2, 5, ComponentType::U8, false);
+            all.sparse = Some(SparseElements { indices: vec![1, 4], values });
+            all.slice_range(range).to_u16s::<2>()
         };
         assert_eq!(all(0..5), [[0, 1], [50, 51], [4, 5], [6, 7], [60, 61]]);
         assert_eq!(all(1..3), [[50, 51], [4, 5]]);
@@ -207,9 +224,9 @@ mod tests {
 
     #[test]
     fn without_bytes_there_are_zeros() {
-        let mut zeros = elements(&[], 1, 3, ComponentType::U16, false);
-        zeros.run = None;
-        assert_eq!(zeros.indices(), [0; 3]);
-        assert_eq!(zeros.only(1..3).floats::<3>(), [[0.0; 3]; 2]);
+        let mut zeros = accessor_over_bytes(&[], 1, 3, ComponentType::U16, false);
+        zeros.data = None;
+        assert_eq!(zeros.to_indices(), [0; 3]);
+        assert_eq!(zeros.slice_range(1..3).to_floats::<3>(), [[0.0; 3]; 2]);
     }
 }

@@ -1,12 +1,12 @@
 //! What is done about each extension.
 
-use super::error::{Fault, FaultKind};
-use super::warnings::Warnings;
+use super::error::{Diagnostic, ImportErrorKind};
+use super::warnings::ImportWarnings;
 use gltf::json::Root;
 use std::collections::BTreeSet;
 
 /// What an extension means to us.
-enum Support {
+enum ExtensionSupport {
     /// It is read.
     Full,
     /// It changes nothing that is drawn.
@@ -19,18 +19,18 @@ enum Support {
     None(&'static str),
 }
 
-use Support::{Full, Harmless, None as Never, Partly, Without};
+use ExtensionSupport::{Full, Harmless, None as Never, Partly, Without};
 
 /// Draco is a feature of this crate that can be left out.
-const DRACO: Support =
+const DRACO_SUPPORT: ExtensionSupport =
     if cfg!(feature = "draco") { Full } else { Never("data compressed by Draco is not read") };
 
 /// Basis Universal is a feature that can be switched on.
-const BASIS: Support =
+const BASISU_SUPPORT: ExtensionSupport =
     if cfg!(feature = "basisu") { Full } else { Never("KTX2 images are not read") };
 
 /// All extensions that are known, by name.
-const KNOWN: [(&str, Support); 36] = [
+const KNOWN_EXTENSIONS: [(&str, ExtensionSupport); 36] = [
     ("CESIUM_primitive_outline", Partly("the outlines are drawn in line drawings alone")),
     ("EXT_mesh_features", Harmless),
     ("EXT_mesh_gpu_instancing", Full),
@@ -40,7 +40,7 @@ const KNOWN: [(&str, Support); 36] = [
     ("EXT_structural_metadata", Harmless),
     ("EXT_texture_webp", Full),
     ("KHR_animation_pointer", Full),
-    ("KHR_draco_mesh_compression", DRACO),
+    ("KHR_draco_mesh_compression", DRACO_SUPPORT),
     ("KHR_lights_punctual", Full),
     ("KHR_materials_anisotropy", Full),
     ("KHR_materials_clearcoat", Full),
@@ -62,7 +62,7 @@ const KNOWN: [(&str, Support); 36] = [
     ("KHR_mesh_quantization", Full),
     ("KHR_meshopt_compression", Full),
     ("KHR_node_visibility", Without("hidden nodes are shown")),
-    ("KHR_texture_basisu", BASIS),
+    ("KHR_texture_basisu", BASISU_SUPPORT),
     ("KHR_texture_transform", Full),
     ("KHR_xmp", Harmless),
     ("KHR_xmp_json_ld", Harmless),
@@ -73,20 +73,23 @@ const KNOWN: [(&str, Support); 36] = [
 ];
 
 /// Refuses a file that requires what we lack, unless it is to be read leniently, and warns of what will not be seen.
-pub(super) fn check(root: &Root, warnings: &mut Warnings) -> Result<(), Fault> {
+pub(super) fn check_extensions(
+    root: &Root,
+    warnings: &mut ImportWarnings,
+) -> Result<(), Diagnostic> {
     for (at, name) in root.extensions_required.iter().enumerate() {
-        let reason = match support(name) {
+        let reason = match find_support(name) {
             Some(Never(reason)) => *reason,
             Some(_) => continue,
             None => "it is not known here",
         };
-        let fault = Fault::new(
-            FaultKind::Extension,
+        let fault = Diagnostic::new(
+            ImportErrorKind::Extension,
             &format!("/extensionsRequired/{at}"),
             format!("the file requires the extension {name}: {reason}"),
             "export the file without it, or load what can be loaded with --lenient",
         );
-        warnings.forgive(fault, "it is ignored")?;
+        warnings.downgrade_if_lenient(fault, "it is ignored")?;
     }
     let mut told = BTreeSet::new();
     for (list, names) in [
@@ -95,9 +98,9 @@ pub(super) fn check(root: &Root, warnings: &mut Warnings) -> Result<(), Fault> {
     ] {
         for (at, name) in names.iter().enumerate() {
             if let (Some(Partly(reason) | Without(reason) | Never(reason)), true) =
-                (support(name), told.insert(name))
+                (find_support(name), told.insert(name))
             {
-                warnings.add(&format!("/{list}/{at}"), format!("{name}: {reason}"));
+                warnings.push_warning(&format!("/{list}/{at}"), format!("{name}: {reason}"));
             }
         }
     }
@@ -124,7 +127,7 @@ pub enum ExtensionUse {
 /// What becomes of the extension with this name.
 #[must_use]
 pub fn extension_use(name: &str) -> ExtensionUse {
-    match support(name) {
+    match find_support(name) {
         Some(Full) => ExtensionUse::Drawn,
         Some(Harmless) => ExtensionUse::Harmless,
         Some(Partly(how)) => ExtensionUse::Partly(how),
@@ -134,8 +137,8 @@ pub fn extension_use(name: &str) -> ExtensionUse {
     }
 }
 
-fn support(name: &str) -> Option<&'static Support> {
-    KNOWN.iter().find(|known| known.0 == name).map(|known| &known.1)
+fn find_support(name: &str) -> Option<&'static ExtensionSupport> {
+    KNOWN_EXTENSIONS.iter().find(|known| known.0 == name).map(|known| &known.1)
 }
 
 #[cfg(test)]
@@ -144,6 +147,6 @@ mod tests {
 
     #[test]
     fn the_table_is_sorted_and_without_doubles() {
-        assert!(KNOWN.windows(2).all(|pair| pair[0].0 < pair[1].0));
+        assert!(KNOWN_EXTENSIONS.windows(2).all(|pair| pair[0].0 < pair[1].0));
     }
 }

@@ -10,15 +10,19 @@
 ///
 /// Whatever looks like a frame header is looked at, wherever it stands: entropy-coded data cannot hold the marker, and
 /// where the decoder finds its header in a broken file is its own affair.
-pub(super) fn check_sampling(file: &[u8]) -> Result<(), String> {
-    let headers = file.windows(2).enumerate().filter(|(_, mark)| is_frame(mark));
+pub(super) fn check_chroma_sampling(file: &[u8]) -> Result<(), String> {
+    let headers = file.windows(2).enumerate().filter(|(_, mark)| is_frame_marker(mark));
     for (at, _) in headers {
-        let Some((first, later)) = samplings(&file[at + 2..]).and_then(|all| all.split_first())
+        let Some((first, later)) =
+            component_samplings(&file[at + 2..]).and_then(|all| all.split_first())
         else {
             continue;
         };
-        let [across, down] = nibbles(first[1]);
-        if later.iter().map(|component| nibbles(component[1])).any(|[h, v]| h > across || v > down)
+        let [across, down] = split_nibbles(first[1]);
+        if later
+            .iter()
+            .map(|component| split_nibbles(component[1]))
+            .any(|[h, v]| h > across || v > down)
         {
             return Err("the JPEG has more samples of its colour than of its brightness; \
                         save it with the usual sampling (4:4:4, 4:2:2 or 4:2:0)"
@@ -28,19 +32,19 @@ pub(super) fn check_sampling(file: &[u8]) -> Result<(), String> {
     Ok(())
 }
 
-fn is_frame(mark: &[u8]) -> bool {
+fn is_frame_marker(mark: &[u8]) -> bool {
     matches!(mark, [0xFF, 0xC0..=0xC2])
 }
 
 /// The components of a frame header whose length agrees with their number.
-fn samplings(header: &[u8]) -> Option<&[[u8; 3]]> {
+fn component_samplings(header: &[u8]) -> Option<&[[u8; 3]]> {
     let &[high, low, _, _, _, _, _, count] = header.first_chunk()?;
     let length = usize::from(u16::from_be_bytes([high, low]));
     let components = header.get(8..length)?.as_chunks().0;
     (length == 8 + 3 * usize::from(count)).then_some(components)
 }
 
-fn nibbles(byte: u8) -> [u8; 2] {
+fn split_nibbles(byte: u8) -> [u8; 2] {
     [byte >> 4, byte & 15]
 }
 
@@ -48,7 +52,7 @@ fn nibbles(byte: u8) -> [u8; 2] {
 mod tests {
     use super::*;
 
-    fn header(samplings: &[u8]) -> Vec<u8> {
+    fn frame_header(samplings: &[u8]) -> Vec<u8> {
         let count = samplings.len() as u8;
         let mut bytes = vec![0xFF, 0xD8, 0xFF, 0xC2, 0, 8 + 3 * count, 8, 0, 16, 0, 16, count];
         (1..).zip(samplings).for_each(|(name, &sampling)| bytes.extend([name, sampling, 0]));
@@ -58,22 +62,25 @@ mod tests {
     #[test]
     fn the_first_component_must_be_the_finest_in_both_directions() {
         for usual in [&[0x11][..], &[0x11; 3], &[0x22, 0x11, 0x11], &[0x21, 0x11, 0x11]] {
-            assert_eq!(check_sampling(&header(usual)), Ok(()), "{usual:x?}");
+            assert_eq!(check_chroma_sampling(&frame_header(usual)), Ok(()), "{usual:x?}");
         }
         for odd in [[0x11, 0x11, 0x22], [0x21, 0x12, 0x11], [0x12, 0x11, 0x21]] {
-            assert!(check_sampling(&header(&odd)).is_err(), "{odd:x?}");
+            assert!(check_chroma_sampling(&frame_header(&odd)).is_err(), "{odd:x?}");
         }
     }
 
     #[test]
     fn headers_cut_off_or_of_another_length_say_nothing() {
-        let whole = header(&[0x11, 0x11, 0x22]);
+        let whole = frame_header(&[0x11, 0x11, 0x22]);
         for end in 0..whole.len() {
-            assert_eq!(check_sampling(&whole[..end]), Ok(()), "cut at {end}");
+            assert_eq!(check_chroma_sampling(&whole[..end]), Ok(()), "cut at {end}");
         }
         let mut longer = whole.clone();
         longer[5] += 1;
-        assert_eq!(check_sampling(&longer), Ok(()));
-        assert!(check_sampling(&[longer, whole].concat()).is_err(), "the second one counts too");
+        assert_eq!(check_chroma_sampling(&longer), Ok(()));
+        assert!(
+            check_chroma_sampling(&[longer, whole].concat()).is_err(),
+            "the second one counts too"
+        );
     }
 }

@@ -10,22 +10,22 @@
 //! lengths of its own: how long the result is, the JSON says, and a stream that ends earlier or later is invalid. Both
 //! names accept both versions of the streams and all filters.
 
-mod attributes;
-mod filters;
-mod indices;
-mod stream;
+mod byte_stream;
+mod index_codec;
+mod index_sequence_codec;
 #[cfg(test)]
 mod tests;
-mod triangles;
+mod vertex_codec;
+mod vertex_filters;
 
-use super::error::Fault;
+use super::error::Diagnostic;
+use byte_stream::StreamError;
 use gltf::json::buffer::View;
 use serde_json::{Map, Value};
-use stream::StreamError;
 
 /// What an extension says of a compressed view.
 #[derive(Debug)]
-pub(super) struct Packed {
+pub(super) struct CompressedView {
     /// Where it says so.
     pub(super) pointer: String,
     /// The buffer with the stream.
@@ -36,20 +36,20 @@ pub(super) struct Packed {
     pub(super) length: u64,
     count: usize,
     stride: usize,
-    mode: Mode,
+    mode: CompressionMode,
 }
 
 /// How a stream is to be read, and what is done to its elements then.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Mode {
-    Attributes(Filter),
+enum CompressionMode {
+    Attributes(MeshoptFilter),
     Triangles,
     Indices,
 }
 
 /// What is done to each element of a stream of attributes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Filter {
+enum MeshoptFilter {
     None,
     Octahedral,
     Quaternion,
@@ -57,113 +57,115 @@ enum Filter {
     Color,
 }
 
-impl Packed {
+impl CompressedView {
     /// What a view says of its compression, if it is compressed; `view` is the pointer to it.
-    pub(super) fn of(json: &View, view: &str) -> Result<Option<Self>, Fault> {
+    pub(super) fn from_view(json: &View, view: &str) -> Result<Option<Self>, Diagnostic> {
         let Some(extensions) = &json.extensions else { return Ok(None) };
         let named = |name: &'static str| extensions.others.get(name).map(|value| (name, value));
         let found = named("KHR_meshopt_compression").or_else(|| named("EXT_meshopt_compression"));
         let Some((name, value)) = found else { return Ok(None) };
         let pointer = format!("{view}/extensions/{name}");
         let members = value.as_object();
-        let members = members.ok_or_else(|| Fault::invalid(&pointer, "an object is due"))?;
-        let packed = Self::read(members, pointer)?;
-        if packed.unpacked_length() == json.byte_length.0 {
+        let members = members.ok_or_else(|| Diagnostic::invalid(&pointer, "an object is due"))?;
+        let packed = Self::from_members(members, pointer)?;
+        if packed.decompressed_length() == json.byte_length.0 {
             return Ok(Some(packed));
         }
         let Self { count, stride, .. } = packed;
         let length = json.byte_length.0;
         let problem =
             format!("{count} elements of {stride} bytes are compressed, not {length} bytes");
-        Err(Fault::invalid(&format!("{view}/byteLength"), problem))
+        Err(Diagnostic::invalid(&format!("{view}/byteLength"), problem))
     }
 
-    fn read(members: &Map<String, Value>, pointer: String) -> Result<Self, Fault> {
+    fn from_members(members: &Map<String, Value>, pointer: String) -> Result<Self, Diagnostic> {
         let number = |key: &str| {
             let number = members.get(key).and_then(Value::as_u64);
-            let due = || Fault::invalid(&format!("{pointer}/{key}"), "an integer is due");
+            let due = || Diagnostic::invalid(&format!("{pointer}/{key}"), "an integer is due");
             number.ok_or_else(due)
         };
         let size = |key: &str| Ok(usize::try_from(number(key)?).unwrap_or(usize::MAX));
         let offset = if members.contains_key("byteOffset") { number("byteOffset")? } else { 0 };
         let (buffer, length) = (size("buffer")?, number("byteLength")?);
         let (count, stride) = (size("count")?, size("byteStride")?);
-        let mode = Mode::read(members, &pointer)?;
-        if let Err(allowed) = mode.accepts(stride) {
+        let mode = CompressionMode::from_members(members, &pointer)?;
+        if let Err(allowed) = mode.check_stride(stride) {
             let problem = format!("the stride is {stride} and must be {allowed}");
-            return Err(Fault::invalid(&format!("{pointer}/byteStride"), problem));
+            return Err(Diagnostic::invalid(&format!("{pointer}/byteStride"), problem));
         }
-        if mode == Mode::Triangles && !count.is_multiple_of(3) {
+        if mode == CompressionMode::Triangles && !count.is_multiple_of(3) {
             let problem = format!("{count} indices are no triangles");
-            return Err(Fault::invalid(&format!("{pointer}/count"), problem));
+            return Err(Diagnostic::invalid(&format!("{pointer}/count"), problem));
         }
         Ok(Self { pointer, buffer, offset, length, count, stride, mode })
     }
 
     /// How many bytes the decompressed view has.
-    pub(super) fn unpacked_length(&self) -> u64 {
+    pub(super) fn decompressed_length(&self) -> u64 {
         (self.count as u64).saturating_mul(self.stride as u64)
     }
 
     /// The bytes of the view; the caller has made sure that there may be so many.
-    pub(super) fn unpack(&self, stream: &[u8]) -> Result<Vec<u8>, Fault> {
+    pub(super) fn decompress(&self, stream: &[u8]) -> Result<Vec<u8>, Diagnostic> {
         let Self { count, stride, .. } = *self;
         let unpacked = match self.mode {
-            Mode::Attributes(filter) => {
-                attributes::decode(stream, count, stride).map(|mut bytes| {
-                    filter.apply(&mut bytes, stride);
+            CompressionMode::Attributes(filter) => {
+                vertex_codec::decode_vertices(stream, count, stride).map(|mut bytes| {
+                    filter.apply_filter(&mut bytes, stride);
                     bytes
                 })
             }
-            Mode::Triangles => triangles::decode(stream, count, stride),
-            Mode::Indices => indices::decode(stream, count, stride),
+            CompressionMode::Triangles => index_codec::decode_triangles(stream, count, stride),
+            CompressionMode::Indices => {
+                index_sequence_codec::decode_index_sequence(stream, count, stride)
+            }
         };
-        unpacked.map_err(|error: StreamError| Fault::invalid(&self.pointer, error.to_string()))
+        unpacked.map_err(|error: StreamError| Diagnostic::invalid(&self.pointer, error.to_string()))
     }
 }
 
-impl Mode {
-    fn read(members: &Map<String, Value>, pointer: &str) -> Result<Self, Fault> {
+impl CompressionMode {
+    fn from_members(members: &Map<String, Value>, pointer: &str) -> Result<Self, Diagnostic> {
         let word = |key: &str| members.get(key).map(|value| value.as_str().unwrap_or("no string"));
         let filter = match word("filter") {
-            None | Some("NONE") => Filter::None,
-            Some("OCTAHEDRAL") => Filter::Octahedral,
-            Some("QUATERNION") => Filter::Quaternion,
-            Some("EXPONENTIAL") => Filter::Exponential,
-            Some("COLOR") => Filter::Color,
+            None | Some("NONE") => MeshoptFilter::None,
+            Some("OCTAHEDRAL") => MeshoptFilter::Octahedral,
+            Some("QUATERNION") => MeshoptFilter::Quaternion,
+            Some("EXPONENTIAL") => MeshoptFilter::Exponential,
+            Some("COLOR") => MeshoptFilter::Color,
             Some(other) => {
                 let problem = format!("the filter {other:?} is not known");
-                return Err(Fault::invalid(&format!("{pointer}/filter"), problem));
+                return Err(Diagnostic::invalid(&format!("{pointer}/filter"), problem));
             }
         };
         match (word("mode"), filter) {
             (Some("ATTRIBUTES"), filter) => Ok(Self::Attributes(filter)),
-            (Some("TRIANGLES"), Filter::None) => Ok(Self::Triangles),
-            (Some("INDICES"), Filter::None) => Ok(Self::Indices),
+            (Some("TRIANGLES"), MeshoptFilter::None) => Ok(Self::Triangles),
+            (Some("INDICES"), MeshoptFilter::None) => Ok(Self::Indices),
             (Some("TRIANGLES" | "INDICES"), _) => {
                 let problem = "only the mode ATTRIBUTES may have a filter";
-                Err(Fault::invalid(&format!("{pointer}/filter"), problem))
+                Err(Diagnostic::invalid(&format!("{pointer}/filter"), problem))
             }
             (mode, _) => {
                 let problem = format!(
                     "the mode must be ATTRIBUTES, TRIANGLES or INDICES, not {:?}",
                     mode.unwrap_or("")
                 );
-                Err(Fault::invalid(&format!("{pointer}/mode"), problem))
+                Err(Diagnostic::invalid(&format!("{pointer}/mode"), problem))
             }
         }
     }
 
     /// Whether elements may have so many bytes; if not, how many they may have.
-    fn accepts(self, stride: usize) -> Result<(), &'static str> {
+    fn check_stride(self, stride: usize) -> Result<(), &'static str> {
         let fits = |fits: bool, allowed| if fits { Ok(()) } else { Err(allowed) };
         match self {
             Self::Triangles | Self::Indices => fits(matches!(stride, 2 | 4), "2 or 4"),
-            Self::Attributes(Filter::Octahedral | Filter::Color) => {
+            Self::Attributes(MeshoptFilter::Octahedral | MeshoptFilter::Color) => {
                 fits(matches!(stride, 4 | 8), "4 or 8")
             }
-            Self::Attributes(Filter::Quaternion) => fits(stride == 8, "8"),
-            Self::Attributes(Filter::None | Filter::Exponential) => {
+            Self::Attributes(MeshoptFilter::Quaternion) => fits(stride == 8, "8"),
+            Self::Attributes(MeshoptFilter::None | MeshoptFilter::Exponential) => {
                 let fitting = stride.is_multiple_of(4) && (4..=256).contains(&stride);
                 fits(fitting, "a multiple of 4 from 4 to 256")
             }

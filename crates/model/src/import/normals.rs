@@ -5,7 +5,7 @@ use glam::DVec3;
 
 /// What was wrong with the normals.
 #[derive(Default, Debug, PartialEq, Eq)]
-pub(super) struct Repairs {
+pub(super) struct NormalRepairs {
     /// Normals that pointed somewhere but were not of unit length.
     pub(super) lengths: usize,
     /// Normals that pointed nowhere (zero, infinite, not a number).
@@ -16,8 +16,8 @@ pub(super) struct Repairs {
 /// vertex, or (0, 0, 1) where they have none either.
 ///
 /// Lengths that rounding to bytes explains are corrected without being counted.
-pub(super) fn unify(primitive: &mut Primitive) -> Repairs {
-    let mut repairs = Repairs::default();
+pub(super) fn normalize_normals(primitive: &mut Primitive) -> NormalRepairs {
+    let mut repairs = NormalRepairs::default();
     let Some(mut normals) = primitive.normals.take() else { return repairs };
     let mut lost = Vec::new();
     for (vertex, normal) in normals.iter_mut().enumerate() {
@@ -36,7 +36,7 @@ pub(super) fn unify(primitive: &mut Primitive) -> Repairs {
     }
     repairs.replaced = lost.len();
     if !lost.is_empty() {
-        let means = mean_normals(primitive);
+        let means = area_weighted_normals(primitive);
         for vertex in lost {
             let mean = means[vertex];
             let unit = if mean.length_squared() > 0.0 { mean.normalize() } else { DVec3::Z };
@@ -48,7 +48,7 @@ pub(super) fn unify(primitive: &mut Primitive) -> Repairs {
 }
 
 /// For each vertex the sum of its triangles' normals, each as long as twice the triangle's area.
-fn mean_normals(primitive: &Primitive) -> Vec<DVec3> {
+fn area_weighted_normals(primitive: &Primitive) -> Vec<DVec3> {
     let mut sums = vec![DVec3::ZERO; primitive.positions.len()];
     if primitive.topology != Topology::Triangles {
         return sums;
@@ -76,7 +76,7 @@ mod tests {
             normals: Some(vec![[0.0, 0.0, 2.0], [0.0; 3], [f32::NAN, 0.0, 0.0], [0.0; 3]]),
             ..Primitive::default()
         };
-        assert_eq!(unify(&mut primitive), Repairs { lengths: 1, replaced: 3 });
+        assert_eq!(normalize_normals(&mut primitive), NormalRepairs { lengths: 1, replaced: 3 });
         let up = [0.0, 1.0, 0.0];
         assert_eq!(primitive.normals.unwrap(), [[0.0, 0.0, 1.0], up, up, [0.0, 0.0, 1.0]]);
     }

@@ -15,7 +15,7 @@ use crate::Topology;
 use gltf::json::mesh::Mode;
 
 /// The list that a mode makes of a sequence of vertices. A rest too short for an item is left out.
-pub(super) fn list(mode: Mode, mut vertices: Vec<u32>) -> (Topology, Vec<u32>) {
+pub(super) fn expand_to_list(mode: Mode, mut vertices: Vec<u32>) -> (Topology, Vec<u32>) {
     let topology = match mode {
         Mode::Points => Topology::Points,
         Mode::Lines | Mode::LineLoop | Mode::LineStrip => Topology::Lines,
@@ -23,7 +23,7 @@ pub(super) fn list(mode: Mode, mut vertices: Vec<u32>) -> (Topology, Vec<u32>) {
     };
     let list = match mode {
         Mode::Points | Mode::Lines | Mode::Triangles => {
-            vertices.truncate(vertices.len() - vertices.len() % topology.corners());
+            vertices.truncate(vertices.len() - vertices.len() % topology.vertices_per_item());
             vertices
         }
         Mode::LineStrip => line_strip(&vertices),
@@ -75,7 +75,11 @@ mod tests {
             (Mode::TriangleFan, Topology::Triangles, &[1, 2, 0, 2, 3, 0, 3, 4, 0]),
         ];
         for (mode, topology, expected) in table {
-            assert_eq!(list(mode, vec![0, 1, 2, 3, 4]), (topology, expected.to_vec()), "{mode:?}");
+            assert_eq!(
+                expand_to_list(mode, vec![0, 1, 2, 3, 4]),
+                (topology, expected.to_vec()),
+                "{mode:?}"
+            );
         }
     }
 
@@ -83,10 +87,10 @@ mod tests {
     fn too_few_vertices_make_nothing() {
         use Mode::{LineLoop, LineStrip, Lines, TriangleFan, TriangleStrip, Triangles};
         for mode in [Lines, LineLoop, LineStrip, Triangles, TriangleStrip, TriangleFan] {
-            assert!(list(mode, Vec::new()).1.is_empty(), "{mode:?}");
-            assert!(list(mode, vec![7]).1.is_empty(), "{mode:?}");
+            assert!(expand_to_list(mode, Vec::new()).1.is_empty(), "{mode:?}");
+            assert!(expand_to_list(mode, vec![7]).1.is_empty(), "{mode:?}");
         }
-        assert!(list(TriangleStrip, vec![0, 1]).1.is_empty());
-        assert!(list(TriangleFan, vec![0, 1]).1.is_empty());
+        assert!(expand_to_list(TriangleStrip, vec![0, 1]).1.is_empty());
+        assert!(expand_to_list(TriangleFan, vec![0, 1]).1.is_empty());
     }
 }

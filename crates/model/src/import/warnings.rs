@@ -1,21 +1,21 @@
 //! The list of soft faults, kept short even if a file has millions.
 
-use super::error::{Fault, FaultKind};
+use super::error::{Diagnostic, ImportErrorKind};
 use crate::Warning;
 
 /// So many warnings are kept; a reader has lost patience long before.
-const KEPT: usize = 500;
+const MAX_WARNINGS: usize = 500;
 
 /// Collects warnings while a file is read.
 #[derive(Default)]
-pub(super) struct Warnings {
+pub(super) struct ImportWarnings {
     /// Whether faults that stop loading are only warnings, where something is left to load.
     lenient: bool,
     list: Vec<Warning>,
-    left_out: usize,
+    omitted: usize,
 }
 
-impl Warnings {
+impl ImportWarnings {
     /// An empty list of a reader who is lenient, or is not; see [`Self::forgive`].
     pub(super) fn new(lenient: bool) -> Self {
         Self { lenient, ..Self::default() }
@@ -25,39 +25,44 @@ impl Warnings {
         self.lenient
     }
 
-    pub(super) fn add(&mut self, pointer: &str, message: impl Into<String>) {
-        if self.list.len() < KEPT {
+    pub(super) fn push_warning(&mut self, pointer: &str, message: impl Into<String>) {
+        if self.list.len() < MAX_WARNINGS {
             self.list.push(Warning { pointer: pointer.to_owned(), message: message.into() });
         } else {
-            self.left_out += 1;
+            self.omitted += 1;
         }
     }
 
     /// A fault that costs no more than what `consequence` says.
-    pub(super) fn soft(&mut self, fault: &Fault, consequence: &str) {
-        self.add(&fault.pointer, format!("{}; {consequence}", fault.problem));
+    pub(super) fn downgrade(&mut self, fault: &Diagnostic, consequence: &str) {
+        self.push_warning(&fault.location, format!("{}; {consequence}", fault.message));
     }
 
     /// A fault that stops loading; of a reader who is lenient it costs no more than what `consequence` says. Limits hold
     /// for everybody, and what was asked for must be there.
-    pub(super) fn forgive(&mut self, fault: Fault, consequence: &str) -> Result<(), Fault> {
-        if !self.lenient || matches!(fault.kind, FaultKind::Limit | FaultKind::Choice) {
+    pub(super) fn downgrade_if_lenient(
+        &mut self,
+        fault: Diagnostic,
+        consequence: &str,
+    ) -> Result<(), Diagnostic> {
+        if !self.lenient || matches!(fault.kind, ImportErrorKind::Limit | ImportErrorKind::NotFound)
+        {
             return Err(fault);
         }
-        self.soft(&fault, consequence);
+        self.downgrade(&fault, consequence);
         Ok(())
     }
 
     /// Adds the warnings of another list.
-    pub(super) fn append(&mut self, other: Self) {
-        let Self { list, left_out, .. } = other;
-        list.iter().for_each(|warning| self.add(&warning.pointer, &*warning.message));
-        self.left_out += left_out;
+    pub(super) fn append_warnings(&mut self, other: Self) {
+        let Self { list, omitted: left_out, .. } = other;
+        list.iter().for_each(|warning| self.push_warning(&warning.pointer, &*warning.message));
+        self.omitted += left_out;
     }
 
     pub(super) fn into_list(mut self) -> Vec<Warning> {
-        if self.left_out > 0 {
-            let message = format!("{} more warnings are not listed", self.left_out);
+        if self.omitted > 0 {
+            let message = format!("{} more warnings are not listed", self.omitted);
             self.list.push(Warning { pointer: String::new(), message });
         }
         self.list

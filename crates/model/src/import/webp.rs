@@ -8,21 +8,27 @@
 
 /// Whether all lossy frames fit into an image of this size; else what is wrong. A file of a few bytes may have a frame that
 /// takes hundreds of megabytes.
-pub(super) fn check_frames(file: &[u8], size: (u32, u32)) -> Result<(), String> {
+pub(super) fn check_frame_sizes(file: &[u8], size: (u32, u32)) -> Result<(), String> {
     let chunks = file.get(12..).unwrap_or_default();
-    for (name, bytes) in Chunks(chunks) {
+    for (name, bytes) in RiffChunks(chunks) {
         match &name {
             b"ANMF" => {
-                let frames = Chunks(bytes.get(16..).unwrap_or_default());
-                frames.into_iter().try_for_each(|(name, bytes)| check_frame(name, bytes, size))?;
+                let frames = RiffChunks(bytes.get(16..).unwrap_or_default());
+                frames
+                    .into_iter()
+                    .try_for_each(|(name, bytes)| check_frame_size(name, bytes, size))?;
             }
-            _ => check_frame(name, bytes, size)?,
+            _ => check_frame_size(name, bytes, size)?,
         }
     }
     Ok(())
 }
 
-fn check_frame(name: [u8; 4], bytes: &[u8], (width, height): (u32, u32)) -> Result<(), String> {
+fn check_frame_size(
+    name: [u8; 4],
+    bytes: &[u8],
+    (width, height): (u32, u32),
+) -> Result<(), String> {
     if &name != b"VP8 " {
         return Ok(());
     }
@@ -39,9 +45,9 @@ fn check_frame(name: [u8; 4], bytes: &[u8], (width, height): (u32, u32)) -> Resu
 }
 
 /// The chunks of a part of a file, each with its name; the last one may be cut off.
-struct Chunks<'a>(&'a [u8]);
+struct RiffChunks<'a>(&'a [u8]);
 
-impl<'a> Iterator for Chunks<'a> {
+impl<'a> Iterator for RiffChunks<'a> {
     type Item = ([u8; 4], &'a [u8]);
 
     fn next(&mut self) -> Option<Self::Item> {
@@ -73,7 +79,7 @@ mod tests {
         let moving = |frame: &[u8]| chunk(b"ANMF", &[&[0; 16], frame].concat());
         let fits = |chunks: &[&[u8]]| {
             let file = [b"RIFF\0\0\0\0WEBP", &chunks.concat()[..]].concat();
-            check_frames(&file, (8, 4)).is_ok()
+            check_frame_sizes(&file, (8, 4)).is_ok()
         };
         let odd = chunk(b"ICCP", &[1, 2, 3]);
         assert!(fits(&[]) && fits(&[&small]) && fits(&[&odd, &moving(&small), &small]));

@@ -1,65 +1,68 @@
 //! The depth curve on a page: depth against distance, resolution against distance, and the table.
 
-use super::depth::{DepthRow, DepthTable};
-use super::number::short;
-use drawing::{Align, Axis, Chart, Curve, Group, Ink, Label, Layer, Mark, Page, Pen, Spacing};
+use super::depth_table::{DepthRow, DepthTable};
+use super::number_format::format_short;
+use drawing::{
+    Axis, AxisMark, Chart, Curve, Group, Ink, Label, Layer, Page, Pen, Spacing, TextAlign,
+};
 use glam::DVec2;
 use projection::DepthFormat;
 
 const INK: Ink = [26, 31, 38];
-const NORMAL: Ink = [26, 86, 176];
-const REVERSED: Ink = [179, 38, 30];
+const NORMAL_INK: Ink = [26, 86, 176];
+const REVERSED_INK: Ink = [179, 38, 30];
 
 /// The page, the charts and the table in millimetres; the page is A4 across, or longer for long tables.
-const PAGE: DVec2 = DVec2::new(297.0, 210.0);
-const CHART: DVec2 = DVec2::new(150.0, 66.0);
-const UPPER: DVec2 = DVec2::new(24.0, 38.0);
-const LOWER: DVec2 = DVec2::new(24.0, 126.0);
-const TABLE: DVec2 = DVec2::new(184.0, 36.0);
+const PAGE_SIZE: DVec2 = DVec2::new(297.0, 210.0);
+const CHART_SIZE: DVec2 = DVec2::new(150.0, 66.0);
+const UPPER_CHART_CORNER: DVec2 = DVec2::new(24.0, 38.0);
+const LOWER_CHART_CORNER: DVec2 = DVec2::new(24.0, 126.0);
+const TABLE_CORNER: DVec2 = DVec2::new(184.0, 36.0);
 
 /// The right ends of the table's columns, from its left.
-const COLUMNS: [f64; 5] = [18.0, 38.0, 59.0, 80.0, 105.0];
+const COLUMN_ENDS: [f64; 5] = [18.0, 38.0, 59.0, 80.0, 105.0];
 
 /// Heights of letters.
-const HEADING: f64 = 4.5;
-const LETTERS: f64 = 2.3;
-const LEADING: f64 = 2.1;
+const HEADING_HEIGHT: f64 = 4.5;
+const LETTER_HEIGHT: f64 = 2.3;
+const LINE_SPACING: f64 = 2.1;
 
 /// The places of a curve: more than a printer tells apart, and enough for every tooth of a floating-point step.
-const PLACES: u32 = 800;
+const CURVE_SAMPLES: u32 = 800;
 
 impl DepthTable {
     /// Curves and table on a page.
     #[must_use]
     pub fn to_page(&self, rows: &[DepthRow]) -> Page {
-        let table_end = TABLE.y + (rows.len() + 2) as f64 * LETTERS * LEADING;
-        let size = DVec2::new(PAGE.x, PAGE.y.max(table_end + 10.0));
+        let table_end = TABLE_CORNER.y + (rows.len() + 2) as f64 * LETTER_HEIGHT * LINE_SPACING;
+        let size = DVec2::new(PAGE_SIZE.x, PAGE_SIZE.y.max(table_end + 10.0));
         let title = "Depth after the perspective divide";
         let mut page = Page::new(size, title, Some([255; 3]));
-        let [depths, steps] = self.charts();
-        page.layers.extend(depths.layers(UPPER, CHART));
-        page.layers.extend(steps.layers(LOWER, CHART));
-        page.layers.extend([heading(title, &self.notes()), table(&self.cells(rows))]);
+        let [depths, steps] = self.build_charts();
+        page.layers.extend(depths.to_layers(UPPER_CHART_CORNER, CHART_SIZE));
+        page.layers.extend(steps.to_layers(LOWER_CHART_CORNER, CHART_SIZE));
+        page.layers
+            .extend([heading_layer(title, &self.notes()), table_layer(&self.table_cells(rows))]);
         page
     }
 
     /// Depth and resolution, both against distance.
-    fn charts(&self) -> [Chart; 2] {
-        let samples = self.samples();
-        let [from, to] = self.range();
+    fn build_charts(&self) -> [Chart; 2] {
+        let samples = self.sample_rows();
+        let [from, to] = self.distance_range();
         let x = |title: &str| Axis { title: title.into(), from, to, spacing: Spacing::Logarithmic };
         let curve = |which: usize, of: &dyn Fn(&DepthRow) -> [f64; 2]| Curve {
             id: ["normal", "reversed"][which].to_owned(),
             title: ["normal", "reversed"][which].to_owned(),
-            ink: [NORMAL, REVERSED][which],
+            ink: [NORMAL_INK, REVERSED_INK][which],
             dashed: which == 1,
-            places: samples.iter().map(|row| [row.distance, of(row)[which]]).collect(),
+            points: samples.iter().map(|row| [row.distance, of(row)[which]]).collect(),
         };
         let curves = |of: &dyn Fn(&DepthRow) -> [f64; 2]| vec![curve(0, of), curve(1, of)];
         let ends = samples.iter().flat_map(|row| row.depths);
         let (low, high) = ends.fold((0.0_f64, 1.0_f64), |(l, h), d| (l.min(d), h.max(d)));
         let half = self.curves()[0].half_range_distance();
-        let [finest, coarsest] = span_of_steps(&samples, self.format());
+        let [finest, coarsest] = step_range(&samples, self.depth_format());
         [
             Chart {
                 id: "depth".to_owned(),
@@ -71,7 +74,10 @@ impl DepthTable {
                     spacing: Spacing::Linear,
                 },
                 curves: curves(&|row| row.depths),
-                marks: vec![Mark { at: half, text: format!("half at {}", short(half, 4)) }],
+                marks: vec![AxisMark {
+                    value: half,
+                    text: format!("half at {}", format_short(half, 4)),
+                }],
             },
             Chart {
                 id: "step".to_owned(),
@@ -84,7 +90,7 @@ impl DepthTable {
                 },
                 curves: curves(&|row| row.steps)
                     .into_iter()
-                    .map(|curve| at_least(curve, finest))
+                    .map(|curve| drop_steps_below(curve, finest))
                     .collect(),
                 marks: Vec::new(),
             },
@@ -92,21 +98,21 @@ impl DepthTable {
     }
 
     /// Rows close to each other, in equal ratios.
-    fn samples(&self) -> Vec<DepthRow> {
-        let [near, end] = self.range();
+    fn sample_rows(&self) -> Vec<DepthRow> {
+        let [near, end] = self.distance_range();
         let ratio = libm::log(end) - libm::log(near);
         let distance = |place: u32| match place {
             0 => near,
-            PLACES => end,
-            place => near * libm::exp(ratio * (f64::from(place) / f64::from(PLACES))),
+            CURVE_SAMPLES => end,
+            place => near * libm::exp(ratio * (f64::from(place) / f64::from(CURVE_SAMPLES))),
         };
-        (0..=PLACES).filter_map(|place| self.row(distance(place)).ok()).collect()
+        (0..=CURVE_SAMPLES).filter_map(|place| self.row_at(distance(place)).ok()).collect()
     }
 }
 
 /// From the finest step to the coarsest. Beside the plane that has depth 0 floating-point steps fall to nothing: the finest
 /// fiftieth is left out, else nothing else could be seen.
-fn span_of_steps(samples: &[DepthRow], format: DepthFormat) -> [f64; 2] {
+fn step_range(samples: &[DepthRow], format: DepthFormat) -> [f64; 2] {
     let left_out = if format == DepthFormat::Float32 { 50 } else { usize::MAX };
     let before_last = samples.len().saturating_sub(1);
     let before_last = samples[..before_last].iter();
@@ -120,30 +126,31 @@ fn span_of_steps(samples: &[DepthRow], format: DepthFormat) -> [f64; 2] {
 }
 
 /// The part of a curve that is not below a value. The last place is left out too: at the far plane there is no step.
-fn at_least(mut curve: Curve, least: f64) -> Curve {
-    curve.places.pop();
-    curve.places.retain(|[_, step]| *step >= least);
+fn drop_steps_below(mut curve: Curve, least: f64) -> Curve {
+    curve.points.pop();
+    curve.points.retain(|[_, step]| *step >= least);
     curve
 }
 
-fn heading(title: &str, notes: &[String]) -> Layer {
-    let mut layer = Layer::new("heading", "heading", Pen::of_width(LETTERS * 0.1, INK));
-    let left = UPPER.x - 12.0;
-    let mut strokes = Label::new(title, DVec2::new(left, 14.0), HEADING).strokes();
-    let at = DVec2::new(left, 14.0 + HEADING * 1.4);
-    strokes.extend(Label::new(&notes.join(" · "), at, LETTERS).no_wider_than(270.0).strokes());
+fn heading_layer(title: &str, notes: &[String]) -> Layer {
+    let mut layer = Layer::new("heading", "heading", Pen::solid(LETTER_HEIGHT * 0.1, INK));
+    let left = UPPER_CHART_CORNER.x - 12.0;
+    let mut strokes = Label::new(title, DVec2::new(left, 14.0), HEADING_HEIGHT).strokes();
+    let at = DVec2::new(left, 14.0 + HEADING_HEIGHT * 1.4);
+    strokes.extend(Label::new(&notes.join(" · "), at, LETTER_HEIGHT).fit_to_width(270.0).strokes());
     layer.groups.push(Group { strokes, ..Group::default() });
     layer
 }
 
 /// The rows as text, columns flush right.
-fn table(cells: &[[String; 5]]) -> Layer {
-    let mut layer = Layer::new("table", "table", Pen::of_width(LETTERS * 0.1, INK));
+fn table_layer(cells: &[[String; 5]]) -> Layer {
+    let mut layer = Layer::new("table", "table", Pen::solid(LETTER_HEIGHT * 0.1, INK));
     for (number, row) in cells.iter().enumerate() {
-        let down = number as f64 * LETTERS * LEADING + if number > 0 { 1.5 } else { 0.0 };
-        let strokes = row.iter().zip(COLUMNS).flat_map(|(cell, end)| {
-            let at = TABLE + DVec2::new(end, down);
-            Label::new(cell, at, LETTERS).aligned(Align::End).strokes()
+        let down =
+            number as f64 * LETTER_HEIGHT * LINE_SPACING + if number > 0 { 1.5 } else { 0.0 };
+        let strokes = row.iter().zip(COLUMN_ENDS).flat_map(|(cell, end)| {
+            let at = TABLE_CORNER + DVec2::new(end, down);
+            Label::new(cell, at, LETTER_HEIGHT).with_align(TextAlign::End).strokes()
         });
         let strokes = strokes.collect();
         let id = format!("row-{number}");
@@ -155,7 +162,7 @@ fn table(cells: &[[String; 5]]) -> Layer {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use drawing::millimetres;
+    use drawing::to_millimeters;
     use projection::Convention;
 
     /// The drawn curve is the formula, F(D − N)/((F − N)D), to the micrometre of the page.
@@ -167,7 +174,7 @@ mod tests {
         let points = &layer.groups[0].strokes[0].points;
         assert!(points.len() > 500);
         for &place in points {
-            let [x, y] = ((millimetres(place) - UPPER) / CHART).to_array();
+            let [x, y] = ((to_millimeters(place) - UPPER_CHART_CORNER) / CHART_SIZE).to_array();
             let distance = 2.0 * libm::pow(20.0, x);
             let depth = 40.0 * (distance - 2.0) / (38.0 * distance);
             assert!((1.0 - y - depth).abs() < 2e-5, "{distance}: {} {depth}", 1.0 - y);

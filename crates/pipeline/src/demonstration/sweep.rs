@@ -6,7 +6,7 @@
 mod step;
 
 use super::DemonstrationError;
-use super::number::short;
+use super::number_format::format_short;
 use crate::scene::Scene;
 use camera::ViewProjection;
 use camera::{NamedView, frame_parallel};
@@ -15,14 +15,14 @@ use glam::DVec2;
 use homog::HPoint;
 use projection::{Convention, Orthographic};
 use std::fmt;
-use step::Base;
+use step::SweepBase;
 
 /// The room between a picture and its view volume, in millimetres.
-const GAP: f64 = 4.0;
+const PANEL_GAP: f64 = 4.0;
 
 /// What is varied.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Vary {
+pub enum SweepParameter {
     /// The vertical opening angle in degrees, the eye where it is: small ones enlarge.
     Fov,
     /// The height of the window in a parallel projection, its shape as it is: small ones enlarge.
@@ -50,7 +50,7 @@ pub enum Vary {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Sweep {
     /// What is varied.
-    pub vary: Vary,
+    pub parameter: SweepParameter,
     /// The first value.
     pub from: f64,
     /// The last one.
@@ -61,7 +61,7 @@ pub struct Sweep {
     pub volumes: bool,
 }
 
-impl Vary {
+impl SweepParameter {
     /// All of them.
     pub const ALL: [Self; 10] = [
         Self::Fov,
@@ -94,7 +94,7 @@ impl Vary {
     }
 
     /// What it does to the picture, in the words of the lessons.
-    const fn lesson(self) -> &'static str {
+    const fn caption(self) -> &'static str {
         match self {
             Self::Fov => "a smaller angle enlarges",
             Self::Height => "a smaller window enlarges, wherever the eye is",
@@ -112,7 +112,7 @@ impl Vary {
     }
 }
 
-impl fmt::Display for Vary {
+impl fmt::Display for SweepParameter {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }
@@ -121,7 +121,7 @@ impl fmt::Display for Vary {
 impl Sweep {
     /// The values, evenly spaced; the first and the last are exact.
     #[must_use]
-    pub fn values(&self) -> Vec<f64> {
+    pub fn parameter_values(&self) -> Vec<f64> {
         let last = self.steps.max(1) - 1;
         let value = |step: u32| match step {
             0 => self.from,
@@ -135,29 +135,32 @@ impl Sweep {
     ///
     /// # Errors
     /// If the scene's projection has no such parameter, or a value makes no sense.
-    pub fn shots(
+    pub fn view_projections(
         &self,
         scene: &Scene,
     ) -> Result<Vec<(ViewProjection, String)>, DemonstrationError> {
-        let base = Base::of(scene, self.vary)?;
-        self.values().into_iter().map(|value| base.at(self.vary, value)).collect()
+        let base = SweepBase::new(scene, self.parameter)?;
+        self.parameter_values()
+            .into_iter()
+            .map(|value| base.view_at(self.parameter, value))
+            .collect()
     }
 
     /// The pictures side by side. The number of threads does not change them.
     ///
     /// # Errors
     /// As for [`shots`](Self::shots); or if a picture has no pixels.
-    pub fn draw(&self, scene: &Scene, threads: usize) -> Result<Panels, DemonstrationError> {
+    pub fn draw_panels(&self, scene: &Scene, threads: usize) -> Result<Panels, DemonstrationError> {
         let mut scene = scene.clone();
         scene.image.background = [1.0; 4];
-        let shots = self.shots(&scene)?;
-        let observer = if self.volumes { observer(&scene, &shots) } else { None };
+        let view_projections = self.view_projections(&scene)?;
+        let observer = if self.volumes { observer_view(&scene, &view_projections) } else { None };
         let mut panels = Vec::new();
         for (number, ((view_projection, note), value)) in
-            shots.iter().zip(self.values()).enumerate()
+            view_projections.iter().zip(self.parameter_values()).enumerate()
         {
             scene.view_projection = *view_projection;
-            let title = format!("{} {}", self.vary, short(value, 4));
+            let title = format!("{} {}", self.parameter, format_short(value, 4));
             let mut panel = crate::render::render_panel(
                 &scene,
                 format!("step-{}", number + 1),
@@ -165,17 +168,18 @@ impl Sweep {
                 threads,
             )?;
             if let Some(observer) = observer {
-                panel = with_volume(panel, &scene, observer, threads)?;
+                panel = add_volume_panel(panel, &scene, observer, threads)?;
             }
-            panels.push(panel.noted(vec![note.clone()]));
+            panels.push(panel.with_notes(vec![note.clone()]));
         }
-        let title = format!("{}: {}, {}", scene.title(), self.vary, self.vary.lesson());
+        let title =
+            format!("{}: {}, {}", scene.model_names(), self.parameter, self.parameter.caption());
         Ok(Panels::new(title, panels))
     }
 }
 
 /// A picture, and below it where its view volume stands, seen by one who stands aside.
-fn with_volume(
+fn add_volume_panel(
     view: Panel,
     scene: &Scene,
     observer: ViewProjection,
@@ -186,21 +190,21 @@ fn with_volume(
     aside.view_projection = observer;
     let volume = crate::render::render_panel(&aside, "volume", "view volume", threads)?.page;
     let size = view.page.size;
-    let below = size.y + GAP;
+    let below = size.y + PANEL_GAP;
     let mut page = Page::new(DVec2::new(size.x, below + size.y), view.page.title.clone(), None);
-    page.paste(&view.page, DVec2::ZERO, "view-");
-    page.paste(&volume, DVec2::new(0.0, below), "volume-");
+    page.paste_page(&view.page, DVec2::ZERO, "view-");
+    page.paste_page(&volume, DVec2::new(0.0, below), "volume-");
     Ok(Panel { page, ..view })
 }
 
 /// A camera that sees the models, all eyes and all windows from a corner, in parallel projection; `None` if there are no models.
-fn observer(scene: &Scene, shots: &[(ViewProjection, String)]) -> Option<ViewProjection> {
+fn observer_view(scene: &Scene, shots: &[(ViewProjection, String)]) -> Option<ViewProjection> {
     let mut points = scene.world_points();
     for (view_projection, _) in shots {
         let clip_to_world = view_projection.world_to_clip().inverse()?;
         let corners = [-1.0, 1.0].map(|x| [-1.0, 1.0].map(|y| HPoint::new(x, y, 1.0, 1.0)));
         let near = corners.as_flattened().iter();
-        points.extend(near.filter_map(|&corner| clip_to_world.hpoint(corner).divide()));
+        points.extend(near.filter_map(|&corner| clip_to_world.transform_hpoint(corner).divide()));
         points.push(view_projection.camera.eye());
     }
     let aspect = f64::from(scene.image.width) / f64::from(scene.image.height);

@@ -4,11 +4,11 @@ use crate::scene::{Origin, ResolveOptions, Scene, SceneFile};
 use std::path::Path;
 
 /// The house of the lessons as a bare model, small.
-pub(super) fn house() -> (Origin, SceneFile, Scene) {
+pub(super) fn house_scene() -> (Origin, SceneFile, Scene) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/models/house.glb");
-    let (origin, mut file) = Origin::bare_model(&path);
+    let (origin, mut file) = Origin::from_model_path(&path);
     file.image.size = (320, 240);
-    file.style = crate::scene::file::StyleFile::removed();
+    file.style = crate::scene::file::StyleFile::lines_hidden_removed();
     let scene = Scene::resolve(&origin, &file, &ResolveOptions::default()).expect("the house");
     (origin, file, scene)
 }

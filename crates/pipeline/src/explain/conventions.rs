@@ -7,7 +7,7 @@ use viewport::{DepthRange, PixelConvention, Rectangle, Viewport, ViewportError};
 
 /// The conventions of a book or of a graphics interface.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub enum Conventions {
+pub enum ApiConventions {
     /// Those that this program computes with: the chapter's volume, near at z = +1; pixels as in image files, depth 1 at the
     /// near plane.
     #[default]
@@ -24,7 +24,7 @@ pub enum Conventions {
     WebGpu,
 }
 
-impl Conventions {
+impl ApiConventions {
     /// All of them.
     pub const ALL: [Self; 6] =
         [Self::Alberti, Self::Chapter, Self::OpenGl, Self::Vulkan, Self::Direct3d, Self::WebGpu];
@@ -44,7 +44,7 @@ impl Conventions {
 
     /// The canonical view volume.
     #[must_use]
-    pub const fn volume(self) -> Convention {
+    pub const fn canonical_volume(self) -> Convention {
         match self {
             Self::Alberti | Self::Chapter => Convention::CHAPTER,
             Self::OpenGl => Convention::OPENGL,
@@ -56,12 +56,12 @@ impl Conventions {
 
     /// Whether view space looks along +z.
     pub(super) fn looks_along_z(self) -> bool {
-        self.volume().handedness() == Handedness::Left
+        self.canonical_volume().handedness() == Handedness::Left
     }
 
     /// Whether y runs down in clip space.
     pub(super) fn y_runs_down(self) -> bool {
-        self.volume().ndc_y() == NdcY::Down
+        self.canonical_volume().ndc_y() == NdcY::Down
     }
 
     /// The viewport on the whole of an image.
@@ -74,12 +74,12 @@ impl Conventions {
             Self::Vulkan => (PixelConvention::OPENGL, DepthRange::KEEP),
             Self::Direct3d | Self::WebGpu => (PixelConvention::IMAGE, DepthRange::KEEP),
         };
-        let area = Rectangle::of_size(width.into(), height.into())?;
+        let area = Rectangle::from_size(width.into(), height.into())?;
         Ok(Viewport::new(area, pixels, depth))
     }
 }
 
-impl FromStr for Conventions {
+impl FromStr for ApiConventions {
     type Err = String;
 
     fn from_str(name: &str) -> Result<Self, String> {

@@ -1,73 +1,73 @@
 //! An explanation as a page: one file that asks for nothing else, with figures beside the steps.
 
-use super::chain::Chain;
-use super::figures::figures;
-use super::text::number;
-use super::{Explanation, Item, Step, Value};
+use super::diagrams::draw_diagrams;
+use super::plain_text::format_number;
+use super::transform_chain::TransformChain;
+use super::{Explanation, Item, ItemValue, Step};
 use shade::Picture;
 
 impl Explanation {
     /// The explanation as an HTML page. `chain` is the one that was explained; `picture`, of any size and the same sides as the
     /// scene's, shows where the subject lands.
     #[must_use]
-    pub fn to_html(&self, chain: &Chain, picture: Option<&Picture>) -> String {
-        let subject = escaped(&self.subject);
+    pub fn to_html(&self, chain: &TransformChain, picture: Option<&Picture>) -> String {
+        let subject = escape_html(&self.subject);
         let mut page = format!(
             "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-            <title>{subject}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n\
+            <title>{subject}</title>\n<style>{STYLESHEET}</style>\n</head>\n<body>\n\
             <h1>{subject}</h1>\n<p class=\"verdict\">{}</p>\n<div class=\"figures\">\n",
-            escaped(&self.verdict)
+            escape_html(&self.verdict)
         );
-        for figure in figures(self, chain, picture) {
-            let caption = escaped(&figure.caption);
+        for figure in draw_diagrams(self, chain, picture) {
+            let caption = escape_html(&figure.caption);
             page += &format!("<figure>{}<figcaption>{caption}</figcaption></figure>\n", figure.svg);
         }
         page += "</div>\n<ol>\n";
         for step in &self.steps {
-            page += &section(step);
+            page += &step_html(step);
         }
         page + "</ol>\n</body>\n</html>\n"
     }
 }
 
-fn section(step: &Step) -> String {
+fn step_html(step: &Step) -> String {
     let formulas = step.formula.unwrap_or_default();
     let chips: String = formulas
         .split(", ")
         .filter(|id| !id.is_empty())
-        .map(|id| format!(" <code>{}</code>", escaped(id)))
+        .map(|id| format!(" <code>{}</code>", escape_html(id)))
         .collect();
-    let rows: String = step.items.iter().map(row).collect();
-    let title = escaped(&step.title);
+    let rows: String = step.items.iter().map(item_html).collect();
+    let title = escape_html(&step.title);
     format!("<li id=\"{}\"><h2>{title}{chips}</h2>\n<dl>\n{rows}</dl></li>\n", step.id)
 }
 
-fn row(item: &Item) -> String {
+fn item_html(item: &Item) -> String {
     let value = match &item.value {
-        Value::Matrix(rows) => {
+        ItemValue::Matrix(rows) => {
             let cells = |row: &[f64; 4]| -> String {
-                row.iter().map(|&entry| format!("<td>{}</td>", number(entry))).collect()
+                row.iter().map(|&entry| format!("<td>{}</td>", format_number(entry))).collect()
             };
             let rows: String = rows.iter().map(|row| format!("<tr>{}</tr>", cells(row))).collect();
             format!("<table>{rows}</table>")
         }
-        Value::Numbers(numbers) => {
-            let all: Vec<String> = numbers.iter().copied().map(number).collect();
+        ItemValue::Numbers(numbers) => {
+            let all: Vec<String> = numbers.iter().copied().map(format_number).collect();
             format!("({})", all.join(", "))
         }
-        Value::Number(value) => number(*value),
-        Value::Words(words) => escaped(words),
+        ItemValue::Number(value) => format_number(*value),
+        ItemValue::Text(words) => escape_html(words),
     };
-    format!("<dt>{}</dt><dd>{value}</dd>\n", escaped(&item.name))
+    format!("<dt>{}</dt><dd>{value}</dd>\n", escape_html(&item.name))
 }
 
 /// Text with nothing in it that HTML would read as its own.
-fn escaped(text: &str) -> String {
+fn escape_html(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-const STYLE: &str = "
+const STYLESHEET: &str = "
 :root { color-scheme: light dark; --ink: #1c2430; --paper: #fff; --faint: #8a94a3; --mark: #c62828; }
 @media (prefers-color-scheme: dark) { :root { --ink: #dfe4ec; --paper: #14181e; --mark: #ff7b72; } }
 body { font: 16px/1.5 system-ui, sans-serif; color: var(--ink); background: var(--paper); max-width: 68rem; margin: 2rem auto; padding: 0 1rem; }

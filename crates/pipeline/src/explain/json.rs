@@ -1,6 +1,6 @@
 //! An explanation for programs. Numbers are exact: JSON's decimals lead back to the same f64.
 
-use super::{Explanation, Item, Step, Value};
+use super::{Explanation, Item, ItemValue, Step};
 use serde_json::{Value as Json, json};
 
 /// The name of the schema.
@@ -15,27 +15,27 @@ impl Explanation {
         json!({
             "schema": {"name": SCHEMA_NAME, "version": SCHEMA_VERSION},
             "subject": self.subject,
-            "steps": self.steps.iter().map(step).collect::<Vec<_>>(),
+            "steps": self.steps.iter().map(step_json).collect::<Vec<_>>(),
             "verdict": self.verdict,
         })
     }
 }
 
-fn step(step: &Step) -> Json {
+fn step_json(step: &Step) -> Json {
     json!({
         "id": step.id,
         "title": step.title,
         "formula": step.formula,
-        "items": step.items.iter().map(item).collect::<Vec<_>>(),
+        "items": step.items.iter().map(item_json).collect::<Vec<_>>(),
     })
 }
 
-fn item(item: &Item) -> Json {
+fn item_json(item: &Item) -> Json {
     let value = match &item.value {
-        Value::Matrix(rows) => json!({"rows": rows}),
-        Value::Numbers(numbers) => json!(numbers),
-        Value::Number(number) => json!(number),
-        Value::Words(words) => json!(words),
+        ItemValue::Matrix(rows) => json!({"rows": rows}),
+        ItemValue::Numbers(numbers) => json!(numbers),
+        ItemValue::Number(number) => json!(number),
+        ItemValue::Text(words) => json!(words),
     };
     json!({"id": item.id, "name": item.name, "value": value})
 }

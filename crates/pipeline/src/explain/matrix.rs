@@ -1,9 +1,9 @@
 //! Sixteen numbers: what map they are, which projection, and whether they look like a known slip.
 
 use super::conventions::volume_name;
-use super::text::number;
+use super::plain_text::format_number;
 use super::{Explanation, Step};
-use homog::{Clip, Meaning, Projective, View};
+use homog::{Clip, HPointKind, Projective, View};
 use projection::{Convention, Decomposed, Symptom, readings, symptoms};
 
 /// Explains a matrix for column vectors.
@@ -18,91 +18,95 @@ pub fn explain_matrix(rows: [[f64; 4]; 4]) -> Result<Explanation, String> {
     let map = Projective::<View, Clip>::from_rows(rows);
     let matrix = map.raw();
     let read: Vec<_> = readings(matrix).collect();
-    let slips: Vec<Symptom> = symptoms(matrix).collect();
-    let mut steps = vec![kind(rows, map)];
-    steps.extend(affine(map));
-    steps.push(vanishing(map));
+    let misprints: Vec<Symptom> = symptoms(matrix).collect();
+    let mut steps = vec![kind_step(rows, map)];
+    steps.extend(affine_step(map));
+    steps.push(vanishing_points_step(map));
     steps.push(readings_step(&read));
-    steps.extend(slips.iter().enumerate().map(|(at, slip)| slip_step(at, slip)));
-    let verdict = verdict(map, &read, &slips);
+    steps.extend(misprints.iter().enumerate().map(|(at, slip)| misprint_step(at, slip)));
+    let verdict = matrix_verdict(map, &read, &misprints);
     Ok(Explanation { subject: "A matrix for column vectors".to_owned(), steps, verdict })
 }
 
-type Reading = (Convention, projection::Decomposition);
+type ProjectionReading = (Convention, projection::Decomposition);
 
-fn kind(rows: [[f64; 4]; 4], map: Projective<View, Clip>) -> Step {
+fn kind_step(rows: [[f64; 4]; 4], map: Projective<View, Clip>) -> Step {
     let found = map.classify();
     Step::new("kind", "What kind of map it is", Some("HO-3"))
-        .with("matrix", "matrix", rows)
-        .with("kind", "kind", found.to_string())
-        .with("rank", "rank", found.rank as f64)
-        .with("determinant", "determinant", map.raw().determinant())
+        .with_item("matrix", "matrix", rows)
+        .with_item("kind", "kind", found.to_string())
+        .with_item("rank", "rank", found.rank as f64)
+        .with_item("determinant", "determinant", map.raw().determinant())
 }
 
 /// The parts of an affine map: where the origin goes, how long the axes become, and whether they stay at right angles.
-fn affine(map: Projective<View, Clip>) -> Option<Step> {
+fn affine_step(map: Projective<View, Clip>) -> Option<Step> {
     let matrix = map.to_affine()?.raw();
     let axes = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(glam::DVec4::truncate);
     let lengths = axes.map(glam::DVec3::length);
     let slant = |a: usize, b: usize| axes[a].dot(axes[b]).abs() > 1e-9 * lengths[a] * lengths[b];
-    let bend = if slant(0, 1) || slant(1, 2) || slant(2, 0) {
+    let angles = if slant(0, 1) || slant(1, 2) || slant(2, 0) {
         "the axes do not stay at right angles: there is a shear"
     } else {
         "the axes stay at right angles: a rotation and scales"
     };
-    let turn = axes[0].cross(axes[1]).dot(axes[2]);
-    let hand = match turn {
+    let determinant = axes[0].cross(axes[1]).dot(axes[2]);
+    let handedness = match determinant {
         turn if turn > 0.0 => "kept",
         turn if turn < 0.0 => "exchanged, as in a mirror",
         _ => "lost: the image is flat",
     };
     let step = Step::new("affine", "Its parts", Some("HO-4, HO-5"))
-        .with("translation", "translation", matrix.w_axis.truncate().to_array())
-        .with("scales", "lengths of the axes", lengths)
-        .with("angles", "angles", bend)
-        .with("handedness", "handedness", hand);
+        .with_item("translation", "translation", matrix.w_axis.truncate().to_array())
+        .with_item("scales", "lengths of the axes", lengths)
+        .with_item("angles", "angles", angles)
+        .with_item("handedness", "handedness", handedness);
     Some(step)
 }
 
-fn vanishing(map: Projective<View, Clip>) -> Step {
+fn vanishing_points_step(map: Projective<View, Clip>) -> Step {
     let points = map.principal_vanishing_points(1e-12);
-    let words = |meaning: Meaning<Clip>| match meaning {
-        Meaning::Place(place) => {
-            let [x, y, z] = <[f64; 3]>::from(place).map(number);
+    let words = |meaning: HPointKind<Clip>| match meaning {
+        HPointKind::Finite(place) => {
+            let [x, y, z] = <[f64; 3]>::from(place).map(format_number);
             format!("vanishes at ({x}, {y}, {z})")
         }
-        Meaning::Direction(_) => "stays parallel".to_owned(),
-        Meaning::Nothing => "is lost".to_owned(),
+        HPointKind::AtInfinity(_) => "stays parallel".to_owned(),
+        HPointKind::Invalid => "is lost".to_owned(),
     };
     let step = Step::new("vanishing_points", "Where lines along the axes meet", Some("VN-1"));
     ["x", "y", "z"]
         .into_iter()
         .zip(points)
-        .fold(step, |step, (axis, point)| step.with(axis, axis, words(point)))
+        .fold(step, |step, (axis, point)| step.with_item(axis, axis, words(point)))
 }
 
-fn readings_step(read: &[Reading]) -> Step {
+fn readings_step(read: &[ProjectionReading]) -> Step {
     let step =
         Step::new("readings", "Which projection it is, in whose convention", Some("GL-1, PE-2"));
     if read.is_empty() {
-        return step.with("none", "none", "no known projection, in no known convention");
+        return step.with_item("none", "none", "no known projection, in no known convention");
     }
     (0..).zip(read).fold(step, |step, (at, (convention, found)): (usize, _)| {
         let factor = match found.factor {
             1.0 => String::new(),
-            factor => format!(", all times {}", number(factor)),
+            factor => format!(", all times {}", format_number(factor)),
         };
-        step.with(at.to_string(), volume_name(*convention), words(&found.kind) + &factor)
+        step.with_item(
+            at.to_string(),
+            volume_name(*convention),
+            describe_projection(&found.kind) + &factor,
+        )
     })
 }
 
 /// A projection in words.
-pub(super) fn words(kind: &Decomposed) -> String {
+pub(super) fn describe_projection(kind: &Decomposed) -> String {
     let window = |w: projection::Window| {
-        let [l, r, b, t] = [w.left(), w.right(), w.bottom(), w.top()].map(number);
+        let [l, r, b, t] = [w.left(), w.right(), w.bottom(), w.top()].map(format_number);
         format!("left {l}, right {r}, bottom {b}, top {t}")
     };
-    let depth = |near, far| format!("near {}, far {}", number(near), number(far));
+    let depth = |near, far| format!("near {}, far {}", format_number(near), format_number(far));
     match kind {
         Decomposed::Frustum(f) => {
             format!("perspective: {}, {}", window(f.window()), depth(f.near(), f.far()))
@@ -132,29 +136,39 @@ pub(super) fn words(kind: &Decomposed) -> String {
     }
 }
 
-fn slip_step(at: usize, slip: &Symptom) -> Step {
+fn misprint_step(at: usize, slip: &Symptom) -> Step {
     let known = slip.misprint.id().unwrap_or("not numbered");
     let title = format!("It looks like a known misprint ({known})");
     let step = Step::new(if at == 0 { "misprint" } else { "other_misprint" }, title, None)
-        .with("finding", "finding", slip.misprint.finding())
-        .with("remedy", "remedy", slip.misprint.remedy());
+        .with_item("finding", "finding", slip.misprint.description())
+        .with_item("remedy", "remedy", slip.misprint.remedy());
     match slip.remedied {
         Some(remedied) => {
-            step.with("remedied", "then", Projective::<View, Clip>::from_raw(remedied).rows())
+            step.with_item("remedied", "then", Projective::<View, Clip>::from_raw(remedied).rows())
         }
         None => step,
     }
 }
 
-fn verdict(map: Projective<View, Clip>, read: &[Reading], slips: &[Symptom]) -> String {
+fn matrix_verdict(
+    map: Projective<View, Clip>,
+    read: &[ProjectionReading],
+    slips: &[Symptom],
+) -> String {
     let what = match read.first() {
         Some((convention, found)) => {
-            format!("In the convention of {}: {}.", volume_name(*convention), words(&found.kind))
+            format!(
+                "In the convention of {}: {}.",
+                volume_name(*convention),
+                describe_projection(&found.kind)
+            )
         }
         None => format!("It is {}, and no projection that has a name.", map.classify()),
     };
     match slips.first() {
-        Some(slip) => format!("{what} But it looks like a misprint: {}.", slip.misprint.finding()),
+        Some(slip) => {
+            format!("{what} But it looks like a misprint: {}.", slip.misprint.description())
+        }
         None => what,
     }
 }

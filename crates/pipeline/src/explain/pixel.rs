@@ -1,9 +1,9 @@
 //! A pixel: the ray that is seen in it, the triangles it shows with their weights and colours, and the place on the nearest.
 
-use super::chain::Chain;
-use super::place::{node_name, to_point};
+use super::point::{describe_node, model_point};
+use super::transform_chain::TransformChain;
 use super::{Explanation, Step};
-use crate::render::{Owner, PixelMakeup, SeenFragment, pixel};
+use crate::render::{FragmentSource, PixelFragments, ShadedFragment, inspect_pixel};
 use crate::scene::Scene;
 use homog::{Point, World};
 use model::Topology;
@@ -12,93 +12,99 @@ use model::Topology;
 ///
 /// # Errors
 /// If there is no such pixel, or none of the picture's pixels is shaded; the text says which.
-pub fn explain_pixel(chain: &Chain, scene: &Scene, x: u32, y: u32) -> Result<Explanation, String> {
-    let makeup = pixel(scene, x, y).map_err(|error| error.to_string())?.ok_or_else(|| {
+pub fn explain_pixel(
+    chain: &TransformChain,
+    scene: &Scene,
+    x: u32,
+    y: u32,
+) -> Result<Explanation, String> {
+    let pixel = inspect_pixel(scene, x, y).map_err(|error| error.to_string())?.ok_or_else(|| {
         let (width, height) = (scene.image.width, scene.image.height);
         format!("there is no shaded pixel ({x}, {y}): the picture has {width} x {height}, and line drawings have none")
     })?;
     let mut steps = Vec::new();
     steps.extend(
-        makeup.fragments.iter().enumerate().map(|(at, seen)| fragment_step(scene, at, seen)),
+        pixel.fragments.iter().enumerate().map(|(at, seen)| fragment_step(scene, at, seen)),
     );
-    let places = makeup.fragments.iter().filter_map(|seen| place(scene, seen));
-    let nearest = places
-        .map(|place| (chain.depth(place), place))
+    let positions = pixel.fragments.iter().filter_map(|seen| fragment_position(scene, seen));
+    let nearest = positions
+        .map(|place| (chain.nearness(place), place))
         .max_by(|(a, _), (b, _)| a.total_cmp(b))
         .map(|(_, place)| place);
     if let Some(place) = nearest {
-        let clip = chain.world_to_clip().point(place);
+        let clip = chain.world_to_clip().transform_point(place);
         steps.push(chain.camera_step(&[("", place)]));
         steps.push(chain.projection_step(&[("", place)]));
         steps.push(chain.outcode_step(&[("", clip)]));
         steps.extend(chain.screen_steps(&[("", clip)]));
     }
-    steps.push(color_step(&makeup));
+    steps.push(color_step(&pixel));
     let subject = format!("The pixel in column {x}, row {y} from the top");
-    Ok(Explanation { subject, steps, verdict: verdict(&makeup) })
+    Ok(Explanation { subject, steps, verdict: pixel_verdict(&pixel) })
 }
 
-fn fragment_step(scene: &Scene, at: usize, seen: &SeenFragment) -> Step {
-    let title = match seen.owner {
-        Some(owner) => format!("Seen: {}", owner_name(scene, owner)),
+fn fragment_step(scene: &Scene, at: usize, seen: &ShadedFragment) -> Step {
+    let title = match seen.source {
+        Some(owner) => format!("Seen: {}", source_name(scene, owner)),
         None => "Seen: the surroundings".to_owned(),
     };
     let mut step =
         Step::new(if at == 0 { "fragment" } else { "other_fragment" }, title, Some("RA-1, IN-2"))
-            .with("weights", "weights of its corners", seen.weights.map(f64::from))
-            .with("color", "colour, linear, times alpha", seen.color.map(f64::from));
-    if let Some(place) = place(scene, seen) {
-        step.add("world", "place in the world", <[f64; 3]>::from(place));
+            .with_item("weights", "weights of its corners", seen.weights.map(f64::from))
+            .with_item("color", "colour, linear, times alpha", seen.color.map(f64::from));
+    if let Some(place) = fragment_position(scene, seen) {
+        step.add_item("world", "place in the world", <[f64; 3]>::from(place));
     }
     step
 }
 
-fn owner_name(scene: &Scene, owner: Owner) -> String {
-    let Owner { model, node, primitive, item } = owner;
+fn source_name(scene: &Scene, owner: FragmentSource) -> String {
+    let FragmentSource { model, node, primitive, element: item } = owner;
     let Some(placed) = scene.models.get(model) else { return String::new() };
-    let what = match shown(scene, owner).map(|primitive| primitive.topology) {
+    let what = match find_primitive(scene, owner).map(|primitive| primitive.topology) {
         Some(Topology::Points) => "point",
         Some(Topology::Lines) => "line",
         _ => "triangle",
     };
-    let node = node_name(&placed.model, node);
+    let node = describe_node(&placed.model, node);
     format!(
         "{what} {item} of primitive {primitive} at {node} of model {model} `{}`",
         placed.model.name
     )
 }
 
-fn shown(scene: &Scene, owner: Owner) -> Option<&model::Primitive> {
+fn find_primitive(scene: &Scene, owner: FragmentSource) -> Option<&model::Primitive> {
     let model = &scene.models.get(owner.model)?.model;
     let mesh = model.meshes.get(model.nodes.get(owner.node)?.mesh?)?;
     mesh.primitives.get(owner.primitive)
 }
 
 /// The place of a fragment of a triangle in the world: its corners times their weights.
-fn place(scene: &Scene, seen: &SeenFragment) -> Option<Point<World>> {
-    let owner = seen.owner?;
+fn fragment_position(scene: &Scene, seen: &ShadedFragment) -> Option<Point<World>> {
+    let owner = seen.source?;
     let placed = scene.models.get(owner.model)?;
-    let primitive = shown(scene, owner).filter(|shown| shown.topology == Topology::Triangles)?;
-    let corners = primitive.indices.as_chunks::<3>().0.get(owner.item)?;
-    let instance = placed.model.shown_meshes().find(|at| at.node == owner.node)?;
-    let posed = placed.model.posed(instance, primitive);
+    let primitive =
+        find_primitive(scene, owner).filter(|shown| shown.topology == Topology::Triangles)?;
+    let corners = primitive.indices.as_chunks::<3>().0.get(owner.element)?;
+    let instance = placed.model.mesh_instances().find(|at| at.node == owner.node)?;
+    let posed = placed.model.skin_primitive(instance, primitive);
     let to_world = posed.to_model.then(placed.model_to_world);
     let mut place = glam::DVec3::ZERO;
     for (corner, weight) in corners.iter().zip(seen.weights) {
         let corner = posed.positions.get(*corner as usize)?;
-        place += to_world.point(to_point(*corner)).raw() * f64::from(weight);
+        place += to_world.transform_point(model_point(*corner)).raw() * f64::from(weight);
     }
     Some(Point::from_raw(place))
 }
 
-fn color_step(makeup: &PixelMakeup) -> Step {
+fn color_step(makeup: &PixelFragments) -> Step {
     let [r, g, b, alpha] = makeup.color;
     Step::new("pixel", "The pixel: samples resolved in linear light, then sRGB", Some("RA-2"))
-        .with("srgb", "red, green, blue, alpha of 255", makeup.color.map(f64::from))
-        .with("hex", "as on a web page", format!("#{r:02x}{g:02x}{b:02x}, alpha {alpha}"))
+        .with_item("srgb", "red, green, blue, alpha of 255", makeup.color.map(f64::from))
+        .with_item("hex", "as on a web page", format!("#{r:02x}{g:02x}{b:02x}, alpha {alpha}"))
 }
 
-fn verdict(makeup: &PixelMakeup) -> String {
+fn pixel_verdict(makeup: &PixelFragments) -> String {
     let [r, g, b, alpha] = makeup.color;
     let what = match makeup.fragments.len() {
         0 => "nothing is in it but the background".to_owned(),

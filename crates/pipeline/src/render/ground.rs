@@ -1,52 +1,62 @@
 //! The ground of a frame: a translucent rectangle on which nothing but shadows is seen.
 
 use super::RenderError;
-use super::assemble::{Assembler, BACKDROP, DEFAULT_MATERIAL, triangle};
-use super::renderer::Memory;
+use super::primitive_assembly::{
+    DEFAULT_MATERIAL, PrimitiveAssembler, QUAD, submit_clipped_triangle,
+};
+use super::renderer::FrameMemory;
 use crate::scene::Ground;
 use homog::Affine;
-use raster::Cover;
-use shade::{Draw, Maps, PLACE, Role, Tangents};
+use raster::Opacity;
+use shade::{Draw, DrawKind, MaterialTextures, POSITION, Tangents};
 
-impl Assembler<'_> {
+impl PrimitiveAssembler<'_> {
     /// Adds the ground. It reaches behind the far plane and before the near one, which enclose the models tightly.
-    pub(super) fn ground(&mut self, ground: Ground) -> Result<(), RenderError> {
+    pub(super) fn add_ground(&mut self, ground: Ground) -> Result<(), RenderError> {
         let first_id = self.next_id;
         self.next_id = first_id.checked_add(2).ok_or(RenderError::TooManyPrimitives)?;
-        let mut stage = self.stage;
-        stage.volume = stage.volume.without_near().without_far();
+        let mut stage = self.transform;
+        stage.guard_band = stage.guard_band.without_near().without_far();
         let model_to_clip = stage.model_to_clip(Affine::IDENTITY);
         let vertex = |place: [f32; 3]| {
             let mut vertex = [0.0; 8];
-            vertex[PLACE..PLACE + 3].copy_from_slice(&place);
+            vertex[POSITION..POSITION + 3].copy_from_slice(&place);
             vertex
         };
-        let mut vertices = self.memory.spare.pop().unwrap_or_default();
+        let mut vertices = self.memory.vertex_pool.pop().unwrap_or_default();
         vertices.clear();
         vertices.extend(ground.corners.map(vertex));
         let draw = Draw {
             first_id,
-            part: self.next_part,
-            primitive: &BACKDROP,
+            part_id: self.next_part_id,
+            primitive: &QUAD,
             material: &DEFAULT_MATERIAL,
-            maps: Maps::default(),
+            textures: MaterialTextures::default(),
             vertices,
             tangents: Tangents::None,
-            smooth: false,
+            is_smooth: false,
             uv_set: None,
             colors: None,
-            role: Role::Ground,
-            mirrored: false,
-            scale: 1.0,
+            kind: DrawKind::ShadowCatcher,
+            flips_winding: false,
+            world_scale: 1.0,
         };
-        let cull = self.cull(&draw);
-        let Memory { images, frame, .. } = &mut self.memory;
-        images.whole.clear(4);
-        images.cut.clear(4);
-        images.cut.add_all(2);
-        images.project(&stage, model_to_clip, &ground.corners, 1);
-        for (id, corners) in (first_id..).zip(BACKDROP.indices.as_chunks::<3>().0) {
-            triangle(&stage, images, frame, *corners, id, Cover::Translucent, cull);
+        let cull = self.cull_mode(&draw);
+        let FrameMemory { mesh: images, frame, .. } = &mut self.memory;
+        images.unclipped.clear(4);
+        images.to_clip.clear(4);
+        images.to_clip.add_all(2);
+        images.project_vertices(&stage, model_to_clip, &ground.corners, 1);
+        for (id, corners) in (first_id..).zip(QUAD.indices.as_chunks::<3>().0) {
+            submit_clipped_triangle(
+                &stage,
+                images,
+                frame,
+                *corners,
+                id,
+                Opacity::Translucent,
+                cull,
+            );
         }
         self.memory.draws.draws.push(draw);
         Ok(())

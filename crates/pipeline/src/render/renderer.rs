@@ -1,18 +1,20 @@
 //! One picture after the other, in the memory of the first.
 
 use super::RenderError;
-use super::assemble::assemble;
-use super::images::Images;
-use super::occlusion::{screen_space, whole_screen_space};
-use super::region::{PartOfSheet, Sheet, sheets};
-use super::shadows::ShadowMemory;
-use super::textures::Textures;
+use super::ambient_occlusion::{build_full_ssao_buffer, build_ssao_buffer};
+use super::image_tiles::{ImageTile, TileRegion, tile_regions};
+use super::mip_chains::Textures;
+use super::primitive_assembly::assemble_scene;
+use super::projected_mesh::ProjectedMesh;
+use super::shadow_maps::ShadowMapRenderer;
 use crate::scene::{Scene, Style};
-use crate::{Cancel, Picture, Timings};
+use crate::{CancelToken, Picture, Timings};
 use homog::PixelRect;
-use raster::{Frame, Nearest};
+use raster::{Frame, SurfaceDepth};
 use shade::Channel;
-use shade::{Draw, DrawList, Look, ScreenSpace, Shading, ShadowMap, Styled, Vertex};
+use shade::{
+    AmbientOcclusion, Draw, DrawList, Shading, ShadingStyle, ShadowMap, StyledShading, Vertex,
+};
 
 /// Renders surfaces again and again: the same models from elsewhere, in other light, in another pose.
 ///
@@ -35,31 +37,31 @@ use shade::{Draw, DrawList, Look, ScreenSpace, Shading, ShadowMap, Styled, Verte
 #[derive(Debug, Default)]
 pub struct Renderer {
     frame: Option<Frame>,
-    images: Images,
+    mesh: ProjectedMesh,
     /// No draws, but room for them.
     draws: Vec<Draw<'static>>,
-    spare: Vec<Vec<Vertex>>,
-    shadows: ShadowMemory,
-    nearest: Vec<Nearest>,
-    cancel: Cancel,
+    vertex_pool: Vec<Vec<Vertex>>,
+    shadow_maps: ShadowMapRenderer,
+    nearest_surfaces: Vec<SurfaceDepth>,
+    cancel: CancelToken,
 }
 
 /// What a picture is put together in.
 #[derive(Debug)]
-pub(super) struct Memory<'a> {
+pub(super) struct FrameMemory<'a> {
     pub(super) frame: Frame,
     /// The sheet of the picture that the frame is a part of.
-    pub(super) sheet: Sheet,
+    pub(super) tile: ImageTile,
     pub(super) draws: DrawList<'a>,
-    pub(super) images: Images,
+    pub(super) mesh: ProjectedMesh,
     /// Lists for what the vertices of draws carry.
-    pub(super) spare: Vec<Vec<Vertex>>,
+    pub(super) vertex_pool: Vec<Vec<Vertex>>,
 }
 
 impl Renderer {
     /// The same renderer, whose pictures end early once `cancel` says so: with [`RenderError::Cancelled`], and a picture that is none.
     #[must_use]
-    pub fn cancelled_by(self, cancel: Cancel) -> Self {
+    pub fn with_cancel(self, cancel: CancelToken) -> Self {
         Self { cancel, ..self }
     }
 
@@ -76,8 +78,8 @@ impl Renderer {
         timings: &Timings,
         picture: &mut Picture<C>,
     ) -> Result<(), RenderError> {
-        let whole = scene.image.rect();
-        self.render_region(scene, textures, whole, threads, timings, picture)
+        let image_rect = scene.image.pixel_rect();
+        self.render_region(scene, textures, image_rect, threads, timings, picture)
     }
 
     /// Renders a part of the picture of a scene. Its pixels are those that the whole picture has there, bit for bit.
@@ -94,16 +96,16 @@ impl Renderer {
         timings: &Timings,
         picture: &mut Picture<C>,
     ) -> Result<(), RenderError> {
-        let is_part = region != scene.image.rect();
-        let whole = || whole_screen_space(scene, textures, threads);
-        let occlusion = if is_part { whole()? } else { None };
-        self.cast_shadows(scene, textures, threads, timings)?;
-        self.render_part(scene, textures, region, threads, timings, occlusion.as_ref(), picture)
+        let is_region = region != scene.image.pixel_rect();
+        let full_ssao = || build_full_ssao_buffer(scene, textures, threads);
+        let occlusion = if is_region { full_ssao()? } else { None };
+        self.render_shadow_maps(scene, textures, threads, timings)?;
+        self.render_tiles(scene, textures, region, threads, timings, occlusion.as_ref(), picture)
     }
 
     /// Makes the shadow maps of a scene, which every part of its picture is shaded with: they depend on the scene and on the size of
     /// the whole picture, and not on the part.
-    pub(super) fn cast_shadows(
+    pub(super) fn render_shadow_maps(
         &mut self,
         scene: &Scene,
         textures: &Textures<'_>,
@@ -111,9 +113,9 @@ impl Renderer {
         timings: &Timings,
     ) -> Result<(), RenderError> {
         if scene.lights.iter().any(|light| light.shadow().is_some()) {
-            timings.measure("shadows", || self.shadows.render(scene, textures, threads))
+            timings.measure("shadows", || self.shadow_maps.render_maps(scene, textures, threads))
         } else {
-            self.shadows.clear();
+            self.shadow_maps.recycle_maps();
             Ok(())
         }
     }
@@ -121,151 +123,155 @@ impl Renderer {
     /// Renders a part with the shadow maps that [were made](Self::cast_shadows) of its scene, and the nearest surfaces of the whole
     /// picture, if they are needed and the region is a part of it.
     #[expect(clippy::too_many_arguments, reason = "a region, and all that drawing it depends on")]
-    pub(super) fn render_part<C: Channel>(
+    pub(super) fn render_tiles<C: Channel>(
         &mut self,
         scene: &Scene,
         textures: &Textures<'_>,
         region: PixelRect,
         threads: usize,
         timings: &Timings,
-        occlusion: Option<&ScreenSpace>,
+        occlusion: Option<&AmbientOcclusion>,
         picture: &mut Picture<C>,
     ) -> Result<(), RenderError> {
-        super::region::check_region(scene.image, region)?;
+        super::image_tiles::validate_region(scene.image, region)?;
         picture.resize(region.width, region.height);
-        let parts = sheets(scene.image, region);
+        let parts = tile_regions(scene.image, region);
         if let [part] = parts[..] {
             let pixels = &mut picture.pixels;
-            self.draw_part(scene, textures, part, threads, timings, occlusion, pixels)?;
+            self.render_tile(scene, textures, part, threads, timings, occlusion, pixels)?;
         } else {
             for part in parts {
-                let mut patch = vec![[C::default(); 4]; part.area()];
-                self.draw_part(scene, textures, part, threads, timings, occlusion, &mut patch)?;
-                part.put(&patch, region, &mut picture.pixels);
+                let mut patch = vec![[C::default(); 4]; part.pixel_count()];
+                self.render_tile(scene, textures, part, threads, timings, occlusion, &mut patch)?;
+                part.copy_into_region(&patch, region, &mut picture.pixels);
             }
         }
         if self.cancel.is_cancelled() { Err(RenderError::Cancelled) } else { Ok(()) }
     }
 
     #[expect(clippy::too_many_arguments, reason = "a part, and all that drawing it depends on")]
-    fn draw_part<C: Channel>(
+    fn render_tile<C: Channel>(
         &mut self,
         scene: &Scene,
         textures: &Textures<'_>,
-        part: PartOfSheet,
+        part: TileRegion,
         threads: usize,
         timings: &Timings,
-        occlusion: Option<&ScreenSpace>,
+        occlusion: Option<&AmbientOcclusion>,
         target: &mut [[C; 4]],
     ) -> Result<(), RenderError> {
-        let memory = self.lend(scene, part, threads)?;
-        let memory = timings.measure("vertices", || assemble(scene, textures, threads, memory))?;
-        let Memory { frame, draws, .. } = &memory;
-        let own = match occlusion {
+        let memory = self.take_buffers(scene, part, threads)?;
+        let memory =
+            timings.measure("vertices", || assemble_scene(scene, textures, threads, memory))?;
+        let FrameMemory { frame, draws, .. } = &memory;
+        let own_ssao = match occlusion {
             Some(_) => None,
             None => {
-                let nearest = std::mem::take(&mut self.nearest);
-                screen_space(scene, frame, draws, threads, nearest)?
+                let nearest = std::mem::take(&mut self.nearest_surfaces);
+                build_ssao_buffer(scene, frame, draws, threads, nearest)?
             }
         };
-        let space = occlusion.or(own.as_ref());
-        let shading = shading(scene, draws, frame, &self.shadows.maps, space);
+        let ssao = occlusion.or(own_ssao.as_ref());
+        let shading = fragment_shading(scene, draws, frame, &self.shadow_maps.maps, ssao);
         let background = scene.image.background;
-        timings.measure("pixels", || match &styled(scene, &shading) {
+        timings.measure("pixels", || match &style_surface(scene, &shading) {
             Some(styled) => frame.draw(styled, background, threads, target, C::encoder()),
             None => frame.draw(&shading, background, threads, target, C::encoder()),
         });
-        self.nearest = own.map(|space| space.nearest).unwrap_or_default();
-        self.take_back(memory);
+        self.nearest_surfaces = own_ssao.map(|space| space.nearest).unwrap_or_default();
+        self.recycle_buffers(memory);
         Ok(())
     }
 
     /// The memory, with an empty frame for a part of the scene's picture.
-    pub(super) fn lend<'a>(
+    pub(super) fn take_buffers<'a>(
         &mut self,
         scene: &Scene,
-        part: PartOfSheet,
+        part: TileRegion,
         threads: usize,
-    ) -> Result<Memory<'a>, RenderError> {
+    ) -> Result<FrameMemory<'a>, RenderError> {
         let samples = scene.image.samples;
-        let ([x, y], [width, height]) = (part.corner(), part.size());
+        let ([x, y], [width, height]) = (part.offset_in_tile(), part.size());
         let frame = match self.frame.take() {
             Some(mut frame) if [x, y] == [0, 0] => {
-                frame.restart(width, height, samples)?;
+                frame.reset(width, height, samples)?;
                 frame
             }
-            _ => Frame::part([x, y], [width, height], samples)?,
+            _ => Frame::for_region([x, y], [width, height], samples)?,
         };
-        let draws = DrawList { draws: emptied(std::mem::take(&mut self.draws)) };
-        let images = std::mem::take(&mut self.images);
-        let spare = std::mem::take(&mut self.spare);
-        let frame = frame.with_threads(threads).with_stop(self.cancel.flag());
-        Ok(Memory { frame, sheet: part.sheet, draws, images, spare })
+        let draws = DrawList { draws: recycle_draws(std::mem::take(&mut self.draws)) };
+        let images = std::mem::take(&mut self.mesh);
+        let spare = std::mem::take(&mut self.vertex_pool);
+        let frame = frame.with_threads(threads).with_cancel_flag(self.cancel.stop_flag());
+        Ok(FrameMemory { frame, tile: part.tile, draws, mesh: images, vertex_pool: spare })
     }
 
-    fn take_back(&mut self, memory: Memory<'_>) {
-        let Memory { frame, mut draws, images, mut spare, .. } = memory;
+    fn recycle_buffers(&mut self, memory: FrameMemory<'_>) {
+        let FrameMemory { frame, mut draws, mesh: images, vertex_pool: mut spare, .. } = memory;
         // The first list that is asked for next time is the one of the first draw.
         spare.extend(draws.draws.drain(..).rev().map(|draw| draw.vertices));
         self.frame = Some(frame);
-        self.images = images;
-        self.draws = emptied(draws.draws);
-        self.spare = spare;
+        self.mesh = images;
+        self.draws = recycle_draws(draws.draws);
+        self.vertex_pool = spare;
     }
 }
 
 /// What the fragments of a frame are shaded with.
-pub(super) fn shading<'a>(
+pub(super) fn fragment_shading<'a>(
     scene: &'a Scene,
     draws: &'a DrawList<'a>,
     frame: &Frame,
     shadows: &'a [Option<ShadowMap>],
-    occlusion: Option<&'a ScreenSpace>,
+    occlusion: Option<&'a AmbientOcclusion>,
 ) -> Shading<'a> {
     Shading {
         draws,
-        painting: scene.painting.as_deref(),
+        backdrop: scene.backdrop.as_deref(),
         lights: &scene.lights,
         shadows,
         occlusion,
         environment: scene.environment.as_deref(),
-        develop: scene.develop,
+        tone_mapper: scene.tone_mapper,
         viewer: scene.view_projection.viewer(),
-        instructions: frame.instructions(),
+        simd_level: frame.simd_level(),
     }
 }
 
 /// The surfaces of a style that looks otherwise than materials have it.
-pub(super) fn styled<'a>(scene: &Scene, shading: &'a Shading<'a>) -> Option<Styled<'a>> {
+pub(super) fn style_surface<'a>(
+    scene: &Scene,
+    shading: &'a Shading<'a>,
+) -> Option<StyledShading<'a>> {
     let camera = scene.view_projection.camera;
     let look = match scene.style {
-        Style::Gouraud => Look::Gouraud,
-        Style::Clay => Look::Clay,
-        Style::Matcap => Look::Matcap,
-        Style::Normals => Look::Normals,
+        Style::Gouraud => ShadingStyle::Gouraud,
+        Style::Clay => ShadingStyle::Clay,
+        Style::Matcap => ShadingStyle::Matcap,
+        Style::Normals => ShadingStyle::Normals,
         Style::Depth => {
             let world_to_view = camera.world_to_view();
             let (mut near, mut far) = (f64::INFINITY, f64::NEG_INFINITY);
             for point in scene.world_points() {
-                let depth = -world_to_view.point(point).z();
+                let depth = -world_to_view.transform_point(point).z();
                 (near, far) = (near.min(depth), far.max(depth));
             }
             // What is behind the eye is not seen.
-            Look::Depth { near: near.max(0.0) as f32, far: far as f32 }
+            ShadingStyle::Depth { near: near.max(0.0) as f32, far: far as f32 }
         }
-        Style::UvChecker => Look::UvChecker,
-        Style::Ids => Look::Ids,
-        Style::Toon => Look::Toon,
-        Style::XRay => Look::XRay,
+        Style::UvChecker => ShadingStyle::UvChecker,
+        Style::Ids => ShadingStyle::Ids,
+        Style::Toon => ShadingStyle::Toon,
+        Style::XRay => ShadingStyle::XRay,
         Style::Shaded | Style::Flat | Style::Wireframe | Style::Lines(_) => return None,
     };
     let view = [camera.u(), camera.v(), camera.w()].map(|axis| axis.raw().as_vec3().to_array());
     let eye = camera.eye().raw().as_vec3().to_array();
-    Some(Styled { shading, look, view, eye })
+    Some(StyledShading { shading, style: look, world_to_view: view, eye_position: eye })
 }
 
 /// The room of a list, for draws of other things.
-fn emptied<'b>(mut draws: Vec<Draw<'_>>) -> Vec<Draw<'b>> {
+fn recycle_draws<'b>(mut draws: Vec<Draw<'_>>) -> Vec<Draw<'b>> {
     draws.clear();
     draws.into_iter().map_while(|_| None).collect()
 }

@@ -3,22 +3,22 @@
 use super::file::{
     CameraFile, CameraKeyFile, CurveFile, FieldOfView, ProjectionFile, SceneFile, ViewFile,
 };
-use super::locate::Step::{self, Field, Index};
 use super::number::Triple;
-use super::viewpoint::resolve_shot;
+use super::source_span::PathStep::{self, Field, Index};
+use super::view_projection::resolve_view_projection;
 use super::{ImageSpec, Origin, SceneError};
 use camera::ViewProjection;
 use model::ModelInstance;
 
 /// The most keys.
-const MOST: usize = 10_000;
+const MAX_KEYS: usize = 10_000;
 /// The numbers of a key: eye, target, view-up vector, opening angle in degrees.
-type Numbers = [f64; 10];
+type KeyValues = [f64; 10];
 
 /// The way of a camera.
 #[derive(Clone, PartialEq, Debug)]
 pub struct CameraPath {
-    keys: Vec<(f64, Numbers)>,
+    keys: Vec<(f64, KeyValues)>,
     curve: CurveFile,
     /// The camera whose projection it has.
     camera: CameraFile,
@@ -30,13 +30,13 @@ impl CameraPath {
     /// # Errors
     /// If there are too few keys or too many, their times do not grow, or a key has an opening angle and the projection has none; the error
     /// points at it.
-    pub fn of(origin: &Origin, file: &SceneFile) -> Result<Option<Self>, SceneError> {
+    pub fn from_scene_file(origin: &Origin, file: &SceneFile) -> Result<Option<Self>, SceneError> {
         let Some(path) = &file.camera_path else { return Ok(None) };
-        let fault = |rest: &[Step<'_>], message: String, help: &str| {
+        let fault = |rest: &[PathStep<'_>], message: String, help: &str| {
             let at = [&[Field("camera_path"), Field("keys")], rest].concat();
-            origin.fault(&at, message, Some(help.to_owned()))
+            origin.error_at(&at, message, Some(help.to_owned()))
         };
-        if !(2..=MOST).contains(&path.keys.len()) {
+        if !(2..=MAX_KEYS).contains(&path.keys.len()) {
             let message = format!("a camera's way cannot have {} keys", path.keys.len());
             return Err(fault(&[], message, "from 2 to 10,000 are possible"));
         }
@@ -64,21 +64,21 @@ impl CameraPath {
             return Err(fault(&[Index(at), Field("fov_y_degrees")], message, help));
         }
         let usual = usual.unwrap_or_default();
-        let keys = path.keys.iter().map(|key| (key.time.value(), numbers(key, usual))).collect();
+        let keys = path.keys.iter().map(|key| (key.time.value(), key_values(key, usual))).collect();
         Ok(Some(Self { keys, curve: path.curve, camera: file.camera.clone() }))
     }
 
     /// The times of the first and the last key, in seconds.
     #[must_use]
-    pub fn span(&self) -> [f64; 2] {
-        let time = |key: Option<&(f64, Numbers)>| key.map_or(0.0, |key| key.0);
+    pub fn time_range(&self) -> [f64; 2] {
+        let time = |key: Option<&(f64, KeyValues)>| key.map_or(0.0, |key| key.0);
         [time(self.keys.first()), time(self.keys.last())]
     }
 
     /// The camera at a time in seconds; before the first key it is there, and after the last.
     #[must_use]
-    pub fn at(&self, time: f64) -> CameraFile {
-        let numbers = self.numbers(time);
+    pub fn camera_at(&self, time: f64) -> CameraFile {
+        let numbers = self.interpolate_keys(time);
         let triple = |at: usize| Triple([numbers[at], numbers[at + 1], numbers[at + 2]]);
         let view = ViewFile::LookAt { eye: triple(0), target: triple(3), up: triple(6) };
         let mut camera = CameraFile { view, ..self.camera.clone() };
@@ -91,20 +91,20 @@ impl CameraPath {
     }
 
     /// The same around models that are loaded, posed and placed.
-    pub(crate) fn view_projection(
+    pub(crate) fn view_projection_at(
         &self,
         origin: &Origin,
         time: f64,
         models: &[ModelInstance],
         image: ImageSpec,
     ) -> Result<ViewProjection, SceneError> {
-        resolve_shot(origin, &self.at(time), models, image).map_err(|error| {
+        resolve_view_projection(origin, &self.camera_at(time), models, image).map_err(|error| {
             let message = format!("{:.3} s along the camera's way: {}", time, error.message);
-            origin.fault(&[Field("camera_path"), Field("keys")], message, error.help)
+            origin.error_at(&[Field("camera_path"), Field("keys")], message, error.help)
         })
     }
 
-    fn numbers(&self, time: f64) -> Numbers {
+    fn interpolate_keys(&self, time: f64) -> KeyValues {
         let after = self.keys.partition_point(|key| key.0 <= time);
         let (Some(before), Some(&(end, to))) = (after.checked_sub(1), self.keys.get(after)) else {
             let nearest = if after == 0 { self.keys.first() } else { self.keys.last() };
@@ -115,27 +115,28 @@ impl CameraPath {
         std::array::from_fn(|k| match self.curve {
             CurveFile::Linear => from[k] + (to[k] - from[k]) * part,
             CurveFile::Smooth => {
-                let slopes = [before, after].map(|at| self.slope(at, k) * (end - start));
-                hermite([from[k], to[k]], slopes, part)
+                let slopes =
+                    [before, after].map(|at| self.catmull_rom_slope(at, k) * (end - start));
+                interpolate_hermite([from[k], to[k]], slopes, part)
             }
         })
     }
 
     /// How fast a number changes at a key: as fast as between its neighbours (Catmull and Rom, 1974, at unequal times).
-    fn slope(&self, at: usize, number: usize) -> f64 {
+    fn catmull_rom_slope(&self, at: usize, number: usize) -> f64 {
         let (start, from) = self.keys[at.saturating_sub(1)];
         let (end, to) = self.keys[(at + 1).min(self.keys.len() - 1)];
         (to[number] - from[number]) / (end - start)
     }
 }
 
-fn numbers(key: &CameraKeyFile, usual: FieldOfView) -> Numbers {
+fn key_values(key: &CameraKeyFile, usual: FieldOfView) -> KeyValues {
     let [[a, b, c], [d, e, f], [g, h, i]] = [key.eye.0, key.target.0, key.up.0];
     [a, b, c, d, e, f, g, h, i, key.fov_y_degrees.unwrap_or(usual).value()]
 }
 
 /// The cubic with these values and slopes at 0 and 1 (Hermite).
-fn hermite([from, to]: [f64; 2], [out, into]: [f64; 2], t: f64) -> f64 {
+fn interpolate_hermite([from, to]: [f64; 2], [out, into]: [f64; 2], t: f64) -> f64 {
     let change = to - from;
     let bend = 3.0 * change - 2.0 * out - into;
     let twist = out + into - 2.0 * change;
@@ -145,18 +146,19 @@ fn hermite([from, to]: [f64; 2], [out, into]: [f64; 2], t: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::parse;
+    use crate::scene::parse_scene;
 
     fn path(fields: &str) -> Result<CameraPath, String> {
         let text = format!("Scene(models: [(path: \"a.glb\")], camera_path: ({fields}))");
-        let file = parse("a.ron", &text).map_err(|error| error.to_string())?;
-        let origin = Origin::of_text("a.ron", text, std::path::PathBuf::new());
-        let path = CameraPath::of(&origin, &file).map_err(|error| error.to_string())?;
+        let file = parse_scene("a.ron", &text).map_err(|error| error.to_string())?;
+        let origin = Origin::from_text("a.ron", text, std::path::PathBuf::new());
+        let path =
+            CameraPath::from_scene_file(&origin, &file).map_err(|error| error.to_string())?;
         path.ok_or_else(|| "no way".to_owned())
     }
 
     fn eye(path: &CameraPath, time: f64) -> [f64; 3] {
-        match path.at(time).view {
+        match path.camera_at(time).view {
             ViewFile::LookAt { eye, .. } => eye.0,
             other => panic!("{other:?}"),
         }
@@ -171,7 +173,7 @@ mod tests {
     #[test]
     fn straight_ways_are_straight_and_end_at_their_ends() {
         let path = path(&format!("{KEYS}, curve: Linear")).expect("a way");
-        assert_eq!(path.span(), [0.0, 3.0]);
+        assert_eq!(path.time_range(), [0.0, 3.0]);
         for (time, expected) in [
             (-1.0, [0.0; 3]),
             (0.5, [1.0, 0.0, 0.5]),
@@ -180,7 +182,8 @@ mod tests {
         ] {
             assert_eq!(eye(&path, time), expected, "{time}");
         }
-        let Some(ProjectionFile::Perspective { fov_y_degrees, .. }) = path.at(2.0).projection
+        let Some(ProjectionFile::Perspective { fov_y_degrees, .. }) =
+            path.camera_at(2.0).projection
         else {
             panic!("a perspective");
         };

@@ -6,7 +6,7 @@
 
 use super::SceneError;
 use super::file::{Finite, FromFile, PrincipalFile, ProjectionFile};
-use super::viewpoint::Resolver;
+use super::view_projection::CameraResolver;
 use camera::ViewProjection;
 use camera::{Basis, Camera, Slopes, frame_perspective};
 use glam::DVec3;
@@ -18,12 +18,12 @@ use projection::{
 
 /// The box around the images of all points.
 #[derive(Clone, Copy, Debug)]
-struct Image {
+struct ProjectedBounds {
     low: DVec3,
     high: DVec3,
 }
 
-impl Resolver<'_> {
+impl CameraResolver<'_> {
     /// A classical projection of the models as seen from a side; the front, unless another is named.
     pub(super) fn frame_classical(
         &self,
@@ -31,32 +31,32 @@ impl Resolver<'_> {
         padding: f64,
         projection: &ProjectionFile,
     ) -> Result<ViewProjection, SceneError> {
-        let basis = self.basis(from.unwrap_or(&FromFile::Front))?;
-        if let Some(construction) = constructed(projection) {
-            let construction = construction.map_err(|error| self.projection_fault(&error))?;
-            return self.construct(basis, construction, padding);
+        let basis = self.view_basis(from.unwrap_or(&FromFile::Front))?;
+        if let Some(construction) = vanishing_point_construction(projection) {
+            let construction = construction.map_err(|error| self.projection_error(&error))?;
+            return self.frame_construction(basis, construction, padding);
         }
-        let middle = self.middle().ok_or_else(|| self.nothing_to_draw())?;
-        let camera = Camera::new(middle, basis).map_err(|error| self.camera_fault(&error))?;
-        self.through_plane(camera, projection, padding)
+        let middle = self.bounds_center().ok_or_else(|| self.nothing_to_draw_error())?;
+        let camera = Camera::new(middle, basis).map_err(|error| self.camera_error(&error))?;
+        self.frame_on_picture_plane(camera, projection, padding)
     }
 
     /// A classical projection before a camera that stands somewhere.
-    pub(super) fn classical(
+    pub(super) fn project_classical(
         &self,
         camera: Camera,
         projection: &ProjectionFile,
     ) -> Result<ViewProjection, SceneError> {
-        if constructed(projection).is_some() {
+        if vanishing_point_construction(projection).is_some() {
             let help = "take Frame(from: …), or leave the view out".to_owned();
             let message = "a perspective by vanishing points finds its own eye";
-            return Err(self.view_fault(message, Some(help)));
+            return Err(self.view_error(message, Some(help)));
         }
-        self.through_plane(camera, projection, 0.05)
+        self.frame_on_picture_plane(camera, projection, 0.05)
     }
 
     /// A projection that is given by its picture plane.
-    fn through_plane(
+    fn frame_on_picture_plane(
         &self,
         camera: Camera,
         projection: &ProjectionFile,
@@ -64,31 +64,36 @@ impl Resolver<'_> {
     ) -> Result<ViewProjection, SceneError> {
         let world_to_view = camera.world_to_view();
         let points: Vec<Point<View>> =
-            self.points.iter().map(|&point| world_to_view.point(point)).collect();
-        let fault = |error: ProjectionError| self.projection_fault(&error);
-        let depth_kept = by_plane(projection, radius(&points)).map_err(fault)?.depth_kept();
-        let image = Image::of(&points, depth_kept).ok_or_else(|| {
+            self.points.iter().map(|&point| world_to_view.transform_point(point)).collect();
+        let fault = |error: ProjectionError| self.projection_error(&error);
+        let depth_kept = picture_plane_projection(projection, bounding_radius(&points))
+            .map_err(fault)?
+            .depth_preserving();
+        let image = ProjectedBounds::from_points(&points, depth_kept).ok_or_else(|| {
             let help = "smaller p, q and r move the eye away: below 0.5 in all they always do";
-            self.whole_fault("a part of the models is behind the eye", Some(help.to_owned()))
+            self.projection_error_with(
+                "a part of the models is behind the eye",
+                Some(help.to_owned()),
+            )
         })?;
-        let volume = image.volume(self.aspect, padding).map_err(fault)?;
+        let volume = image.view_volume(self.aspect, padding).map_err(fault)?;
         let view_to_clip = depth_kept.then(volume.view_to_clip(Convention::CHAPTER));
         Ok(ViewProjection { camera, view_to_clip })
     }
 
     /// A perspective that is given by vanishing points.
-    fn construct(
+    fn frame_construction(
         &self,
         from: Basis,
         construction: ConstructedPerspective,
         padding: f64,
     ) -> Result<ViewProjection, SceneError> {
-        let fault = |error: ProjectionError| self.projection_fault(&error);
+        let fault = |error: ProjectionError| self.projection_error(&error);
         // The rows of the rotation are the eye's axes as the side from which the models are seen has them.
         let rows = construction.world_to_view().raw().transpose();
         let axis = |row: glam::DVec4| from.to_world(Vector::from_raw(row.truncate()));
         let basis = Basis::from_gaze(-axis(rows.z_axis), axis(rows.y_axis))
-            .map_err(|error| self.camera_fault(&error))?;
+            .map_err(|error| self.camera_error(&error))?;
         let window = Window::new(-self.aspect, self.aspect, -1.0, 1.0).map_err(fault)?;
         let slopes = construction.frustum(window, 1.0, 2.0).map_err(fault)?.slopes();
         let frame = Slopes {
@@ -99,9 +104,9 @@ impl Resolver<'_> {
         };
         let points = self.points.iter().copied();
         let framed = frame_perspective(points, basis, frame, padding);
-        let framed = framed.map_err(|error| self.framing_fault(&error))?;
-        let span = super::bounds::DepthSpan::of(&self.points, framed.camera);
-        let (near, far) = span.perspective(None, None);
+        let framed = framed.map_err(|error| self.framing_error(&error))?;
+        let span = super::depth_span::DepthSpan::from_points(&self.points, framed.camera);
+        let (near, far) = span.perspective_planes(None, None);
         let frustum = Frustum::from_slopes(slopes, near, far).map_err(fault)?;
         Ok(ViewProjection {
             camera: framed.camera,
@@ -111,7 +116,7 @@ impl Resolver<'_> {
 }
 
 /// The construction, for the projections that are given by vanishing points.
-fn constructed(
+fn vanishing_point_construction(
     projection: &ProjectionFile,
 ) -> Option<Result<ConstructedPerspective, ProjectionError>> {
     let at = |(x, y): (Finite, Finite)| (x.value(), y.value());
@@ -130,13 +135,16 @@ fn constructed(
 }
 
 /// The projection that is given by its picture plane; `radius` is that of the models about the camera.
-fn by_plane(projection: &ProjectionFile, radius: f64) -> Result<Classical, ProjectionError> {
+fn picture_plane_projection(
+    projection: &ProjectionFile,
+    radius: f64,
+) -> Result<Classical, ProjectionError> {
     // People say where depth recedes to; the builder wants where it comes from.
     let phi = |degrees: Finite| (degrees.value() + 180.0).to_radians();
     Ok(match *projection {
         ProjectionFile::Isometric => Axonometric::isometric().into(),
         ProjectionFile::Dimetric => Axonometric::dimetric_42_7().into(),
-        ProjectionFile::Trimetric => trimetric()?.into(),
+        ProjectionFile::Trimetric => default_trimetric()?.into(),
         ProjectionFile::Axonometric { x, y, z } => {
             Axonometric::by_foreshortening(x.value(), y.value(), z.value())?.into()
         }
@@ -158,7 +166,7 @@ fn by_plane(projection: &ProjectionFile, radius: f64) -> Result<Classical, Proje
 }
 
 /// From (2, 3, 6), as the camera of that name sees.
-fn trimetric() -> Result<Axonometric, ProjectionError> {
+fn default_trimetric() -> Result<Axonometric, ProjectionError> {
     Axonometric::by_normal(homog::Normal::new(2.0, 3.0, 6.0))
 }
 
@@ -174,18 +182,18 @@ fn principal_view(file: PrincipalFile) -> PrincipalView {
 }
 
 /// The greatest distance of a point from the camera; 1 if there is none.
-fn radius(points: &[Point<View>]) -> f64 {
+fn bounding_radius(points: &[Point<View>]) -> f64 {
     let most = points.iter().map(|point| point.raw().length()).fold(0.0, f64::max);
     if most > 0.0 { most } else { 1.0 }
 }
 
-impl Image {
+impl ProjectedBounds {
     /// The box around the images; `None` if a point has none or lies behind the eye.
-    fn of(points: &[Point<View>], map: Projective<View, View>) -> Option<Self> {
+    fn from_points(points: &[Point<View>], map: Projective<View, View>) -> Option<Self> {
         let nothing = DVec3::splat(f64::INFINITY);
         let mut image = Self { low: nothing, high: -nothing };
         for &point in points {
-            let seen = map.point(point);
+            let seen = map.transform_point(point);
             let seen = seen.raw();
             if seen.w <= 0.0 {
                 return None;
@@ -197,7 +205,7 @@ impl Image {
     }
 
     /// The volume with everything in it, of this aspect, with a part of its sides free.
-    fn volume(self, aspect: f64, padding: f64) -> Result<Orthographic, ProjectionError> {
+    fn view_volume(self, aspect: f64, padding: f64) -> Result<Orthographic, ProjectionError> {
         let (size, middle) = (self.high - self.low, (self.high + self.low) * 0.5);
         let height = size.y.max(size.x / aspect);
         let height = if height > 0.0 { height } else { size.z.max(1.0) };

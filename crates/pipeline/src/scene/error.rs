@@ -41,14 +41,14 @@ impl SceneError {
 
 impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.told(false))
+        f.write_str(&self.to_message(false))
     }
 }
 
 impl SceneError {
     /// The message with the line and the mark; in colours of a terminal (ECMA-48), if they are wanted.
     #[must_use]
-    pub fn told(&self, colors: bool) -> String {
+    pub fn to_message(&self, colors: bool) -> String {
         if self.source.is_empty() {
             let help =
                 self.help.as_ref().map_or(String::new(), |help| format!("\n  = help: {help}"));

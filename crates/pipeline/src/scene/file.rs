@@ -24,14 +24,16 @@ mod sheet;
 mod viewport;
 
 pub use self::background::{BackgroundFile, FitFile};
-pub use self::camera::{CameraChoice, CameraFile, FromFile, USUAL_PADDING, ViewFile};
+pub use self::camera::{CameraChoice, CameraFile, DEFAULT_PADDING, FromFile, ViewFile};
 pub use self::camera_path::{CameraKeyFile, CameraPathFile, CurveFile};
 pub use self::environment::EnvironmentFile;
 pub use self::ground::GroundFile;
 pub use self::include::Paths;
 pub use self::instances::{InstanceFile, InstancesFile};
 pub use self::light::LightFile;
-pub use self::lines::{CapFile, HiddenFile, JoinFile, LinesFile, ShownFile, ToneFile, WidthFile};
+pub use self::lines::{
+    CapFile, EdgeSelectionFile, FaceFillFile, HiddenFile, JoinFile, LinesFile, WidthFile,
+};
 pub use self::look::{ImageFile, StyleFile, ToneMappingFile};
 pub use self::material::{AlphaModeFile, MaterialFile, MaterialsFile};
 pub use self::occlusion::AmbientOcclusionFile;
@@ -142,7 +144,7 @@ pub enum Choice {
     Name(String),
 }
 
-impl From<Choice> for import::Choice {
+impl From<Choice> for import::NameOrIndex {
     fn from(choice: Choice) -> Self {
         match choice {
             Choice::Index(at) => Self::Index(at),
@@ -153,7 +155,7 @@ impl From<Choice> for import::Choice {
 impl SceneFile {
     /// A scene of one model with every default.
     #[must_use]
-    pub fn showing(path: String) -> Self {
+    pub fn from_model_path(path: String) -> Self {
         let model = ModelFile {
             path,
             translate: Triple::default(),

@@ -15,7 +15,7 @@ pub struct Ground {
 }
 
 /// How many times the scene's diagonal shadows are followed: low suns cast longer ones, but who sees them?
-const LONGEST: f64 = 20.0;
+const MAX_SHADOW_DIAGONALS: f64 = 20.0;
 
 /// The ground of a scene, if it asks for one and there is something above it.
 pub(super) fn resolve_ground(
@@ -24,13 +24,13 @@ pub(super) fn resolve_ground(
     lights: &[Light],
 ) -> Option<Ground> {
     let Some(GroundFile::Shadow { height }) = file.ground else { return None };
-    let bounds = Bounds::of(world_points(models))?;
+    let bounds = Bounds::from_points(world_points(models))?;
     let (least, greatest) = (bounds.corners()[0].raw(), bounds.corners()[7].raw());
     let height = height.map_or(least.y, super::number::Finite::value);
-    let reach = LONGEST * bounds.diagonal();
+    let reach = MAX_SHADOW_DIAGONALS * bounds.diagonal();
     let (mut low, mut high) = (least.min(greatest), least.max(greatest));
     for (light, corner) in lights.iter().flat_map(|light| bounds.corners().map(|c| (light, c))) {
-        if let Some(place) = shadow_of(light, corner.raw(), height, reach) {
+        if let Some(place) = project_shadow(light, corner.raw(), height, reach) {
             (low, high) = (low.min(place), high.max(place));
         }
     }
@@ -42,10 +42,10 @@ pub(super) fn resolve_ground(
 }
 
 /// Where the shadow of a place falls on a level plane, no farther away than `reach`; `None` if it casts none on it.
-fn shadow_of(light: &Light, place: DVec3, height: f64, reach: f64) -> Option<DVec3> {
+fn project_shadow(light: &Light, place: DVec3, height: f64, reach: f64) -> Option<DVec3> {
     light.shadow()?;
     let travel = match light {
-        Light::Sun { towards, .. } => -DVec3::from(towards.map(f64::from)),
+        Light::Sun { to_light: towards, .. } => -DVec3::from(towards.map(f64::from)),
         Light::Spot { position, .. } => place - DVec3::from(position.map(f64::from)),
         Light::Point { .. } | Light::Ambient { .. } => return None,
     };

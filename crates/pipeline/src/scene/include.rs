@@ -8,18 +8,18 @@
 //! Lists are joined, what is included first; of every other field the including file's goes before the included ones', whole.
 
 use super::file::{BackgroundFile, EnvironmentFile, ModelFile};
-use super::locate::Step::{self, Field, Index};
-use super::locate::{locate, says};
-use super::origin::{plain, read_text};
-use super::{Origin, ResolveError, SceneError, SceneFile, parse};
+use super::origin::{normalize_path, read_scene_text};
+use super::source_span::PathStep::{self, Field, Index};
+use super::source_span::{has_field, span_of};
+use super::{Origin, ResolveError, SceneError, SceneFile, parse_scene};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// The most files that one scene includes, each counted as often as it is.
-const MOST_FILES: usize = 64;
+const MAX_INCLUDED_FILES: usize = 64;
 
 /// The fields of a scene that are taken whole.
-const SINGLE: [&str; 10] = [
+const REPLACED_FIELDS: [&str; 10] = [
     "camera",
     "shadows",
     "ground",
@@ -34,7 +34,7 @@ const SINGLE: [&str; 10] = [
 
 /// Which parts of a scene are written in which included file. What is not here is in the scene file itself.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
-pub(super) struct Written {
+pub(super) struct IncludeMap {
     /// Name and text of each included file.
     files: Vec<(String, String)>,
     /// For each field that is taken whole the file it is in, by number.
@@ -43,9 +43,12 @@ pub(super) struct Written {
     lists: BTreeMap<&'static str, Vec<(Option<usize>, usize)>>,
 }
 
-impl Written {
+impl IncludeMap {
     /// Name and text of the included file that the value at the end of `path` is written in, and its path there.
-    pub(super) fn source_of<'a>(&self, path: &[Step<'a>]) -> (Option<(&str, &str)>, Vec<Step<'a>>) {
+    pub(super) fn resolve_source<'a>(
+        &self,
+        path: &[PathStep<'a>],
+    ) -> (Option<(&str, &str)>, Vec<PathStep<'a>>) {
         let (file, path) = match *path {
             [Field(list), Index(at), ref rest @ ..] if self.lists.contains_key(list) => {
                 let place = self.lists.get(list).and_then(|list| list.get(at));
@@ -59,31 +62,32 @@ impl Written {
         (source.map(|(name, text)| (name.as_str(), text.as_str())), path)
     }
 
-    pub(super) fn texts(&self) -> impl Iterator<Item = &str> {
+    pub(super) fn included_texts(&self) -> impl Iterator<Item = &str> {
         self.files.iter().map(|(_, text)| text.as_str())
     }
 }
 
 /// The scene of a file and all that it includes.
-pub(super) fn gather(
+pub(super) fn gather_includes(
     origin: &Origin,
     allowed: &[PathBuf],
-) -> Result<(SceneFile, Written), ResolveError> {
-    let own = parse(&origin.file, &origin.text)?;
+) -> Result<(SceneFile, IncludeMap), ResolveError> {
+    let own = parse_scene(&origin.file, &origin.text)?;
     if own.include.0.is_empty() {
-        return Ok((own, Written::default()));
+        return Ok((own, IncludeMap::default()));
     }
-    let mut gatherer = Gatherer { origin, allowed, written: Written::default() };
-    let page = Page { file: None, name: &origin.file, text: &origin.text, folder: Path::new("") };
+    let mut gatherer = IncludeResolver { origin, allowed, written: IncludeMap::default() };
+    let page =
+        SourceFile { file: None, name: &origin.file, text: &origin.text, folder: Path::new("") };
     let own_path = origin.folder.join(Path::new(&origin.file).file_name().unwrap_or_default());
-    let mut open = vec![(plain(Path::new(""), &own_path), origin.file.clone())];
-    let layer = gatherer.layer(own, &page, &mut open)?;
-    let Layer { file, fields, lists } = layer;
-    Ok((file, Written { fields, lists, ..gatherer.written }))
+    let mut open = vec![(normalize_path(Path::new(""), &own_path), origin.file.clone())];
+    let layer = gatherer.merge_includes(own, &page, &mut open)?;
+    let MergedScene { file, fields, lists } = layer;
+    Ok((file, IncludeMap { fields, lists, ..gatherer.written }))
 }
 
 /// A file that is being read.
-struct Page<'a> {
+struct SourceFile<'a> {
     /// Its number, if it is included.
     file: Option<usize>,
     name: &'a str,
@@ -94,40 +98,40 @@ struct Page<'a> {
 
 /// What one file says together with all that it includes.
 #[derive(Default)]
-struct Layer {
+struct MergedScene {
     file: SceneFile,
     fields: BTreeMap<&'static str, Option<usize>>,
     lists: BTreeMap<&'static str, Vec<(Option<usize>, usize)>>,
 }
 
-struct Gatherer<'a> {
+struct IncludeResolver<'a> {
     origin: &'a Origin,
     allowed: &'a [PathBuf],
-    written: Written,
+    written: IncludeMap,
 }
 
-impl Gatherer<'_> {
+impl IncludeResolver<'_> {
     /// A file with what it includes below it. `open` are the files that are being read, each with its name.
-    fn layer(
+    fn merge_includes(
         &mut self,
         mut file: SceneFile,
-        page: &Page<'_>,
+        page: &SourceFile<'_>,
         open: &mut Vec<(PathBuf, String)>,
-    ) -> Result<Layer, ResolveError> {
-        let mut below = Layer::default();
+    ) -> Result<MergedScene, ResolveError> {
+        let mut below = MergedScene::default();
         for (number, include) in std::mem::take(&mut file.include).0.iter().enumerate() {
             let fault = |message: String, help: Option<String>| SceneError {
                 file: page.name.to_owned(),
                 source: page.text.to_owned(),
-                span: locate(page.text, &[Field("include"), Index(number)]),
+                span: span_of(page.text, &[Field("include"), Index(number)]),
                 message,
                 help,
             };
-            let inner = self.included(&page.folder.join(include), open, fault)?;
-            below = laid_over(below, inner);
+            let inner = self.load_include(&page.folder.join(include), open, fault)?;
+            below = merge_scenes(below, inner);
         }
-        rebase(&mut file, page.folder);
-        let said = SINGLE.into_iter().filter(|field| says(page.text, field));
+        rebase_paths(&mut file, page.folder);
+        let said = REPLACED_FIELDS.into_iter().filter(|field| has_field(page.text, field));
         let elements = |count: usize| (0..count).map(|at| (page.file, at)).collect::<Vec<_>>();
         let lists = [
             ("models", elements(file.models.len())),
@@ -137,28 +141,28 @@ impl Gatherer<'_> {
             ("viewports", elements(file.viewports.len())),
         ];
         let fields = said.map(|field| (field, page.file)).collect();
-        Ok(laid_over(below, Layer { file, fields, lists: lists.into() }))
+        Ok(merge_scenes(below, MergedScene { file, fields, lists: lists.into() }))
     }
 
     /// An included file; `path` is its place from the scene's folder on.
-    fn included(
+    fn load_include(
         &mut self,
         path: &Path,
         open: &mut Vec<(PathBuf, String)>,
         fault: impl Fn(String, Option<String>) -> SceneError,
-    ) -> Result<Layer, ResolveError> {
+    ) -> Result<MergedScene, ResolveError> {
         let shown = path.display();
-        if !self.origin.may_read(path, self.allowed) {
+        if !self.origin.allows_path(path, self.allowed) {
             let help = "keep included files below the scene's folder, or allow another with --allow-outside DIR";
             let message = format!("the path \"{shown}\" leads out of the scene's folder");
             return Err(fault(message, Some(help.to_owned())).into());
         }
-        if self.written.files.len() == MOST_FILES {
-            let message = format!("the scene includes more than {MOST_FILES} files");
+        if self.written.files.len() == MAX_INCLUDED_FILES {
+            let message = format!("the scene includes more than {MAX_INCLUDED_FILES} files");
             return Err(fault(message, None).into());
         }
         let whole = self.origin.folder.join(path);
-        let place = plain(Path::new(""), &whole);
+        let place = normalize_path(Path::new(""), &whole);
         let name = whole.display().to_string();
         if let Some(first) = open.iter().position(|(other, _)| *other == place) {
             let names = open[first..].iter().map(|(_, name)| name.as_str()).chain([name.as_str()]);
@@ -167,21 +171,24 @@ impl Gatherer<'_> {
             return Err(fault(format!("the file includes itself: {circle}"), help).into());
         }
         let help = "check the path: it begins at the folder of this file".to_owned();
-        let text = read_text(&whole).map_err(|error| fault(error.to_string(), Some(help)))?;
-        let file = parse(&name, &text)?;
+        let text = read_scene_text(&whole).map_err(|error| fault(error.to_string(), Some(help)))?;
+        let file = parse_scene(&name, &text)?;
         let number = self.written.files.len();
         self.written.files.push((name.clone(), text.clone()));
         let folder = path.parent().unwrap_or(Path::new(""));
         open.push((place, name.clone()));
-        let layer =
-            self.layer(file, &Page { file: Some(number), name: &name, text: &text, folder }, open)?;
+        let layer = self.merge_includes(
+            file,
+            &SourceFile { file: Some(number), name: &name, text: &text, folder },
+            open,
+        )?;
         open.pop();
         Ok(layer)
     }
 }
 
 /// Makes the paths of a file in `folder` paths from the scene's own folder on. Every field that holds a path belongs here.
-fn rebase(file: &mut SceneFile, folder: &Path) {
+fn rebase_paths(file: &mut SceneFile, folder: &Path) {
     if folder.as_os_str().is_empty() {
         return;
     }
@@ -200,7 +207,7 @@ fn rebase(file: &mut SceneFile, folder: &Path) {
 }
 
 /// Two layers as one.
-fn laid_over(below: Layer, above: Layer) -> Layer {
+fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
     // All fields by name: who adds one to the scene decides here whether it is joined or replaced.
     let SceneFile {
         include,
@@ -225,13 +232,13 @@ fn laid_over(below: Layer, above: Layer) -> Layer {
     let has = |field: &str| above.fields.contains_key(field);
     let file = SceneFile {
         include,
-        models: joined(old.models, models),
+        models: concat_lists(old.models, models),
         camera: if has("camera") { camera } else { old.camera },
         camera_path: if has("camera_path") { camera_path } else { old.camera_path },
-        viewports: joined(old.viewports, viewports),
+        viewports: concat_lists(old.viewports, viewports),
         stereo: if has("stereo") { stereo } else { old.stereo },
         lights: match (old.lights, lights) {
-            (Some(old), Some(new)) => Some(joined(old, new)),
+            (Some(old), Some(new)) => Some(concat_lists(old, new)),
             (old, new) => new.or(old),
         },
         shadows: if has("shadows") { shadows } else { old.shadows },
@@ -244,9 +251,9 @@ fn laid_over(below: Layer, above: Layer) -> Layer {
         },
         style: if has("style") { style } else { old.style },
         image: if has("image") { image } else { old.image },
-        overlays: joined(old.overlays, overlays),
+        overlays: concat_lists(old.overlays, overlays),
         passes: if has("passes") { passes } else { old.passes },
-        sections: joined(old.sections, sections),
+        sections: concat_lists(old.sections, sections),
         sheet: if has("sheet") { sheet } else { old.sheet },
     };
     let fields = below.fields.into_iter().chain(above.fields).collect();
@@ -254,9 +261,9 @@ fn laid_over(below: Layer, above: Layer) -> Layer {
     for (list, elements) in above.lists {
         lists.entry(list).or_default().extend(elements);
     }
-    Layer { file, fields, lists }
+    MergedScene { file, fields, lists }
 }
 
-fn joined<T>(below: Vec<T>, above: Vec<T>) -> Vec<T> {
+fn concat_lists<T>(below: Vec<T>, above: Vec<T>) -> Vec<T> {
     below.into_iter().chain(above).collect()
 }

@@ -5,8 +5,8 @@
 //! ```
 
 use super::file::{Finite, InstanceFile, InstancesFile, ModelFile, SceneFile};
-use super::locate::Step::{self, Field, Index};
 use super::number::{Scale, Triple};
+use super::source_span::PathStep::{self, Field, Index};
 use super::{Origin, SceneError};
 use homog::{Affine, Model as ModelSpace, Vector, World};
 use model::Model;
@@ -14,22 +14,23 @@ use model::ModelInstance;
 use std::sync::Arc;
 
 /// The most copies of models in a scene.
-pub(super) const MOST: usize = 100_000;
+pub(super) const MAX_INSTANCES: usize = 100_000;
 /// The most vertices of all copies of one model: their places are kept for the framing, 24 bytes each.
-const MOST_VERTICES: usize = 1 << 25;
+const MAX_INSTANCE_VERTICES: usize = 1 << 25;
 
-type Placement = Affine<ModelSpace, ModelSpace>;
+type InstanceTransform = Affine<ModelSpace, ModelSpace>;
 
 /// That the scene has not too many copies, each of its models counted.
-pub(super) fn check_counts(origin: &Origin, file: &SceneFile) -> Result<(), SceneError> {
+pub(super) fn check_instance_counts(origin: &Origin, file: &SceneFile) -> Result<(), SceneError> {
     let mut total = 0_usize;
     for (number, entry) in file.models.iter().enumerate() {
-        let count = counted(origin, number, entry)?;
+        let count = checked_instance_count(origin, number, entry)?;
         total = total.saturating_add(count);
-        if total > MOST {
-            let message = format!("the scene has {total} copies of models, more than {MOST}");
+        if total > MAX_INSTANCES {
+            let message =
+                format!("the scene has {total} copies of models, more than {MAX_INSTANCES}");
             let help = Some("show fewer, or put several into one model".to_owned());
-            return Err(origin.fault(&place(number, &[]), message, help));
+            return Err(origin.error_at(&instances_path(number, &[]), message, help));
         }
     }
     Ok(())
@@ -38,7 +39,7 @@ pub(super) fn check_counts(origin: &Origin, file: &SceneFile) -> Result<(), Scen
 impl ModelFile {
     /// How often the model is in the scene.
     #[must_use]
-    pub fn copies(&self) -> usize {
+    pub fn instance_count(&self) -> usize {
         match &self.instances {
             None => 1,
             Some(InstancesFile::Grid { count: (x, y, z), .. }) => {
@@ -51,32 +52,36 @@ impl ModelFile {
     }
 }
 
-fn place<'a>(number: usize, rest: &[Step<'a>]) -> Vec<Step<'a>> {
+fn instances_path<'a>(number: usize, rest: &[PathStep<'a>]) -> Vec<PathStep<'a>> {
     [&[Field("models"), Index(number), Field("instances")], rest].concat()
 }
 
-fn counted(origin: &Origin, number: usize, entry: &ModelFile) -> Result<usize, SceneError> {
-    let copies = entry.copies();
+fn checked_instance_count(
+    origin: &Origin,
+    number: usize,
+    entry: &ModelFile,
+) -> Result<usize, SceneError> {
+    let copies = entry.instance_count();
     if copies > 0 {
         return Ok(copies);
     }
     let field = Field("count");
     let at = match &entry.instances {
-        Some(InstancesFile::List(_)) | None => place(number, &[]),
-        Some(_) => place(number, &[field]),
+        Some(InstancesFile::List(_)) | None => instances_path(number, &[]),
+        Some(_) => instances_path(number, &[field]),
     };
     let help = Some("at least 1; leave `instances` out for one".to_owned());
-    Err(origin.fault(&at, "there is not one copy of the model", help))
+    Err(origin.error_at(&at, "there is not one copy of the model", help))
 }
 
 /// A model in all places that its entry names.
-pub(super) fn placed(
+pub(super) fn instantiate_model(
     origin: &Origin,
     number: usize,
     entry: &ModelFile,
     model: &Arc<Model>,
 ) -> Result<Vec<ModelInstance>, SceneError> {
-    let own = turned(entry.scale, entry.rotate_degrees);
+    let own = scale_then_rotate(entry.scale, entry.rotate_degrees);
     let there = Affine::<ModelSpace, World>::translation(Vector::from(entry.translate.0));
     let Some(instances) = &entry.instances else {
         return Ok(vec![ModelInstance {
@@ -85,15 +90,15 @@ pub(super) fn placed(
         }]);
     };
     let mut vertices = 0_usize;
-    model.for_each_shown_point(|_| vertices += 1);
-    let all = vertices.saturating_mul(entry.copies());
-    if all > MOST_VERTICES {
-        let message = format!("the copies have {all} vertices, more than {MOST_VERTICES}");
+    model.for_each_scene_point(|_| vertices += 1);
+    let all = vertices.saturating_mul(entry.instance_count());
+    if all > MAX_INSTANCE_VERTICES {
+        let message = format!("the copies have {all} vertices, more than {MAX_INSTANCE_VERTICES}");
         let help = Some("show fewer, or a simpler model".to_owned());
-        return Err(origin.fault(&place(number, &[]), message, help));
+        return Err(origin.error_at(&instances_path(number, &[]), message, help));
     }
-    let ways = ways(origin, number, instances)?;
-    let copy = |way: Placement| ModelInstance {
+    let ways = instance_transforms(origin, number, instances)?;
+    let copy = |way: InstanceTransform| ModelInstance {
         model: Arc::clone(model),
         model_to_world: own.then(way).then(there),
     };
@@ -101,32 +106,33 @@ pub(super) fn placed(
 }
 
 /// Scale, then turns about x, y and z.
-fn turned(scale: Scale, rotate_degrees: Triple) -> Placement {
+fn scale_then_rotate(scale: Scale, rotate_degrees: Triple) -> InstanceTransform {
     let [sx, sy, sz] = scale.0;
     let [rx, ry, rz] = rotate_degrees.0.map(f64::to_radians);
-    Placement::scale(sx, sy, sz)
-        .then(Placement::rotation_x(rx))
-        .then(Placement::rotation_y(ry))
-        .then(Placement::rotation_z(rz))
+    InstanceTransform::scale(sx, sy, sz)
+        .then(InstanceTransform::rotation_x(rx))
+        .then(InstanceTransform::rotation_y(ry))
+        .then(InstanceTransform::rotation_z(rz))
 }
 
-fn moved(by: [f64; 3]) -> Placement {
-    Placement::translation(Vector::from(by))
+fn translate_by(by: [f64; 3]) -> InstanceTransform {
+    InstanceTransform::translation(Vector::from(by))
 }
 
 /// The way of each copy from where the model is.
-fn ways(
+fn instance_transforms(
     origin: &Origin,
     number: usize,
     instances: &InstancesFile,
-) -> Result<Vec<Placement>, SceneError> {
+) -> Result<Vec<InstanceTransform>, SceneError> {
     match instances {
         InstancesFile::Grid { count: (across, up, deep), step } => {
-            Ok(grid([*across, *up, *deep], step.0))
+            Ok(grid_transforms([*across, *up, *deep], step.0))
         }
         InstancesFile::List(list) => {
             let way = |copy: &InstanceFile| {
-                turned(copy.scale, copy.rotate_degrees).then(moved(copy.translate.0))
+                scale_then_rotate(copy.scale, copy.rotate_degrees)
+                    .then(translate_by(copy.translate.0))
             };
             Ok(list.iter().map(way).collect())
         }
@@ -134,24 +140,24 @@ fn ways(
             let at = || {
                 let help = Some("such as (0, 1, 0) for a level circle".to_owned());
                 let message = "the axis of the circle is (0, 0, 0), which is no direction";
-                origin.fault(&place(number, &[Field("axis")]), message, help)
+                origin.error_at(&instances_path(number, &[Field("axis")]), message, help)
             };
-            let axis = unit(axis.0).ok_or_else(at)?;
-            let angles = angles(*count, *start_degrees, *sweep_degrees);
-            let ring = Ring { axis, radius: radius.value(), turned: *turned };
-            angles.map(|angle| ring.way(angle).ok_or_else(at)).collect()
+            let axis = normalize_vector(axis.0).ok_or_else(at)?;
+            let angles = circle_angles(*count, *start_degrees, *sweep_degrees);
+            let ring = CircleLayout { axis, radius: radius.value(), turned: *turned };
+            angles.map(|angle| ring.transform_at(angle).ok_or_else(at)).collect()
         }
     }
 }
 
 /// x runs fastest, then y.
-fn grid([across, up, deep]: [u32; 3], step: [f64; 3]) -> Vec<Placement> {
+fn grid_transforms([across, up, deep]: [u32; 3], step: [f64; 3]) -> Vec<InstanceTransform> {
     let mut ways = Vec::new();
     for z in 0..deep {
         for y in 0..up {
             for x in 0..across {
                 let [dx, dy, dz] = step;
-                ways.push(moved([f64::from(x) * dx, f64::from(y) * dy, f64::from(z) * dz]));
+                ways.push(translate_by([f64::from(x) * dx, f64::from(y) * dy, f64::from(z) * dz]));
             }
         }
     }
@@ -159,41 +165,41 @@ fn grid([across, up, deep]: [u32; 3], step: [f64; 3]) -> Vec<Placement> {
 }
 
 /// The angles of copies in radians. The first and the last of a whole turn would be in one place.
-fn angles(count: u32, start: Finite, sweep: Finite) -> impl Iterator<Item = f64> {
+fn circle_angles(count: u32, start: Finite, sweep: Finite) -> impl Iterator<Item = f64> {
     let (start, sweep) = (start.value(), sweep.value());
     let is_whole = sweep.abs() >= 360.0;
     let steps = f64::from(if is_whole { count } else { count.saturating_sub(1).max(1) });
     (0..count).map(move |at| (start + sweep * (f64::from(at) / steps)).to_radians())
 }
 
-struct Ring {
+struct CircleLayout {
     axis: [f64; 3],
     radius: f64,
     turned: bool,
 }
 
-impl Ring {
+impl CircleLayout {
     /// Out to the circle, then around.
-    fn way(&self, angle: f64) -> Option<Placement> {
-        let turn = Placement::rotation(Vector::from(self.axis), angle)?;
-        let out = self.outwards()?.map(|c| c * self.radius);
+    fn transform_at(&self, angle: f64) -> Option<InstanceTransform> {
+        let turn = InstanceTransform::rotation(Vector::from(self.axis), angle)?;
+        let out = self.zero_degree_direction()?.map(|c| c * self.radius);
         if self.turned {
-            return Some(moved(out).then(turn));
+            return Some(translate_by(out).then(turn));
         }
-        let there = turn.vector(Vector::from(out)).raw();
-        Some(moved(there.to_array()))
+        let there = turn.transform_vector(Vector::from(out)).raw();
+        Some(translate_by(there.to_array()))
     }
 
     /// The direction at 0 degrees: that of x as far as it is at right angles to the axis, of y about the axis x, of z in doubt.
-    fn outwards(&self) -> Option<[f64; 3]> {
+    fn zero_degree_direction(&self) -> Option<[f64; 3]> {
         let [x, y, z] = self.axis;
         let candidates = [([1.0, 0.0, 0.0], x), ([0.0, 1.0, 0.0], y), ([0.0, 0.0, 1.0], z)];
         let (from, along) = candidates.into_iter().find(|(_, along)| along.abs() < 0.9)?;
-        unit([from[0] - along * x, from[1] - along * y, from[2] - along * z])
+        normalize_vector([from[0] - along * x, from[1] - along * y, from[2] - along * z])
     }
 }
 
-fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
+fn normalize_vector(v: [f64; 3]) -> Option<[f64; 3]> {
     // Scaled first, so that no square leaves the range of numbers.
     let largest = v.iter().fold(0.0_f64, |most, c| most.max(c.abs()));
     let v = v.map(|c| c / largest);
@@ -204,21 +210,21 @@ fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::parse;
+    use crate::scene::parse_scene;
     use homog::Point;
 
     /// Where the copies have the point (0, 0, 1) of the model.
-    fn places(model: &str) -> Result<Vec<[f64; 3]>, String> {
+    fn instance_points(model: &str) -> Result<Vec<[f64; 3]>, String> {
         let text = format!("Scene(models: [(path: \"a.glb\", {model})])");
-        let file = parse("a.ron", &text).map_err(|error| error.to_string())?;
-        let origin = Origin::of_text("a.ron", text, std::path::PathBuf::new());
-        check_counts(&origin, &file).map_err(|error| error.to_string())?;
+        let file = parse_scene("a.ron", &text).map_err(|error| error.to_string())?;
+        let origin = Origin::from_text("a.ron", text, std::path::PathBuf::new());
+        check_instance_counts(&origin, &file).map_err(|error| error.to_string())?;
         let model = Arc::new(Model::default());
-        let placed =
-            placed(&origin, 0, &file.models[0], &model).map_err(|error| error.to_string())?;
-        assert_eq!(placed.len(), file.models[0].copies());
+        let placed = instantiate_model(&origin, 0, &file.models[0], &model)
+            .map_err(|error| error.to_string())?;
+        assert_eq!(placed.len(), file.models[0].instance_count());
         let there = |placed: &ModelInstance| {
-            let point = placed.model_to_world.point(Point::new(0.0, 0.0, 1.0)).raw();
+            let point = placed.model_to_world.transform_point(Point::new(0.0, 0.0, 1.0)).raw();
             point.to_array().map(|c| libm::round(c * 1e9) / 1e9 + 0.0)
         };
         Ok(placed.iter().map(there).collect())
@@ -226,7 +232,7 @@ mod tests {
 
     #[test]
     fn a_grid_begins_at_the_model_and_runs_along_x_first() {
-        let places = places(
+        let places = instance_points(
             "translate: (10, 0, 0), scale: 2, instances: Grid(count: (2, 1, 2), step: (3, 0, -5))",
         );
         let expected = [[10.0, 0.0, 2.0], [13.0, 0.0, 2.0], [10.0, 0.0, -3.0], [13.0, 0.0, -3.0]];
@@ -236,16 +242,17 @@ mod tests {
     #[test]
     fn copies_on_a_circle_turn_with_their_places_unless_they_are_not_to() {
         // Counter-clockwise from above, x goes to -z; the copy's own front with it.
-        let turned = places("instances: Circle(count: 4, radius: 2)").expect("places");
+        let turned = instance_points("instances: Circle(count: 4, radius: 2)").expect("places");
         assert_eq!(
             turned,
             [[2.0, 0.0, 1.0], [1.0, 0.0, -2.0], [-2.0, 0.0, -1.0], [-1.0, 0.0, 2.0]]
         );
-        let still =
-            places("translate: (0, 1, 0), instances: Circle(count: 2, radius: 2, turned: false)");
+        let still = instance_points(
+            "translate: (0, 1, 0), instances: Circle(count: 2, radius: 2, turned: false)",
+        );
         assert_eq!(still.expect("places"), [[2.0, 1.0, 1.0], [-2.0, 1.0, 1.0]]);
         let arc = "instances: Circle(count: 3, radius: 1, axis: (0, 0, 5), sweep_degrees: 180, start_degrees: 90)";
-        let arc = places(arc).expect("places");
+        let arc = instance_points(arc).expect("places");
         assert_eq!(arc, [[0.0, 1.0, 1.0], [-1.0, 0.0, 1.0], [0.0, -1.0, 1.0]]);
     }
 
@@ -253,7 +260,7 @@ mod tests {
     fn a_listed_copy_is_scaled_then_turned_then_moved() {
         let list =
             "instances: List([(scale: 3, rotate_degrees: (0, 90, 0), translate: (0, 0, 1)), ()])";
-        assert_eq!(places(list).expect("places"), [[3.0, 0.0, 1.0], [0.0, 0.0, 1.0]]);
+        assert_eq!(instance_points(list).expect("places"), [[3.0, 0.0, 1.0], [0.0, 0.0, 1.0]]);
     }
 
     #[test]
@@ -273,7 +280,7 @@ mod tests {
                 "Grid(count: (4294967295, 4294967295, 4294967295), step: (1, 1, 1))",
             ),
         ] {
-            let error = places(model).expect_err(model);
+            let error = instance_points(model).expect_err(model);
             assert!(error.contains(told), "{error}");
             let underlined = "^".repeat(mark.len());
             assert!(

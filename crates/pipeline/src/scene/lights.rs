@@ -1,9 +1,9 @@
 //! From the lights that a scene file asks for to those that drawing needs.
 
 use super::file::{Finite, LightFile, SceneFile, ShadowsFile};
-use super::locate::Step::{Field, Index};
 use super::number::Positive;
 use super::shadows::resolve_shadow;
+use super::source_span::PathStep::{Field, Index};
 use super::{Origin, SceneError};
 use camera::ViewProjection;
 use homog::{Point, Vector, World};
@@ -18,16 +18,18 @@ pub(super) fn resolve_lights(
     view_projection: &ViewProjection,
 ) -> Result<Vec<Light>, SceneError> {
     // Ground that only shows shadows is there for the sake of shadows.
-    let of_ground = file.ground.map(|_| ShadowsFile::USUAL);
+    let of_ground = file.ground.map(|_| ShadowsFile::DEFAULT);
     let asked = file.shadows.or(of_ground);
     let shadow = resolve_shadow(origin, asked.as_ref(), &[Field("shadows")])?;
     let Some(lights) = &file.lights else {
-        let theirs = lights_of(models, shadow);
-        let is_dark = file.surroundings(origin, models).is_none();
+        let theirs = collect_model_lights(models, shadow);
+        let is_dark = file.effective_environment(origin, models).is_none();
         return Ok(match (theirs.is_empty(), is_dark) {
             (true, true) => default_lights(view_projection, shadow),
             // Shadows were asked for, and somebody must cast them.
-            (true, false) if shadow.is_some() => vec![key_light(view_projection, 1.5, shadow)],
+            (true, false) if shadow.is_some() => {
+                vec![default_key_light(view_projection, 1.5, shadow)]
+            }
             _ => theirs,
         });
     };
@@ -35,28 +37,28 @@ pub(super) fn resolve_lights(
     for (number, light) in lights.iter().enumerate() {
         match resolve_light(origin, number, light, shadow)? {
             Some(light) => resolved.push(light),
-            None => resolved.extend(lights_of(models, shadow)),
+            None => resolved.extend(collect_model_lights(models, shadow)),
         }
     }
     Ok(resolved)
 }
 
 /// The lights that the models' files have, in the world (KHR_lights_punctual). Scales do not make them brighter.
-fn lights_of(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec<Light> {
+fn collect_model_lights(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec<Light> {
     let mut lights = Vec::new();
     for placed in models {
-        for (instance, light) in placed.model.shown_lights() {
+        for (instance, light) in placed.model.scene_lights() {
             let to_world = instance.node_to_model.then(placed.model_to_world);
-            let position = to_world.point(Point::ORIGIN).raw().as_vec3().to_array();
-            let Some(axis) = to_world.vector(-Vector::Z).normalized() else { continue };
+            let position = to_world.transform_point(Point::ORIGIN).raw().as_vec3().to_array();
+            let Some(axis) = to_world.transform_vector(-Vector::Z).normalized() else { continue };
             let axis = axis.raw().as_vec3().to_array();
             let strength = light.color.map(|channel| channel * light.intensity);
             lights.push(match light.kind {
                 LightKind::Directional => {
-                    Light::Sun { towards: axis.map(|c| -c), lux: strength, shadow }
+                    Light::Sun { to_light: axis.map(|c| -c), lux: strength, shadow }
                 }
                 LightKind::Point { range } => Light::Point { position, candela: strength, range },
-                LightKind::Spot { range, inner, outer } => {
+                LightKind::Spot { range, inner_cone_angle: inner, outer_cone_angle: outer } => {
                     let cosines = [inner, outer].map(libm::cosf);
                     Light::Spot { position, axis, candela: strength, range, cosines, shadow }
                 }
@@ -68,14 +70,14 @@ fn lights_of(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec<Light> {
 
 /// A key light from above the viewer's left shoulder, so that shape reads from every side, and a quarter as much ambient.
 fn default_lights(view_projection: &ViewProjection, shadow: Option<Shadow>) -> Vec<Light> {
-    vec![key_light(view_projection, 2.5, shadow), Light::Ambient { lux: [0.7; 3] }]
+    vec![default_key_light(view_projection, 2.5, shadow), Light::Ambient { lux: [0.7; 3] }]
 }
 
-fn key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<Shadow>) -> Light {
+fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<Shadow>) -> Light {
     let camera = view_projection.camera;
     let towards = camera.u() * -0.45 + camera.v() * 0.65 + camera.w();
     let towards = towards.normalized().unwrap_or(camera.w());
-    Light::Sun { towards: towards.raw().as_vec3().to_array(), lux: [lux; 3], shadow }
+    Light::Sun { to_light: towards.raw().as_vec3().to_array(), lux: [lux; 3], shadow }
 }
 
 /// A light of the file, with the scene's shadows where it says nothing of its own; `None` for those of the models.
@@ -90,7 +92,11 @@ pub(super) fn resolve_light(
         Vector::<World>::from(direction).normalized().ok_or_else(|| {
             let at = [Field("lights"), Index(number), Field("direction")];
             let help = Some("such as (-1, -2, -1): from the right, above and before".to_owned());
-            origin.fault(&at, format!("the {whose}'s direction is (0, 0, 0), which is none"), help)
+            origin.error_at(
+                &at,
+                format!("the {whose}'s direction is (0, 0, 0), which is none"),
+                help,
+            )
         })
     };
     let own = |file: Option<ShadowsFile>| {
@@ -103,7 +109,11 @@ pub(super) fn resolve_light(
         LightFile::Sun { direction, lux, color, shadows } => {
             let towards = -direction_of(direction.0, "sun")?;
             let towards = towards.raw().as_vec3().to_array();
-            Light::Sun { towards, lux: times(lux.value(), color.0), shadow: own(shadows)? }
+            Light::Sun {
+                to_light: towards,
+                lux: times(lux.value(), color.0),
+                shadow: own(shadows)?,
+            }
         }
         LightFile::Spot {
             position,
@@ -123,7 +133,7 @@ pub(super) fn resolve_light(
                 let message =
                     format!("a spot cannot be full up to {inner} degrees and end at {outer}");
                 let help = Some("0 <= inner_degrees < outer_degrees <= 90".to_owned());
-                return Err(origin.fault(&at, message, help));
+                return Err(origin.error_at(&at, message, help));
             }
             let cosines = [inner, outer].map(|angle| libm::cos(angle.to_radians()) as f32);
             let position = position.0.map(|c| c as f32);

@@ -1,10 +1,10 @@
 //! Tests: mistakes people make in scene files, and what they are told.
 
-use super::parse;
+use super::parse_scene;
 
 /// What is wrong, where (line and column), and the help.
 fn told(source: &str) -> (String, (usize, usize), String) {
-    let error = parse("scene.ron", source).expect_err(source);
+    let error = parse_scene("scene.ron", source).expect_err(source);
     let text = error.to_string();
     let (line, column) = error.line_and_column();
     // An empty file has no line to show.
@@ -144,10 +144,10 @@ fn deep_nesting_and_binary_rubbish_are_errors_like_others() {
 
 #[test]
 fn what_is_left_out_has_a_default_and_marks_of_other_editors_do_not_hurt() {
-    let short = parse(
+    let short = parse_scene(
         "s.ron",
         "\u{feff}(models: [(path: \"a.glb\", scale: (1, 2, 3), translate: [1, 2, 3])])\r\n",
     );
     let scene = short.expect("a short scene");
-    assert_eq!(scene, parse("s.ron", "Scene(models: [Model(path: \"a.glb\", translate: (1, 2, 3), scale: (1, 2, 3), rotate_degrees: (0, 0, 0))], camera: Camera(), image: Image())").expect("a long scene"));
+    assert_eq!(scene, parse_scene("s.ron", "Scene(models: [Model(path: \"a.glb\", translate: (1, 2, 3), scale: (1, 2, 3), rotate_degrees: (0, 0, 0))], camera: Camera(), image: Image())").expect("a long scene"));
 }

@@ -1,14 +1,14 @@
 //! Where a scene comes from: a file with text and a folder, or a bare model and the program's flags.
 
-use super::include::{Written, gather};
-use super::locate::{Step, has, locate};
-use super::views::is_of_viewports;
+use super::include::{IncludeMap, gather_includes};
+use super::insets::is_viewport_field;
+use super::source_span::{PathStep, has_value, span_of};
 use super::{ResolveError, SceneError, SceneFile};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 /// The longest scene file that is read, in bytes: more is no text that a person wrote.
-const LONGEST_SCENE: u64 = 16 << 20;
+const MAX_SCENE_BYTES: u64 = 16 << 20;
 
 /// Where a scene comes from. Errors quote it.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -20,7 +20,7 @@ pub struct Origin {
     /// The folder that paths of the scene begin at.
     pub folder: PathBuf,
     /// Which parts are written in files that it includes.
-    written: Written,
+    includes: IncludeMap,
     /// The viewport that is spoken of.
     viewport: Option<usize>,
     /// The file of a bare model, if it is in memory.
@@ -30,12 +30,12 @@ pub struct Origin {
 impl Origin {
     /// Where a scene comes from whose text is at hand.
     #[must_use]
-    pub fn of_text(file: impl Into<String>, text: impl Into<String>, folder: PathBuf) -> Self {
+    pub fn from_text(file: impl Into<String>, text: impl Into<String>, folder: PathBuf) -> Self {
         Self {
             file: file.into(),
             text: text.into(),
             folder,
-            written: Written::default(),
+            includes: IncludeMap::default(),
             viewport: None,
             model: None,
         }
@@ -45,62 +45,71 @@ impl Origin {
     ///
     /// # Errors
     /// If one cannot be read, is not UTF-8, is too long, or is no scene, or if files include each other.
-    pub fn read(path: &Path) -> Result<(Self, SceneFile), ResolveError> {
-        Self::read_below(path, &[])
+    pub fn read_scene(path: &Path) -> Result<(Self, SceneFile), ResolveError> {
+        Self::read_scene_allowing(path, &[])
     }
 
     /// Reads and parses a scene file and those it includes, which must lie below its folder or one that is `allowed`.
     ///
     /// # Errors
     /// As [`read`](Self::read).
-    pub fn read_below(path: &Path, allowed: &[PathBuf]) -> Result<(Self, SceneFile), ResolveError> {
+    pub fn read_scene_allowing(
+        path: &Path,
+        allowed: &[PathBuf],
+    ) -> Result<(Self, SceneFile), ResolveError> {
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-        let text = read_text(path)?;
-        Self::with_includes(Self::of_text(path.display().to_string(), text, folder), allowed)
+        let text = read_scene_text(path)?;
+        Self::parse_with_includes(
+            Self::from_text(path.display().to_string(), text, folder),
+            allowed,
+        )
     }
 
     /// Parses a scene's text and the files it includes, which must lie below its folder or one that is `allowed`.
     ///
     /// # Errors
     /// As [`read`](Self::read).
-    pub fn with_includes(mut self, allowed: &[PathBuf]) -> Result<(Self, SceneFile), ResolveError> {
-        let (file, written) = gather(&self, allowed)?;
-        self.written = written;
+    pub fn parse_with_includes(
+        mut self,
+        allowed: &[PathBuf],
+    ) -> Result<(Self, SceneFile), ResolveError> {
+        let (file, written) = gather_includes(&self, allowed)?;
+        self.includes = written;
         Ok((self, file))
     }
 
     /// The texts of the files that are included, in the order in which they were read.
     pub fn included_texts(&self) -> impl Iterator<Item = &str> {
-        self.written.texts()
+        self.includes.included_texts()
     }
 
     /// The origin of a scene that is just one model, with every default.
     #[must_use]
-    pub fn bare_model(path: &Path) -> (Self, SceneFile) {
+    pub fn from_model_path(path: &Path) -> (Self, SceneFile) {
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let file = path.display().to_string();
-        (Self::of_text(file, "", folder), SceneFile::showing(name))
+        (Self::from_text(file, "", folder), SceneFile::from_model_path(name))
     }
 
     /// The origin of a scene that is just one model, whose file is in memory and complete in itself.
     #[must_use]
-    pub fn model_in_memory(name: &str, bytes: Vec<u8>) -> (Self, SceneFile) {
-        let origin = Self::of_text(name, "", PathBuf::new());
-        (Self { model: Some(bytes.into()), ..origin }, SceneFile::showing(name.to_owned()))
+    pub fn from_model_bytes(name: &str, bytes: Vec<u8>) -> (Self, SceneFile) {
+        let origin = Self::from_text(name, "", PathBuf::new());
+        (Self { model: Some(bytes.into()), ..origin }, SceneFile::from_model_path(name.to_owned()))
     }
 
     /// Whether a model of a scene file may be read: it must be below the file's folder, or below one of those that are
     /// `allowed`, by its path and by where symbolic links lead. A path that leads elsewhere is refused without looking whether
     /// something is there. A bare model may be anywhere: a person has named it.
     #[must_use]
-    pub fn may_read(&self, path: &Path, allowed: &[PathBuf]) -> bool {
+    pub fn allows_path(&self, path: &Path, allowed: &[PathBuf]) -> bool {
         if self.text.is_empty() {
             return true;
         }
         let here = if self.folder.as_os_str().is_empty() { Path::new(".") } else { &self.folder };
         let Ok(folder) = here.canonicalize() else { return false };
-        let wanted = plain(&folder, path);
+        let wanted = normalize_path(&folder, path);
         let others = allowed.iter().filter_map(|other| other.canonicalize().ok());
         let roots: Vec<PathBuf> = std::iter::once(folder).chain(others).collect();
         let holds = |path: &Path| roots.iter().any(|root| path.starts_with(root));
@@ -109,38 +118,42 @@ impl Origin {
     }
 
     /// The same where a viewport is spoken of: errors point at what it says itself before what the scene says.
-    pub(super) fn of_viewport(&self, number: usize) -> Self {
+    pub(super) fn for_viewport(&self, number: usize) -> Self {
         Self { viewport: Some(number), ..self.clone() }
     }
 
     /// The path of a field of the scene as a viewport has it, if it says that field.
-    fn in_viewport<'a>(&self, number: usize, path: &[Step<'a>]) -> Option<Vec<Step<'a>>> {
+    fn viewport_field_path<'a>(
+        &self,
+        number: usize,
+        path: &[PathStep<'a>],
+    ) -> Option<Vec<PathStep<'a>>> {
         let (field, rest) = match *path {
-            [Step::Field("image"), Step::Field("background"), ref rest @ ..] => {
+            [PathStep::Field("image"), PathStep::Field("background"), ref rest @ ..] => {
                 ("background", rest)
             }
-            [Step::Field(field), ref rest @ ..] if is_of_viewports(field) => (field, rest),
+            [PathStep::Field(field), ref rest @ ..] if is_viewport_field(field) => (field, rest),
             _ => return None,
         };
-        let own = [Step::Field("viewports"), Step::Index(number), Step::Field(field)];
-        let (source, there) = self.written.source_of(&own);
+        let own = [PathStep::Field("viewports"), PathStep::Index(number), PathStep::Field(field)];
+        let (source, there) = self.includes.resolve_source(&own);
         let text = source.map_or(self.text.as_str(), |(_, text)| text);
-        has(text, &there).then(|| [&own, rest].concat())
+        has_value(text, &there).then(|| [&own, rest].concat())
     }
 
     /// An error that points at the value at the end of `path`.
-    pub(super) fn fault(
+    pub(super) fn error_at(
         &self,
-        path: &[Step<'_>],
+        path: &[PathStep<'_>],
         message: impl Into<String>,
         help: Option<String>,
     ) -> SceneError {
-        let inner = self.viewport.and_then(|number| self.in_viewport(number, path));
-        let (source, path) = self.written.source_of(inner.as_deref().unwrap_or(path));
+        let inner = self.viewport.and_then(|number| self.viewport_field_path(number, path));
+        let (source, path) = self.includes.resolve_source(inner.as_deref().unwrap_or(path));
         let (file, text) = source.unwrap_or((&self.file, &self.text));
         SceneError {
             file: file.to_owned(),
-            span: locate(text, &path),
+            span: span_of(text, &path),
             source: text.to_owned(),
             message: message.into(),
             help,
@@ -152,11 +165,11 @@ impl Origin {
 ///
 /// # Errors
 /// If it cannot be read, is not UTF-8, or is too long.
-pub(super) fn read_text(path: &Path) -> Result<String, ResolveError> {
+pub(super) fn read_scene_text(path: &Path) -> Result<String, ResolveError> {
     let unreadable = |cause| ResolveError::Unreadable { path: path.to_owned(), cause };
     let length = std::fs::metadata(path).map_err(unreadable)?.len();
-    if length > LONGEST_SCENE {
-        let why = format!("it has {length} bytes; a scene file has {LONGEST_SCENE} at most");
+    if length > MAX_SCENE_BYTES {
+        let why = format!("it has {length} bytes; a scene file has {MAX_SCENE_BYTES} at most");
         return Err(unreadable(std::io::Error::other(why)));
     }
     let text = std::fs::read_to_string(path).map_err(unreadable)?;
@@ -164,7 +177,7 @@ pub(super) fn read_text(path: &Path) -> Result<String, ResolveError> {
 }
 
 /// A path from a folder on, without `.` and `..`.
-pub(super) fn plain(folder: &Path, path: &Path) -> PathBuf {
+pub(super) fn normalize_path(folder: &Path, path: &Path) -> PathBuf {
     let mut plain = folder.to_owned();
     for part in path.components() {
         match part {

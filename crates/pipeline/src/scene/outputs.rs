@@ -1,7 +1,7 @@
 //! What is written of a scene's picture: how many bits its channels have, and which passes go with it.
 
 use super::file::{PassEncodingFile, PassFile};
-use super::locate::Step::Field;
+use super::source_span::PathStep::Field;
 use super::{Origin, SceneError, SceneFile};
 use crate::render::passes::{Pass, PassEncoding};
 
@@ -9,7 +9,7 @@ use crate::render::passes::{Pass, PassEncoding};
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Outputs {
     /// Whether channels have 16 bits, and not 8.
-    pub deep: bool,
+    pub sixteen_bit: bool,
     /// The passes beside the picture.
     pub passes: Vec<Pass>,
     /// How passes are written.
@@ -21,12 +21,12 @@ impl Outputs {
     ///
     /// # Errors
     /// If it asks for another number of bits; the error points at it.
-    pub fn of(origin: &Origin, file: &SceneFile) -> Result<Self, SceneError> {
+    pub fn from_scene_file(origin: &Origin, file: &SceneFile) -> Result<Self, SceneError> {
         let bits = file.image.bits;
         if bits != 8 && bits != 16 {
             let message = format!("a channel cannot have {bits} bits");
             let help = Some("possible are 8 and 16".to_owned());
-            return Err(origin.fault(&[Field("image"), Field("bits")], message, help));
+            return Err(origin.error_at(&[Field("image"), Field("bits")], message, help));
         }
         let encoding = match file.passes.encoding {
             PassEncodingFile::Png => PassEncoding::Png,
@@ -35,7 +35,7 @@ impl Outputs {
         let mut passes: Vec<Pass> = file.passes.write.iter().copied().map(Pass::from).collect();
         passes.sort_unstable();
         passes.dedup();
-        Ok(Self { deep: bits == 16, passes, encoding })
+        Ok(Self { sixteen_bit: bits == 16, passes, encoding })
     }
 }
 
@@ -62,14 +62,14 @@ impl From<PassFile> for Pass {
 
 #[cfg(test)]
 mod tests {
-    use super::super::parse;
+    use super::super::parse_scene;
     use super::*;
 
     fn outputs(text: &str) -> Result<Outputs, SceneError> {
         let text = format!("Scene(models: [(path: \"a.glb\")],\n  {text})");
-        let file = parse("scene.ron", &text)?;
-        let origin = Origin::of_text("scene.ron", text, ".".into());
-        Outputs::of(&origin, &file)
+        let file = parse_scene("scene.ron", &text)?;
+        let origin = Origin::from_text("scene.ron", text, ".".into());
+        Outputs::from_scene_file(&origin, &file)
     }
 
     #[test]
@@ -77,7 +77,7 @@ mod tests {
         assert_eq!(outputs("").expect("defaults"), Outputs::default());
         let found = outputs("image: (bits: 16), passes: (write: [Uv, Depth, Uv], encoding: Npy)");
         let passes = vec![Pass::Depth, Pass::Uv];
-        let due = Outputs { deep: true, passes, encoding: PassEncoding::Npy };
+        let due = Outputs { sixteen_bit: true, passes, encoding: PassEncoding::Npy };
         assert_eq!(found.expect("a scene"), due);
     }
 

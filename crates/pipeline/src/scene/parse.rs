@@ -2,8 +2,8 @@
 
 use super::SceneError;
 use super::file::SceneFile;
-use super::locate::{Step, locate};
-use super::wording::explain;
+use super::messages::explain_parse_error;
+use super::source_span::{PathStep, span_of};
 use core::ops::Range;
 use ron::error::Error as Code;
 use ron::extensions::Extensions;
@@ -13,7 +13,7 @@ use serde_path_to_error::{Path, Segment};
 ///
 /// # Errors
 /// Points at the first fault of grammar, unknown name or number out of range.
-pub fn parse(file: &str, source: &str) -> Result<SceneFile, SceneError> {
+pub fn parse_scene(file: &str, source: &str) -> Result<SceneFile, SceneError> {
     // A byte order mark is invisible; whoever has one did not mean it.
     let source = source.strip_prefix('\u{feff}').unwrap_or(source);
     let extensions = Extensions::IMPLICIT_SOME
@@ -22,7 +22,7 @@ pub fn parse(file: &str, source: &str) -> Result<SceneFile, SceneError> {
     let options = ron::Options::default().with_default_extension(extensions);
     let fault = |code: &Code, path: Option<&Path>, at: Range<usize>| {
         let span = path.filter(|_| points_at_a_value(code)).map_or(at, |p| locate_path(source, p));
-        let (message, help) = explain(code, path, source, &span);
+        let (message, help) = explain_parse_error(code, path, source, &span);
         SceneError { file: file.into(), source: source.into(), span, message, help }
     };
     let mut deserializer = ron::Deserializer::from_str_with_options(source, &options)
@@ -33,7 +33,7 @@ pub fn parse(file: &str, source: &str) -> Result<SceneFile, SceneError> {
         fault(&spanned.code, Some(&path), bytes(source, &spanned.span))
     })?;
     deserializer.end().map_err(|code| {
-        let end = locate(source, &[]).end;
+        let end = span_of(source, &[]).end;
         let blank = source[end..].len() - source[end..].trim_start().len();
         fault(&code, None, end + blank..source.trim_end().len())
     })?;
@@ -58,16 +58,16 @@ fn points_at_a_value(code: &Code) -> bool {
 }
 
 fn locate_path(source: &str, path: &Path) -> Range<usize> {
-    let steps: Vec<Step<'_>> = path
+    let steps: Vec<PathStep<'_>> = path
         .iter()
         .filter_map(|segment| match segment {
-            Segment::Seq { index } => Some(Step::Index(*index)),
-            Segment::Map { key } => Some(Step::Field(key)),
+            Segment::Seq { index } => Some(PathStep::Index(*index)),
+            Segment::Map { key } => Some(PathStep::Field(key)),
             // The name of an enum's variant is no level of its own in the text.
             Segment::Enum { .. } | Segment::Unknown => None,
         })
         .collect();
-    locate(source, &steps)
+    span_of(source, &steps)
 }
 
 /// The bytes of a span that RON gives in lines and columns of characters; at least one character, if there is one.

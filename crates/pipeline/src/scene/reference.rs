@@ -62,7 +62,7 @@ mod tests {
     use std::collections::{BTreeMap, BTreeSet};
 
     /// The names of fields and variants, by the name of the type, or of type and variant.
-    fn told() -> BTreeMap<String, BTreeSet<String>> {
+    fn listed_names() -> BTreeMap<String, BTreeSet<String>> {
         let mut told = BTreeMap::new();
         let names =
             |fields: &[FieldEntry]| fields.iter().map(|field| field.name.to_owned()).collect();
@@ -85,7 +85,7 @@ mod tests {
 
     #[test]
     fn the_reference_has_each_field_that_is_read_and_no_other() {
-        assert_eq!(told(), trace::accepted());
+        assert_eq!(listed_names(), trace::accepted());
     }
 
     #[test]

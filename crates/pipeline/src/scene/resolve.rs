@@ -1,30 +1,30 @@
 //! From what a person wrote to what drawing needs, or to an error that points.
 
-use super::background;
+use super::backdrop;
 use super::file::{
     BackgroundFile, Choice, Finite, MaterialFile, ModelFile, OverlayFile, ToneMappingFile,
 };
 use super::ground::resolve_ground;
+use super::insets::resolve_insets;
 use super::instances;
 use super::lights::resolve_lights;
-use super::locate::Step::{Field, Index};
-use super::look::resolve_style;
+use super::material_overrides::override_materials;
+use super::messages::suggest_name;
 use super::number::Positive;
-use super::overrides::override_materials;
 use super::section::resolve_sections;
-use super::surroundings::resolve_environment;
-use super::viewpoint::resolve_shot;
-use super::views::resolve_views;
-use super::wording::suggestion;
+use super::source_span::PathStep::{Field, Index};
+use super::style::resolve_style;
+use super::surrounding_light::resolve_environment;
+use super::view_projection::resolve_view_projection;
 use super::{ImageSpec, Origin, ResolveError, Scene, SceneError, SceneFile, Style};
 use drawing::Overlay;
 use homog::Bounds;
 use model::Model;
 use model::ModelInstance;
-use model::import::{FaultKind, ImportError, ImportOptions, load, load_bytes};
+use model::import::{ImportError, ImportErrorKind, ImportOptions, load, load_bytes};
 use model::world_points;
 use raster::Samples;
-use shade::{Develop, ToneMapping};
+use shade::{ToneMapper, ToneMapping};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -48,7 +48,8 @@ impl Scene {
     ) -> Result<Self, ResolveError> {
         resolve_image(origin, file)?;
         let models = load_models(origin, file, options)?;
-        let frame = || Self::around(origin, file, models, &options.import.allow_outside);
+        let frame =
+            || Self::resolve_with_models(origin, file, models, &options.import.allow_outside);
         options.import.timings.measure("frame", frame)
     }
 
@@ -57,40 +58,41 @@ impl Scene {
     ///
     /// # Errors
     /// If something makes no sense; the error points at its place in the file.
-    pub fn of_models(
+    pub fn from_models(
         origin: &Origin,
         file: &SceneFile,
         models: Vec<ModelInstance>,
     ) -> Result<Self, ResolveError> {
-        Self::around(origin, file, models, &[])
+        Self::resolve_with_models(origin, file, models, &[])
     }
 
     /// The scene around its models; the environment's file may lie in one of the `allowed` folders too.
-    pub(crate) fn around(
+    pub(crate) fn resolve_with_models(
         origin: &Origin,
         file: &SceneFile,
         models: Vec<ModelInstance>,
         allowed: &[PathBuf],
     ) -> Result<Self, ResolveError> {
-        let mut scene = Self::alone(origin, file, models, allowed)?;
-        scene.views = resolve_views(origin, file, &scene.models, allowed)?;
+        let mut scene = Self::resolve_without_insets(origin, file, models, allowed)?;
+        scene.insets = resolve_insets(origin, file, &scene.models, allowed)?;
         Ok(scene)
     }
 
     /// The same without its views.
-    pub(super) fn alone(
+    pub(super) fn resolve_without_insets(
         origin: &Origin,
         file: &SceneFile,
         models: Vec<ModelInstance>,
         allowed: &[PathBuf],
     ) -> Result<Self, ResolveError> {
         let image = resolve_image(origin, file)?;
-        let view_projection = resolve_shot(origin, &file.camera, &models, image)?;
+        let view_projection = resolve_view_projection(origin, &file.camera, &models, image)?;
         let lights = resolve_lights(origin, file, &models, &view_projection)?;
         let ground = resolve_ground(file, &models, &lights);
         let occlusion_radius = file.ambient_occlusion.map(|file| {
-            let usual =
-                || Bounds::of(world_points(&models)).map_or(1.0, |all| all.diagonal() / 12.0);
+            let usual = || {
+                Bounds::from_points(world_points(&models)).map_or(1.0, |all| all.diagonal() / 12.0)
+            };
             file.radius.map_or_else(usual, Positive::value)
         });
         let curve = match file.image.tone_mapping {
@@ -99,7 +101,7 @@ impl Scene {
             ToneMappingFile::Aces => ToneMapping::Aces,
             ToneMappingFile::AgX => ToneMapping::AgX,
         };
-        let develop = Develop::new(file.image.exposure_ev.map_or(0.0, Finite::value), curve);
+        let develop = ToneMapper::new(file.image.exposure_ev.map_or(0.0, Finite::value), curve);
         let style = resolve_style(origin, &file.style)?;
         // Nothing is mirrored in line drawings.
         let is_lit = matches!(style, Style::Shaded | Style::Flat);
@@ -107,7 +109,7 @@ impl Scene {
         let environment = if is_lit { environment()? } else { None };
         let overlays = resolve_overlays(origin, &file.overlays, &models, image)?;
         let sections = resolve_sections(origin, &file.sections)?;
-        let painting = background::painting(origin, file, allowed)?;
+        let painting = backdrop::resolve_backdrop(origin, file, allowed)?;
         Ok(Self {
             models,
             view_projection,
@@ -115,11 +117,11 @@ impl Scene {
             ground,
             environment,
             occlusion_radius,
-            develop,
+            tone_mapper: develop,
             style,
             image,
-            views: Vec::new(),
-            painting,
+            insets: Vec::new(),
+            backdrop: painting,
             overlays,
             sections,
         })
@@ -128,18 +130,18 @@ impl Scene {
 
 pub(super) fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSpec, SceneError> {
     let (width, height) = file.image.size;
-    let fits = |side: u32| (1..=crate::MAX_SIDE).contains(&side);
+    let fits = |side: u32| (1..=crate::MAX_IMAGE_SIDE).contains(&side);
     if !fits(width) || !fits(height) {
         let message = format!("a picture cannot have {width} x {height} pixels");
-        let help = format!("each side must be between 1 and {}", crate::MAX_SIDE);
-        return Err(origin.fault(&[Field("image"), Field("size")], message, Some(help)));
+        let help = format!("each side must be between 1 and {}", crate::MAX_IMAGE_SIDE);
+        return Err(origin.error_at(&[Field("image"), Field("size")], message, Some(help)));
     }
     let samples = Samples::from_count(file.image.samples).ok_or_else(|| {
         let message = format!("a pixel cannot have {} samples", file.image.samples);
         let help = Some("possible are 1, 4, 8 and 16".to_owned());
-        origin.fault(&[Field("image"), Field("samples")], message, help)
+        origin.error_at(&[Field("image"), Field("samples")], message, help)
     })?;
-    let background = background::ground_color(origin, file)?;
+    let background = backdrop::resolve_background_color(origin, file)?;
     let backdrop = match &file.image.background {
         BackgroundFile::Environment { blur } => {
             Some(blur.map_or(0.0, |blur| blur.value().min(1.0) as f32))
@@ -150,14 +152,21 @@ pub(super) fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSp
     if !(1..=8).contains(&anisotropy) {
         let message = format!("textures cannot be read at {anisotropy} places");
         let help = Some("from 1 to 8 are possible".to_owned());
-        return Err(origin.fault(&[Field("image"), Field("anisotropy")], message, help));
+        return Err(origin.error_at(&[Field("image"), Field("anisotropy")], message, help));
     }
-    Ok(ImageSpec { width, height, background, backdrop, samples, anisotropy })
+    Ok(ImageSpec {
+        width,
+        height,
+        background,
+        environment_blur: backdrop,
+        samples,
+        max_anisotropy: anisotropy,
+    })
 }
 
-pub(super) fn no_model(origin: &Origin) -> SceneError {
+pub(super) fn missing_model_error(origin: &Origin) -> SceneError {
     let help = Some("add one: models: [(path: \"…\")]".to_owned());
-    origin.fault(&[Field("models")], "a scene needs a model", help)
+    origin.error_at(&[Field("models")], "a scene needs a model", help)
 }
 
 fn load_models(
@@ -166,9 +175,9 @@ fn load_models(
     options: &ResolveOptions,
 ) -> Result<Vec<ModelInstance>, ResolveError> {
     if file.models.is_empty() {
-        return Err(no_model(origin).into());
+        return Err(missing_model_error(origin).into());
     }
-    instances::check_counts(origin, file)?;
+    instances::check_instance_counts(origin, file)?;
     // Models in one pose are shared; a model in two poses, or with other materials, is two models.
     type Pose = (PathBuf, [Option<Choice>; 3], Option<u64>);
     type Alike<'a> = Vec<(&'a [MaterialFile], Arc<Model>)>;
@@ -185,37 +194,37 @@ fn load_models(
             Arc::clone(model)
         } else {
             let model = load_model(origin, number, entry, options);
-            let model = model.map_err(|fault| fault.in_scene(origin, number, entry))?;
+            let model = model.map_err(|fault| fault.into_resolve_error(origin, number, entry))?;
             let model = Arc::new(model);
             alike.push((&entry.materials, Arc::clone(&model)));
             model
         };
-        models.extend(instances::placed(origin, number, entry, &model)?);
+        models.extend(instances::instantiate_model(origin, number, entry, &model)?);
     }
     Ok(models)
 }
 
 /// Why there is no model: the scene asks for something that makes no sense, or the model's file is at fault.
-pub(super) enum ModelFault {
+pub(super) enum ModelError {
     Scene(SceneError),
     File(ImportError),
 }
 
-impl From<SceneError> for ModelFault {
+impl From<SceneError> for ModelError {
     fn from(error: SceneError) -> Self {
         Self::Scene(error)
     }
 }
 
-impl ModelFault {
+impl ModelError {
     /// The fault, told where the scene file asks for the model, if there is such a file.
-    fn in_scene(self, origin: &Origin, number: usize, entry: &ModelFile) -> ResolveError {
+    fn into_resolve_error(self, origin: &Origin, number: usize, entry: &ModelFile) -> ResolveError {
         match self {
             Self::File(error) if origin.text.is_empty() => error.into(),
             Self::File(error) => {
                 let at = [Field("models"), Index(number), Field("path")];
-                let help = namesake(&origin.folder.join(&entry.path));
-                origin.fault(&at, format!("{}: {}", entry.path, error.fault), help).into()
+                let help = suggest_model_file(&origin.folder.join(&entry.path));
+                origin.error_at(&at, format!("{}: {}", entry.path, error.diagnostic), help).into()
             }
             Self::Scene(error) => error.into(),
         }
@@ -223,7 +232,7 @@ impl ModelFault {
 }
 
 /// For a model that is not there, one in the same folder with a similar name.
-fn namesake(path: &Path) -> Option<String> {
+fn suggest_model_file(path: &Path) -> Option<String> {
     let folder = path.parent().filter(|_| !path.exists())?;
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let names = std::fs::read_dir(here)
@@ -233,7 +242,7 @@ fn namesake(path: &Path) -> Option<String> {
     let mut names: Vec<String> = names.filter(is_model).collect();
     names.sort();
     let wanted = path.file_name()?.to_str()?;
-    suggestion(wanted, &names).filter(|hint| hint.starts_with("did you mean"))
+    suggest_name(wanted, &names).filter(|hint| hint.starts_with("did you mean"))
 }
 
 /// Loads a model and poses it.
@@ -242,13 +251,13 @@ pub(super) fn load_model(
     number: usize,
     entry: &ModelFile,
     options: &ResolveOptions,
-) -> Result<Model, ModelFault> {
+) -> Result<Model, ModelError> {
     let at = |field| [Field("models"), Index(number), Field(field)];
-    if !origin.may_read(Path::new(&entry.path), &options.import.allow_outside) {
+    if !origin.allows_path(Path::new(&entry.path), &options.import.allow_outside) {
         let help =
             "keep models below the scene's folder, or allow another with --allow-outside DIR";
         let message = format!("the path \"{}\" leads out of the scene's folder", entry.path);
-        return Err(origin.fault(&at("path"), message, Some(help.to_owned())).into());
+        return Err(origin.error_at(&at("path"), message, Some(help.to_owned())).into());
     }
     let import = ImportOptions {
         scene: entry.scene.clone().map(Into::into).or(options.import.scene.clone()),
@@ -259,39 +268,39 @@ pub(super) fn load_model(
         Some(bytes) => load_bytes(&entry.path, bytes, &import),
         None => load(&origin.folder.join(&entry.path), &import),
     };
-    let mut model = loaded.map_err(|error| choice_fault(origin, number, entry, error))?;
+    let mut model = loaded.map_err(|error| choice_error(origin, number, entry, error))?;
     if entry.animation.is_some() || entry.time.is_some() {
         let field = if entry.animation.is_some() { "animation" } else { "time" };
-        let fault = |(message, help)| origin.fault(&at(field), message, help);
-        let animation = chosen_animation(&model, entry.animation.as_ref()).map_err(fault)?;
-        model.pose(animation, entry.time.map_or(0.0, Finite::value));
+        let fault = |(message, help)| origin.error_at(&at(field), message, help);
+        let animation = select_animation(&model, entry.animation.as_ref()).map_err(fault)?;
+        model.apply_animation(animation, entry.time.map_or(0.0, Finite::value));
     }
     override_materials(origin, number, &entry.materials, &mut model)?;
     Ok(model)
 }
 
 /// A scene or a variant that the model does not have is a mistake of the scene file, if there is one.
-fn choice_fault(
+fn choice_error(
     origin: &Origin,
     number: usize,
     entry: &ModelFile,
     error: ImportError,
-) -> ModelFault {
-    if origin.text.is_empty() || error.fault.kind != FaultKind::Choice {
-        return ModelFault::File(error);
+) -> ModelError {
+    if origin.text.is_empty() || error.diagnostic.kind != ImportErrorKind::NotFound {
+        return ModelError::File(error);
     }
-    let scene = entry.scene.is_some() && error.fault.pointer == "/scenes";
+    let scene = entry.scene.is_some() && error.diagnostic.location == "/scenes";
     let field = if scene { "scene" } else { "variant" };
-    let message = format!("{}: {}", entry.path, error.fault.problem);
+    let message = format!("{}: {}", entry.path, error.diagnostic.message);
     let at = [Field("models"), Index(number), Field(field)];
-    origin.fault(&at, message, Some(error.fault.remedy)).into()
+    origin.error_at(&at, message, Some(error.diagnostic.help)).into()
 }
 
 /// The number of the animation that is wanted, or the first.
 ///
 /// # Errors
 /// If there is none: what is wrong, and what to do about it.
-pub fn chosen_animation(
+pub fn select_animation(
     model: &Model,
     choice: Option<&Choice>,
 ) -> Result<usize, (String, Option<String>)> {
@@ -312,7 +321,7 @@ pub fn chosen_animation(
         let names = model.animations.iter().filter_map(|animation| animation.name.clone());
         let names: Vec<String> = names.chain((0..count).map(|at| at.to_string())).collect();
         let message = format!("the model {} has no animation `{wanted}`", model.name);
-        (message, suggestion(&wanted, &names))
+        (message, suggest_name(&wanted, &names))
     })
 }
 
@@ -330,7 +339,7 @@ pub(super) fn resolve_overlays(
             OverlayFile::Edges => Overlay::Edges,
             OverlayFile::VanishingPoints => Overlay::VanishingPoints,
             OverlayFile::Volume(camera) => {
-                Overlay::Volume(resolve_shot(origin, camera, models, image)?.into())
+                Overlay::Volume(resolve_view_projection(origin, camera, models, image)?.into())
             }
         })
     };

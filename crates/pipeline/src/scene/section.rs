@@ -1,21 +1,21 @@
 //! What the sections of a scene file mean.
 
 use super::file::SectionFile;
-use super::locate::Step::{Field, Index};
+use super::source_span::PathStep::{Field, Index};
 use super::{Origin, SceneError};
 use homog::{Normal, Plane, Point, World};
 
 /// More cuts than this are a slip, and each costs another pass over the models.
-const MOST: usize = 16;
+const MAX_SECTIONS: usize = 16;
 
 /// The planes of the sections. Their normals have length 1 and point to what is kept.
 pub(super) fn resolve_sections(
     origin: &Origin,
     sections: &[SectionFile],
 ) -> Result<Vec<Plane<World>>, SceneError> {
-    if sections.len() > MOST {
-        let message = format!("{} sections are more than {MOST}", sections.len());
-        return Err(origin.fault(&[Field("sections")], message, None));
+    if sections.len() > MAX_SECTIONS {
+        let message = format!("{} sections are more than {MAX_SECTIONS}", sections.len());
+        return Err(origin.error_at(&[Field("sections")], message, None));
     }
     let numbered = sections.iter().enumerate();
     numbered.map(|(at, section)| resolve_section(origin, at, section)).collect()
@@ -33,7 +33,7 @@ fn resolve_section(
     let fault = || {
         let path = [Field("sections"), Index(at), Field("normal")];
         let help = "say which way to take away, such as normal: (0, 0, 1)".to_owned();
-        origin.fault(&path, "a section needs a direction: its normal has no length", Some(help))
+        origin.error_at(&path, "a section needs a direction: its normal has no length", Some(help))
     };
     let unit = unit.filter(|_| largest > 0.0).ok_or_else(fault)?;
     Ok(Plane::through(Point::from(section.point.0), unit))

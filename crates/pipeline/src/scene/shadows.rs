@@ -1,29 +1,29 @@
 //! What the shadows of a scene file mean.
 
 use super::file::ShadowsFile;
-use super::locate::Step::{self, Field};
+use super::source_span::PathStep::{self, Field};
 use super::{Origin, SceneError};
 use shade::Shadow;
 
 /// The texels of a shadow map's longer side, unless told otherwise.
-const USUAL_SIZE: u32 = 2048;
+const DEFAULT_MAP_SIZE: u32 = 2048;
 /// How large the sun looks from the earth, in degrees.
-const USUAL_SOFTNESS: f64 = 0.53;
+const DEFAULT_SOFTNESS_DEGREES: f64 = 0.53;
 
 /// The shadows that the settings at the end of `path` ask for.
 pub(super) fn resolve_shadow(
     origin: &Origin,
     file: Option<&ShadowsFile>,
-    path: &[Step<'_>],
+    path: &[PathStep<'_>],
 ) -> Result<Option<Shadow>, SceneError> {
     let Some(&ShadowsFile::On { size, softness_degrees }) = file else { return Ok(None) };
-    let size = size.unwrap_or(USUAL_SIZE);
+    let size = size.unwrap_or(DEFAULT_MAP_SIZE);
     if !(64..=8192).contains(&size) {
         let message = format!("a shadow map cannot have {size} texels on a side");
-        let path: Vec<Step<'_>> = path.iter().copied().chain([Field("size")]).collect();
+        let path: Vec<PathStep<'_>> = path.iter().copied().chain([Field("size")]).collect();
         let help = Some("from 64 to 8192 are possible, such as 2048".to_owned());
-        return Err(origin.fault(&path, message, help));
+        return Err(origin.error_at(&path, message, help));
     }
-    let degrees = softness_degrees.map_or(USUAL_SOFTNESS, super::number::Softness::value);
-    Ok(Some(Shadow { size, softness: degrees.to_radians() as f32 }))
+    let degrees = softness_degrees.map_or(DEFAULT_SOFTNESS_DEGREES, super::number::Softness::value);
+    Ok(Some(Shadow { resolution: size, softness: degrees.to_radians() as f32 }))
 }

@@ -3,21 +3,21 @@
 use super::file::{
     AngleFile, AxonometricFile, OrientationFile, PaperFile, SheetFile, SideFile, UnitFile,
 };
-use super::locate::Step::Field;
-use super::look::{iso_group, resolve_hidden};
+use super::source_span::PathStep::Field;
+use super::style::{resolve_hidden, resolve_iso_group};
 use super::{Origin, SceneError};
 use camera::NamedView;
-use drawing::{Sheet, Titles, Widths};
+use drawing::{LineWidths, Sheet, TitleBlockText};
 use projection::SheetAngle;
-use viewport::{DrawingScale, MILLIMETRES_PER_INCH, Paper};
+use viewport::{DrawingScale, MILLIMETERS_PER_INCH, Paper};
 
 /// The sheet that a scene file describes.
 ///
 /// # Errors
 /// If its scale or its width of lines is none; the error points at its place in the file.
 pub fn resolve_sheet(origin: &Origin, file: &SheetFile) -> Result<Sheet, SceneError> {
-    let (paper, name) = paper(file);
-    let usual = Sheet::on(paper, name);
+    let (paper, name) = resolve_paper(file);
+    let usual = Sheet::for_paper(paper, name);
     let (angle, side) = match file.angle {
         AngleFile::First => (SheetAngle::First, NamedView::Left),
         AngleFile::Third => (SheetAngle::Third, NamedView::Right),
@@ -29,22 +29,22 @@ pub fn resolve_sheet(origin: &Origin, file: &SheetFile) -> Result<Sheet, SceneEr
     };
     let widths = match file.width {
         Some(width) => {
-            let group = iso_group(origin, width, &[Field("sheet"), Field("width")])?;
-            Widths::Iso(group)
+            let group = resolve_iso_group(origin, width, &[Field("sheet"), Field("width")])?;
+            LineWidths::Iso(group)
         }
-        None => usual.look.widths,
+        None => usual.style.line_widths,
     };
-    let mut look = usual.look;
-    (look.hidden, look.widths) = (resolve_hidden(file.hidden), widths);
+    let mut look = usual.style;
+    (look.hidden_lines, look.line_widths) = (resolve_hidden(file.hidden), widths);
     Ok(Sheet {
-        angle,
-        side,
-        look,
+        projection_angle: angle,
+        side_view: side,
+        style: look,
         scale: file.scale.map(|scale| resolve_scale(origin, scale)).transpose()?,
-        unit: unit(file.unit),
-        axonometric: axonometric(file.axonometric),
+        millimeters_per_unit: unit_in_millimeters(file.unit),
+        axonometric_view: axonometric_view(file.axonometric),
         dimensions: file.dimensions,
-        titles: Titles {
+        title_block: TitleBlockText {
             title: file.title.clone(),
             author: file.author.clone(),
             date: file.date.clone(),
@@ -53,7 +53,7 @@ pub fn resolve_sheet(origin: &Origin, file: &SheetFile) -> Result<Sheet, SceneEr
         ..usual
     })
 }
-fn paper(file: &SheetFile) -> (Paper, &'static str) {
+fn resolve_paper(file: &SheetFile) -> (Paper, &'static str) {
     let (paper, name) = match file.paper {
         PaperFile::A0 => (Paper::A0, "A0"),
         PaperFile::A1 => (Paper::A1, "A1"),
@@ -68,27 +68,27 @@ fn paper(file: &SheetFile) -> (Paper, &'static str) {
         Some(orientation) => orientation == OrientationFile::Portrait,
         None => matches!(file.paper, PaperFile::A4 | PaperFile::A5 | PaperFile::Letter),
     };
-    (if upright { paper } else { paper.turned() }, name)
+    (if upright { paper } else { paper.rotated() }, name)
 }
 
 fn resolve_scale(origin: &Origin, (paper, thing): (u32, u32)) -> Result<DrawingScale, SceneError> {
     DrawingScale::new(paper, thing).map_err(|error| {
         let help = "write (1, 50) for 1:50".to_owned();
-        origin.fault(&[Field("sheet"), Field("scale")], error.to_string(), Some(help))
+        origin.error_at(&[Field("sheet"), Field("scale")], error.to_string(), Some(help))
     })
 }
 
-fn unit(file: UnitFile) -> f64 {
+fn unit_in_millimeters(file: UnitFile) -> f64 {
     match file {
         UnitFile::Metre => 1000.0,
         UnitFile::Centimetre => 10.0,
         UnitFile::Millimetre => 1.0,
-        UnitFile::Inch => MILLIMETRES_PER_INCH,
-        UnitFile::Foot => 12.0 * MILLIMETRES_PER_INCH,
+        UnitFile::Inch => MILLIMETERS_PER_INCH,
+        UnitFile::Foot => 12.0 * MILLIMETERS_PER_INCH,
     }
 }
 
-fn axonometric(file: AxonometricFile) -> Option<NamedView> {
+fn axonometric_view(file: AxonometricFile) -> Option<NamedView> {
     match file {
         AxonometricFile::None => None,
         AxonometricFile::Isometric => Some(NamedView::Isometric),

@@ -1,28 +1,36 @@
 //! Which edges are found, and what they are called.
 
 use crate::stage::*;
-use drawing::{EdgeClass, EdgeClasses, Hidden, Options, draw};
-use model::{EdgeLines, EdgeVisibility, Edges, Primitive};
+use drawing::{DrawOptions, EdgeClass, EdgeClasses, HiddenEdges, draw};
+use model::{EdgeList, EdgeVisibility, Primitive, PrimitiveEdges};
 
 /// The classes of all edges, facets too, in order.
-fn classes(primitives: Vec<Primitive>) -> Vec<EdgeClass> {
-    let options =
-        Options { classes: EdgeClasses::ALL, hidden: Hidden::Ignored, ..Options::default() };
-    let drawing =
-        draw(&scene(model(primitives), view_projection(window())).subject(), &options, 1).unwrap();
-    let mut classes: Vec<EdgeClass> = drawing.lines.iter().map(|line| line.class).collect();
+fn edge_classes(primitives: Vec<Primitive>) -> Vec<EdgeClass> {
+    let options = DrawOptions {
+        classes: EdgeClasses::ALL,
+        hidden_edges: HiddenEdges::Ignored,
+        ..DrawOptions::default()
+    };
+    let drawing = draw(
+        &drawing_scene(build_model(primitives), view_projection(window_projection()))
+            .drawing_subject(),
+        &options,
+        1,
+    )
+    .unwrap();
+    let mut classes: Vec<EdgeClass> = drawing.segments.iter().map(|line| line.class).collect();
     classes.sort_unstable();
     classes
 }
 
-fn count(classes: &[EdgeClass], class: EdgeClass) -> usize {
+fn count_class(classes: &[EdgeClass], class: EdgeClass) -> usize {
     classes.iter().filter(|other| **other == class).count()
 }
 
 /// Two squares side by side, of which the second begins `gap` to the right of the first and is bent back by `fall`.
 fn two_squares(gap: f32, fall: f32) -> Primitive {
     let (x, right) = (gap, 1.0 + gap);
-    triangles(
+    triangle_mesh(
         &[
             [-1.0, 0.0, 0.0],
             [0.0, 0.0, 0.0],
@@ -41,30 +49,30 @@ fn two_squares(gap: f32, fall: f32) -> Primitive {
 fn split_vertices_make_no_border() {
     // Exactly together, and as far apart as quantisation to 12 bits may move them.
     for gap in [0.0, 2e-4] {
-        let found = classes(vec![two_squares(gap, 0.0)]);
-        assert_eq!(count(&found, EdgeClass::Boundary), 6, "{found:?}");
-        assert_eq!(count(&found, EdgeClass::Facet), 3);
+        let found = edge_classes(vec![two_squares(gap, 0.0)]);
+        assert_eq!(count_class(&found, EdgeClass::Boundary), 6, "{found:?}");
+        assert_eq!(count_class(&found, EdgeClass::Facet), 3);
     }
-    assert_eq!(count(&classes(vec![two_squares(0.01, 0.0)]), EdgeClass::Boundary), 8);
+    assert_eq!(count_class(&edge_classes(vec![two_squares(0.01, 0.0)]), EdgeClass::Boundary), 8);
 }
 
 #[test]
 fn a_bend_beyond_the_angle_is_a_crease() {
     // The second square falls by 0.5 on 1: 26.6 degrees; by 0.6: 31 degrees.
-    assert_eq!(count(&classes(vec![two_squares(0.0, 0.5)]), EdgeClass::Crease), 0);
-    assert_eq!(count(&classes(vec![two_squares(0.0, 0.6)]), EdgeClass::Crease), 1);
+    assert_eq!(count_class(&edge_classes(vec![two_squares(0.0, 0.5)]), EdgeClass::Crease), 0);
+    assert_eq!(count_class(&edge_classes(vec![two_squares(0.0, 0.6)]), EdgeClass::Crease), 1);
 }
 
 #[test]
 fn a_fold_is_a_silhouette() {
     // The second square comes back below the first.
-    let fold = triangles(
+    let fold = triangle_mesh(
         &[[-1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, -1.0]],
         &[0, 1, 2, 1, 3, 2],
     );
-    let found = classes(vec![fold]);
-    assert_eq!(count(&found, EdgeClass::Silhouette), 1, "{found:?}");
-    assert_eq!(count(&found, EdgeClass::Boundary), 4);
+    let found = edge_classes(vec![fold]);
+    assert_eq!(count_class(&found, EdgeClass::Silhouette), 1, "{found:?}");
+    assert_eq!(count_class(&found, EdgeClass::Boundary), 4);
 }
 
 /// One square on the left, two of half the height on the right.
@@ -78,7 +86,7 @@ fn a_fold_is_a_silhouette() {
 /// ```
 #[test]
 fn a_vertex_in_the_middle_of_an_edge_makes_no_border() {
-    let tee = triangles(
+    let tee = triangle_mesh(
         &[
             [-1.0, 0.0, 0.0],
             [0.0, 0.0, 0.0],
@@ -92,53 +100,57 @@ fn a_vertex_in_the_middle_of_an_edge_makes_no_border() {
         ],
         &[0, 1, 2, 0, 2, 3, 4, 6, 7, 4, 7, 5, 5, 7, 8, 5, 8, 2],
     );
-    let found = classes(vec![tee]);
+    let found = edge_classes(vec![tee]);
     // The rim: three sides of the left, two below and above, two on the right.
-    assert_eq!(count(&found, EdgeClass::Boundary), 7, "{found:?}");
+    assert_eq!(count_class(&found, EdgeClass::Boundary), 7, "{found:?}");
     // Three diagonals, the line between the right squares, the two halves of the middle.
-    assert_eq!(count(&found, EdgeClass::Facet), 6);
+    assert_eq!(count_class(&found, EdgeClass::Facet), 6);
 }
 
 #[test]
 fn a_face_and_its_back_are_one() {
-    let mut both = quad([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
+    let mut both = quad_mesh([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
     both.indices.extend([2, 1, 0, 3, 2, 0]);
     assert_eq!(
-        classes(vec![both]),
+        edge_classes(vec![both]),
         [[EdgeClass::Boundary; 4].as_slice(), &[EdgeClass::Facet]].concat()
     );
 }
 
 #[test]
 fn materials_meet_in_tangent_edges() {
-    let left = quad([[-1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 1.0, 0.0]]);
-    let mut right = quad([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
-    assert_eq!(count(&classes(vec![left.clone(), right.clone()]), EdgeClass::Tangent), 0);
+    let left = quad_mesh([[-1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 1.0, 0.0]]);
+    let mut right = quad_mesh([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
+    assert_eq!(
+        count_class(&edge_classes(vec![left.clone(), right.clone()]), EdgeClass::Tangent),
+        0
+    );
     right.material = Some(0);
-    assert_eq!(count(&classes(vec![left, right]), EdgeClass::Tangent), 1);
+    assert_eq!(count_class(&edge_classes(vec![left, right]), EdgeClass::Tangent), 1);
 }
 
 #[test]
 fn what_the_file_marks_goes_before_the_shape() {
     use EdgeVisibility::{Hard, Hidden, Silhouette};
-    let mut square = quad([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
+    let mut square =
+        quad_mesh([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
     let visibility = Some(vec![[Hard, Hidden, Silhouette], [Silhouette, Hard, Hidden]]);
-    square.edges = Some(Box::new(Edges { visibility, ..Edges::default() }));
+    square.edges = Some(Box::new(PrimitiveEdges { visibility, ..PrimitiveEdges::default() }));
     assert_eq!(
-        classes(vec![square.clone()]),
+        edge_classes(vec![square.clone()]),
         [[EdgeClass::Marked; 2].as_slice(), &[EdgeClass::Facet; 3]].concat()
     );
-    let lines = vec![EdgeLines { ends: vec![[0, 2]], material: None }];
-    square.edges = Some(Box::new(Edges { lines, ..Edges::default() }));
-    assert_eq!(count(&classes(vec![square]), EdgeClass::Marked), 1);
+    let lines = vec![EdgeList { vertex_pairs: vec![[0, 2]], material: None }];
+    square.edges = Some(Box::new(PrimitiveEdges { lines, ..PrimitiveEdges::default() }));
+    assert_eq!(count_class(&edge_classes(vec![square]), EdgeClass::Marked), 1);
 }
 
 #[test]
 fn what_touches_does_not_cross() {
-    let floor = quad([[-2.0, 0.0, 2.0], [2.0, 0.0, 2.0], [2.0, 0.0, -2.0], [-2.0, 0.0, -2.0]]);
-    let standing = cuboid([-1.0, 0.0, -1.0], [1.0, 1.0, 1.0]);
-    let found = classes(vec![floor.clone(), standing]);
-    assert_eq!(count(&found, EdgeClass::Intersection), 0);
-    let sunk = cuboid([-1.0, -0.5, -1.0], [1.0, 1.0, 1.0]);
-    assert!(count(&classes(vec![floor, sunk]), EdgeClass::Intersection) >= 4);
+    let floor = quad_mesh([[-2.0, 0.0, 2.0], [2.0, 0.0, 2.0], [2.0, 0.0, -2.0], [-2.0, 0.0, -2.0]]);
+    let standing = cuboid_mesh([-1.0, 0.0, -1.0], [1.0, 1.0, 1.0]);
+    let found = edge_classes(vec![floor.clone(), standing]);
+    assert_eq!(count_class(&found, EdgeClass::Intersection), 0);
+    let sunk = cuboid_mesh([-1.0, -0.5, -1.0], [1.0, 1.0, 1.0]);
+    assert!(count_class(&edge_classes(vec![floor, sunk]), EdgeClass::Intersection) >= 4);
 }

@@ -2,7 +2,7 @@
 
 use crate::stage::*;
 use drawing::EdgeClass::{Hatching, Section};
-use drawing::{LineDrawing, Options, Tone, Warning, draw, verify};
+use drawing::{DrawOptions, FaceFill, LineDrawing, Warning, draw, verify_with_z_buffer};
 use glam::DVec2;
 use homog::{Normal, Plane, Point, World};
 use model::{Model, Primitive};
@@ -14,19 +14,19 @@ fn plane_x(at: f64) -> Plane<World> {
     Plane::through(Point::new(at, 0.0, 0.0), Normal::new(-1.0, 0.0, 0.0))
 }
 
-fn cut(model: Model, planes: &[Plane<World>]) -> Scene {
-    Scene { sections: planes.to_vec(), ..scene(model, oblique()) }
+fn cut_scene(model: Model, planes: &[Plane<World>]) -> Scene {
+    Scene { sections: planes.to_vec(), ..drawing_scene(model, oblique_view()) }
 }
 
 /// A box with its faces turned inwards.
-fn hole(min: [f32; 3], max: [f32; 3]) -> Primitive {
-    let mut primitive = cuboid(min, max);
+fn box_with_hole(min: [f32; 3], max: [f32; 3]) -> Primitive {
+    let mut primitive = cuboid_mesh(min, max);
     primitive.indices.as_chunks_mut::<3>().0.iter_mut().for_each(|face| face.swap(1, 2));
     primitive
 }
 
 /// One object of two boxes.
-fn together(mut one: Primitive, other: &Primitive) -> Primitive {
+fn merge_primitives(mut one: Primitive, other: &Primitive) -> Primitive {
     let first = one.positions.len() as u32;
     one.positions.extend(&other.positions);
     one.indices.extend(other.indices.iter().map(|index| index + first));
@@ -34,30 +34,30 @@ fn together(mut one: Primitive, other: &Primitive) -> Primitive {
 }
 
 /// Where a place of the picture of the plane x = 0 is in it: by z and y.
-fn on_plane([x, y]: [f64; 2]) -> [f64; 2] {
+fn project_to_plane([x, y]: [f64; 2]) -> [f64; 2] {
     [-2.0 * x, y - x]
 }
 
-fn length([a, b]: Segment) -> f64 {
+fn segment_length([a, b]: Segment) -> f64 {
     DVec2::from(a).distance(b.into())
 }
 
 #[test]
 fn a_cube_cut_in_half_shows_its_cap() {
-    let cube = cuboid([-1.0; 3], [1.0; 3]);
-    let drawing = drawn(&cut(model(vec![cube]), &[plane_x(0.0)]));
+    let cube = cuboid_mesh([-1.0; 3], [1.0; 3]);
+    let drawing = draw_scene_lines(&cut_scene(build_model(vec![cube]), &[plane_x(0.0)]));
     let cap = [
         [[-0.5, -1.5], [0.5, -0.5]],
         [[0.5, -0.5], [0.5, 1.5]],
         [[0.5, 1.5], [-0.5, 0.5]],
         [[-0.5, 0.5], [-0.5, -1.5]],
     ];
-    assert_fills(&chosen(&drawing, visible(Section)), &cap);
-    assert_eq!(chosen(&drawing, |line| line.class == Section && !line.visible).len(), 0);
+    assert_segments_cover(&segments_where(&drawing, is_visible_class(Section)), &cap);
+    assert_eq!(segments_where(&drawing, |line| line.class == Section && !line.visible).len(), 0);
     // Three edges of what is left are behind it.
     let hidden =
         [[[-0.5, -0.5], [-0.5, 1.5]], [[-0.5, -0.5], [0.5, -0.5]], [[-0.5, -0.5], [-1.5, -1.5]]];
-    assert_fills(&chosen(&drawing, |line| !line.visible), &hidden);
+    assert_segments_cover(&segments_where(&drawing, |line| !line.visible), &hidden);
     assert!(drawing.warnings.is_empty());
 }
 
@@ -65,11 +65,14 @@ fn a_cube_cut_in_half_shows_its_cap() {
 /// its area.
 #[test]
 fn hatching_fills_what_is_cut_and_spares_holes() {
-    let tube = together(cuboid([-1.0; 3], [1.0; 3]), &hole([-0.9, -0.6, -0.5], [0.9, 0.6, 0.7]));
-    let scene = cut(model(vec![tube]), &[plane_x(0.0)]);
-    let options = Options { hatch: 2.0, ..Options::hidden_kept() };
-    let drawing = draw(&scene.subject(), &options, 2).unwrap();
-    let hatching = chosen(&drawing, visible(Hatching));
+    let tube = merge_primitives(
+        cuboid_mesh([-1.0; 3], [1.0; 3]),
+        &box_with_hole([-0.9, -0.6, -0.5], [0.9, 0.6, 0.7]),
+    );
+    let scene = cut_scene(build_model(vec![tube]), &[plane_x(0.0)]);
+    let options = DrawOptions { hatch_spacing: 2.0, ..DrawOptions::hidden_edges_retained() };
+    let drawing = draw(&scene.drawing_subject(), &options, 2).unwrap();
+    let hatching = segments_where(&drawing, is_visible_class(Hatching));
     assert!(hatching.len() > 100);
     let mut area = 0.0;
     for line in hatching {
@@ -78,14 +81,14 @@ fn hatching_fills_what_is_cut_and_spares_holes() {
         let number = (800.0 + (a.x - a.y) * 100.0) * std::f64::consts::FRAC_1_SQRT_2 / 2.0;
         assert!((number - number.round()).abs() < 1e-6, "{line:?} is beside the grid: {number}");
         for t in [1e-6, 0.25, 0.5, 0.75, 1.0 - 1e-6] {
-            let [z, y] = on_plane((a + (b - a) * t).into());
+            let [z, y] = project_to_plane((a + (b - a) * t).into());
             let within = |z0: f64, z1: f64, y0: f64, y1: f64, by: f64| {
                 z > z0 - by && z < z1 + by && y > y0 - by && y < y1 + by
             };
             assert!(within(-1.0, 1.0, -1.0, 1.0, 1e-9), "{line:?} leaves the cap");
             assert!(!within(-0.5, 0.7, -0.6, 0.6, -1e-9), "{line:?} is in the hole");
         }
-        area += length(line) * 0.02;
+        area += segment_length(line) * 0.02;
     }
     // The picture halves depths: of 4 − 1.44 square units.
     assert!((area - 1.28).abs() < 0.01, "{area}");
@@ -93,19 +96,20 @@ fn hatching_fills_what_is_cut_and_spares_holes() {
 
 #[test]
 fn a_cap_hides_what_is_behind_it() {
-    let solids = vec![cuboid([-1.0; 3], [1.0; 3]), cuboid([-0.9, -0.3, -0.3], [-0.1, 0.3, 0.3])];
-    let drawing = drawn(&cut(model(solids), &[plane_x(0.0)]));
-    let inner = |line: &drawing::Line| line.object == 1;
-    assert!(drawing.lines.iter().filter(|line| inner(line)).count() >= 12);
-    assert_eq!(chosen(&drawing, |line| inner(line) && line.visible).len(), 0);
+    let solids =
+        vec![cuboid_mesh([-1.0; 3], [1.0; 3]), cuboid_mesh([-0.9, -0.3, -0.3], [-0.1, 0.3, 0.3])];
+    let drawing = draw_scene_lines(&cut_scene(build_model(solids), &[plane_x(0.0)]));
+    let inner = |line: &drawing::EdgeSegment| line.object == 1;
+    assert!(drawing.segments.iter().filter(|line| inner(line)).count() >= 12);
+    assert_eq!(segments_where(&drawing, |line| inner(line) && line.visible).len(), 0);
 }
 
 #[test]
 fn two_cuts_leave_a_corner_out() {
-    let cube = cuboid([-1.0; 3], [1.0; 3]);
+    let cube = cuboid_mesh([-1.0; 3], [1.0; 3]);
     let front = Plane::through(Point::ORIGIN, Normal::new(0.0, 0.0, -1.0));
-    let scene = cut(model(vec![cube]), &[plane_x(0.0), front]);
-    let drawing = drawn(&scene);
+    let scene = cut_scene(build_model(vec![cube]), &[plane_x(0.0), front]);
+    let drawing = draw_scene_lines(&scene);
     let edge = |a: [f64; 3], b: [f64; 3]| [a, b].map(|[x, y, z]| [x - z / 2.0, y - z / 2.0]);
     let sections = [
         edge([0.0, -1.0, 0.0], [0.0, 1.0, 0.0]),
@@ -116,29 +120,33 @@ fn two_cuts_leave_a_corner_out() {
         edge([-1.0, -1.0, 0.0], [0.0, -1.0, 0.0]),
         edge([-1.0, 1.0, 0.0], [-1.0, -1.0, 0.0]),
     ];
-    assert_fills(&chosen(&drawing, visible(Section)), &sections);
+    assert_segments_cover(&segments_where(&drawing, is_visible_class(Section)), &sections);
     // Both caps are hatched, and nothing of the hatching is hidden.
-    let options = Options { hatch: 5.0, ..Options::hidden_kept() };
-    let drawing = draw(&scene.subject(), &options, 1).unwrap();
-    let area: f64 = chosen(&drawing, visible(Hatching)).into_iter().map(length).sum::<f64>() * 0.05;
+    let options = DrawOptions { hatch_spacing: 5.0, ..DrawOptions::hidden_edges_retained() };
+    let drawing = draw(&scene.drawing_subject(), &options, 1).unwrap();
+    let area: f64 = segments_where(&drawing, is_visible_class(Hatching))
+        .into_iter()
+        .map(segment_length)
+        .sum::<f64>()
+        * 0.05;
     assert!((area - (1.0 + 2.0)).abs() < 0.05, "{area}");
 }
 
 #[test]
 fn an_open_surface_is_cut_and_told_of() {
     // Five sides of a box: the one on the left is missing.
-    let mut open = cuboid([-1.0; 3], [1.0; 3]);
+    let mut open = cuboid_mesh([-1.0; 3], [1.0; 3]);
     open.indices.drain(24..30);
-    let whole = cut(model(vec![open.clone()]), &[plane_x(0.0)]);
-    assert!(drawn(&whole).warnings.is_empty(), "the cut goes round");
+    let whole = cut_scene(build_model(vec![open.clone()]), &[plane_x(0.0)]);
+    assert!(draw_scene_lines(&whole).warnings.is_empty(), "the cut goes round");
     let lengthwise = Plane::through(Point::ORIGIN, Normal::new(0.0, 0.0, -1.0));
-    let mut named = model(vec![cuboid([-3.0, -1.0, -1.0], [-2.0, 1.0, 1.0]), open]);
+    let mut named = build_model(vec![cuboid_mesh([-3.0, -1.0, -1.0], [-2.0, 1.0, 1.0]), open]);
     named.nodes[1].name = Some("tray".to_owned());
-    let drawing = drawn(&cut(named, &[lengthwise]));
+    let drawing = draw_scene_lines(&cut_scene(named, &[lengthwise]));
     assert_eq!(drawing.warnings, [Warning::SectionOpen { object: "tray".to_owned() }]);
     assert!(drawing.warnings[0].to_string().contains("`tray`"));
     let of = |object: u32, class| {
-        drawing.lines.iter().filter(|line| line.object == object && line.class == class).count()
+        drawing.segments.iter().filter(|line| line.object == object && line.class == class).count()
     };
     assert!(of(1, Section) > 0 && of(0, Section) > 0 && of(0, Hatching) > 0);
     assert_eq!(of(1, Hatching), 0);
@@ -146,25 +154,25 @@ fn an_open_surface_is_cut_and_told_of() {
 
 #[test]
 fn parts_of_one_body_in_several_objects_close_together() {
-    let body = cuboid([-1.0; 3], [1.0; 3]);
+    let body = cuboid_mesh([-1.0; 3], [1.0; 3]);
     let (mut one, mut other) = (body.clone(), body);
     one.indices.truncate(18);
     other.indices.drain(..18);
-    let drawing = drawn(&cut(model(vec![one, other]), &[plane_x(0.0)]));
+    let drawing = draw_scene_lines(&cut_scene(build_model(vec![one, other]), &[plane_x(0.0)]));
     assert!(drawing.warnings.is_empty());
-    assert!(drawing.lines.iter().any(|line| line.class == Hatching));
+    assert!(drawing.segments.iter().any(|line| line.class == Hatching));
 }
 
 #[test]
 fn neighbours_are_hatched_in_their_own_ways() {
     let boxes = (0..4_u8).map(|n| {
         let y = f32::from(n) * 0.5 - 1.0;
-        cuboid([-1.0, y, -1.0], [1.0, y + 0.5, 1.0])
+        cuboid_mesh([-1.0, y, -1.0], [1.0, y + 0.5, 1.0])
     });
-    let drawing = drawn(&cut(model(boxes.collect()), &[plane_x(0.0)]));
+    let drawing = draw_scene_lines(&cut_scene(build_model(boxes.collect()), &[plane_x(0.0)]));
     // Of each object the direction, and the distance in hundredths of a unit.
     let mut places: BTreeMap<u32, Vec<(bool, f64)>> = BTreeMap::new();
-    for line in drawing.lines.iter().filter(|line| line.class == Hatching) {
+    for line in drawing.segments.iter().filter(|line| line.class == Hatching) {
         let [a, b] = line.ends;
         let rises = (b - a).x * (b - a).y < 0.0;
         let at = if rises { a.x + a.y } else { a.y - a.x };
@@ -189,29 +197,37 @@ fn cut_drawings_agree_with_their_z_buffer_images() {
     let view_to_clip = frustum.view_to_clip(projection::Convention::CHAPTER);
     for eye in [[4.0, 3.0, 5.0], [-4.0, 2.0, 5.0], [3.0, -5.0, 4.0], [0.5, 0.2, 6.0]] {
         let solids = vec![
-            together(cuboid([-1.0; 3], [1.0; 3]), &hole([-0.9; 3], [0.9; 3])),
-            cuboid([-0.5, -0.5, -0.5], [0.4, 0.3, 0.6]),
-            cuboid([-1.5, -1.2, -1.0], [1.3, -1.0, 1.4]),
+            merge_primitives(cuboid_mesh([-1.0; 3], [1.0; 3]), &box_with_hole([-0.9; 3], [0.9; 3])),
+            cuboid_mesh([-0.5, -0.5, -0.5], [0.4, 0.3, 0.6]),
+            cuboid_mesh([-1.5, -1.2, -1.0], [1.3, -1.0, 1.4]),
         ];
         let tilted = Plane::through(Point::new(0.1, 0.0, 0.1), Normal::new(-0.6, 0.1, -1.0));
-        let mut scene = cut(model(solids), &[tilted]);
+        let mut scene = cut_scene(build_model(solids), &[tilted]);
         let camera = camera::Camera::look_at(eye.into(), Point::ORIGIN, homog::Vector::Y).unwrap();
         scene.view_projection = camera::ViewProjection { camera, view_to_clip };
-        for tone in [Tone::Blank, Tone::Hatching] {
-            let options = Options { tone, hatch: 8.0, ..Options::hidden_kept() };
-            let drawing = draw(&scene.subject(), &options, 1).unwrap();
-            assert_whole(&drawing);
-            assert!(drawing.lines.iter().any(|line| line.class == Hatching && line.visible));
-            let agreement = verify(&scene.subject(), &drawing).unwrap();
-            assert!(agreement.visible > 1000.0);
-            assert!(agreement.disagreement() < 0.002, "{eye:?}: {}", agreement.disagreement());
+        for tone in [FaceFill::None, FaceFill::Hatching] {
+            let options = DrawOptions {
+                face_fill: tone,
+                hatch_spacing: 8.0,
+                ..DrawOptions::hidden_edges_retained()
+            };
+            let drawing = draw(&scene.drawing_subject(), &options, 1).unwrap();
+            assert_closed_outlines(&drawing);
+            assert!(drawing.segments.iter().any(|line| line.class == Hatching && line.visible));
+            let agreement = verify_with_z_buffer(&scene.drawing_subject(), &drawing).unwrap();
+            assert!(agreement.visible_length > 1000.0);
+            assert!(
+                agreement.disagreement_ratio() < 0.002,
+                "{eye:?}: {}",
+                agreement.disagreement_ratio()
+            );
         }
     }
 }
 
 /// The pieces of each edge that is not hatching follow each other without gap or overlap.
-fn assert_whole(drawing: &LineDrawing) {
-    let lines: Vec<_> = drawing.lines.iter().filter(|line| line.class != Hatching).collect();
+fn assert_closed_outlines(drawing: &LineDrawing) {
+    let lines: Vec<_> = drawing.segments.iter().filter(|line| line.class != Hatching).collect();
     for pieces in lines.chunk_by(|a, b| a.edge == b.edge) {
         let sum: f64 = pieces.iter().map(|line| line.ends[0].distance(line.ends[1])).sum();
         let whole = pieces[0].ends[0].distance(pieces[pieces.len() - 1].ends[1]);
@@ -223,7 +239,7 @@ fn assert_whole(drawing: &LineDrawing) {
 #[test]
 fn a_cut_through_vertices_that_are_nearly_on_it_closes() {
     for nudge in [0.0_f32, 1e-7, -1e-7, 3e-8] {
-        let mut cube = cuboid([-1.0; 3], [1.0; 3]);
+        let mut cube = cuboid_mesh([-1.0; 3], [1.0; 3]);
         // The middle of the top and of the bottom as corners, a little beside the plane.
         let first = cube.positions.len() as u32;
         let rim = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
@@ -237,12 +253,15 @@ fn a_cut_through_vertices_that_are_nearly_on_it_closes() {
                 cube.indices.extend(if y > 0.0 { [b, a, at + 4] } else { [a, b, at + 4] });
             }
         }
-        let drawing = drawn(&cut(model(vec![cube]), &[plane_x(0.0)]));
+        let drawing = draw_scene_lines(&cut_scene(build_model(vec![cube]), &[plane_x(0.0)]));
         assert!(drawing.warnings.is_empty(), "{nudge}: {:?}", drawing.warnings);
-        let perimeter: f64 = chosen(&drawing, visible(Section)).into_iter().map(length).sum();
-        let due = 4.0 + 2.0 * std::f64::consts::SQRT_2;
-        assert!((perimeter - due).abs() < 1e-4, "{nudge}: {perimeter}");
-        let hatched: Vec<_> = chosen(&drawing, visible(Hatching));
+        let perimeter: f64 = segments_where(&drawing, is_visible_class(Section))
+            .into_iter()
+            .map(segment_length)
+            .sum();
+        let expected = 4.0 + 2.0 * std::f64::consts::SQRT_2;
+        assert!((perimeter - expected).abs() < 1e-4, "{nudge}: {perimeter}");
+        let hatched: Vec<_> = segments_where(&drawing, is_visible_class(Hatching));
         assert!(hatched.len() > 10, "{nudge}");
     }
 }

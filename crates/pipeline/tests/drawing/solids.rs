@@ -19,26 +19,29 @@ const HIDDEN: [Segment; 3] =
 
 #[test]
 fn a_cube_shows_nine_edges() {
-    let cube = cuboid([-1.0; 3], [1.0; 3]);
-    let drawing = drawn(&scene(model(vec![cube]), oblique()));
-    assert_eq!(drawing.lines.len(), 12);
-    assert_fills(&chosen(&drawing, visible(Silhouette)), &OUTLINE);
-    assert_fills(&chosen(&drawing, visible(Crease)), &INNER);
-    assert_fills(&chosen(&drawing, |line| !line.visible), &HIDDEN);
+    let cube = cuboid_mesh([-1.0; 3], [1.0; 3]);
+    let drawing = draw_scene_lines(&drawing_scene(build_model(vec![cube]), oblique_view()));
+    assert_eq!(drawing.segments.len(), 12);
+    assert_segments_cover(&segments_where(&drawing, is_visible_class(Silhouette)), &OUTLINE);
+    assert_segments_cover(&segments_where(&drawing, is_visible_class(Crease)), &INNER);
+    assert_segments_cover(&segments_where(&drawing, |line| !line.visible), &HIDDEN);
 }
 
 #[test]
 fn a_cube_within_a_cube_is_hidden() {
-    let cubes = vec![cuboid([-1.0; 3], [1.0; 3]), cuboid([-0.5; 3], [0.5; 3])];
-    let drawing = drawn(&scene(model(cubes), oblique()));
-    assert_eq!(drawing.lines.len(), 24);
-    assert_fills(
-        &chosen(&drawing, |line| line.visible && line.object == 0),
+    let cubes = vec![cuboid_mesh([-1.0; 3], [1.0; 3]), cuboid_mesh([-0.5; 3], [0.5; 3])];
+    let drawing = draw_scene_lines(&drawing_scene(build_model(cubes), oblique_view()));
+    assert_eq!(drawing.segments.len(), 24);
+    assert_segments_cover(
+        &segments_where(&drawing, |line| line.visible && line.object == 0),
         &[OUTLINE.as_slice(), &INNER].concat(),
     );
     let inner = [OUTLINE.as_slice(), &INNER, &HIDDEN].concat();
     let inner: Vec<Segment> = inner.iter().map(|s| s.map(|end| end.map(|x| x / 2.0))).collect();
-    assert_fills(&chosen(&drawing, |line| !line.visible && line.object == 1), &inner);
+    assert_segments_cover(
+        &segments_where(&drawing, |line| !line.visible && line.object == 1),
+        &inner,
+    );
 }
 
 /// A bar comes out of the cube's right side.
@@ -51,19 +54,22 @@ fn a_cube_within_a_cube_is_hidden() {
 /// ```
 #[test]
 fn a_bar_through_the_side_of_a_cube() {
-    let solids = vec![cuboid([-1.0; 3], [1.0; 3]), cuboid([0.0, -0.5, -0.5], [2.0, 0.5, 0.5])];
-    let drawing = drawn(&scene(model(solids), oblique()));
+    let solids =
+        vec![cuboid_mesh([-1.0; 3], [1.0; 3]), cuboid_mesh([0.0, -0.5, -0.5], [2.0, 0.5, 0.5])];
+    let drawing = draw_scene_lines(&drawing_scene(build_model(solids), oblique_view()));
     let crossing = [[[0.75, 0.25], [1.25, 0.75]], [[0.75, 0.25], [0.75, -0.75]]];
-    assert_fills(&chosen(&drawing, visible(Intersection)), &crossing);
+    assert_segments_cover(&segments_where(&drawing, is_visible_class(Intersection)), &crossing);
     let hidden_crossing = [[[1.25, -0.25], [1.25, 0.75]], [[1.25, -0.25], [0.75, -0.75]]];
-    let hidden = chosen(&drawing, |line| !line.visible && line.class == Intersection);
-    assert_fills(&hidden, &hidden_crossing);
+    let hidden = segments_where(&drawing, |line| !line.visible && line.class == Intersection);
+    assert_segments_cover(&hidden, &hidden_crossing);
     let mut outline = OUTLINE;
     outline[1] = [[0.5, -1.5], [1.25, -0.75]];
     outline[2] = [[1.5, 0.75], [1.5, 1.5]];
     let cube = [outline.as_slice(), &INNER].concat();
-    assert_fills(
-        &chosen(&drawing, |line| line.visible && line.object == 0 && line.class != Intersection),
+    assert_segments_cover(
+        &segments_where(&drawing, |line| {
+            line.visible && line.object == 0 && line.class != Intersection
+        }),
         &cube,
     );
     let bar = [
@@ -75,7 +81,7 @@ fn a_bar_through_the_side_of_a_cube() {
         [[1.75, -0.75], [2.25, -0.25]],
         [[2.25, 0.75], [2.25, -0.25]],
     ];
-    assert_fills(&chosen(&drawing, |line| line.visible && line.object == 1), &bar);
+    assert_segments_cover(&segments_where(&drawing, |line| line.visible && line.object == 1), &bar);
 }
 
 /// A column in front of the cube's left: its outline is where x − z/2 of its corners is least and greatest.
@@ -93,22 +99,26 @@ fn a_cylinder_before_a_box() {
         [a, a + 1, b, b, a + 1, b + 1]
     };
     let indices: Vec<u32> = (0..sides as u32).flat_map(side).collect();
-    let column = triangles(&positions, &indices);
-    let drawing = drawn(&scene(model(vec![cuboid([-1.0; 3], [1.0; 3]), column]), oblique()));
+    let column = triangle_mesh(&positions, &indices);
+    let drawing = draw_scene_lines(&drawing_scene(
+        build_model(vec![cuboid_mesh([-1.0; 3], [1.0; 3]), column]),
+        oblique_view(),
+    ));
     let right = positions.iter().map(|[x, _, z]| f64::from(*x) - 0.5 * f64::from(*z));
     let right = right.fold(f64::NEG_INFINITY, f64::max);
     assert!(right > -1.0 && right < -0.8, "{right}");
     // The column hides the left of what is lower than its top, at Y = 3 − z/2 for z from 3 to 5.
-    let at_bottom = chosen(&drawing, |line| {
+    let at_bottom = segments_where(&drawing, |line| {
         line.visible && line.object == 0 && line.ends.iter().all(|end| end.y == 550.0)
     });
-    assert_fills(&at_bottom, &[[[right, -1.5], [0.5, -1.5]]]);
-    let hidden = chosen(&drawing, |line| {
+    assert_segments_cover(&at_bottom, &[[[right, -1.5], [0.5, -1.5]]]);
+    let hidden = segments_where(&drawing, |line| {
         !line.visible && line.object == 0 && line.ends.iter().all(|end| end.y == 550.0)
     });
-    assert_fills(&hidden, &[[[-1.5, -1.5], [right, -1.5]]]);
-    let upright =
-        chosen(&drawing, |line| line.visible && line.class == Silhouette && line.object == 1);
+    assert_segments_cover(&hidden, &[[[-1.5, -1.5], [right, -1.5]]]);
+    let upright = segments_where(&drawing, |line| {
+        line.visible && line.class == Silhouette && line.object == 1
+    });
     let left = positions.iter().map(|[x, _, z]| f64::from(*x) - 0.5 * f64::from(*z));
     let left = left.fold(f64::INFINITY, f64::min);
     assert_eq!(upright.len(), 2, "{upright:?}");
@@ -122,7 +132,7 @@ fn a_cylinder_before_a_box() {
 #[test]
 fn a_cycle_of_three() {
     let strip = |corners: [[f32; 2]; 4], z: fn([f32; 2]) -> f32| {
-        quad(corners.map(|[x, y]| [x, y, z([x, y])]))
+        quad_mesh(corners.map(|[x, y]| [x, y, z([x, y])]))
     };
     let strips = vec![
         // Along the x axis, rising to the right.
@@ -132,10 +142,11 @@ fn a_cycle_of_three() {
         // Along the y axis, falling upwards.
         strip([[-0.25, -2.0], [0.25, -2.0], [0.25, 3.0], [-0.25, 3.0]], |[_, y]| (1.0 - y) / 2.0),
     ];
-    let drawing = drawn(&scene(model(strips), view_projection(window())));
-    let of = |object| chosen(&drawing, move |line| line.visible && line.object == object);
+    let drawing =
+        draw_scene_lines(&drawing_scene(build_model(strips), view_projection(window_projection())));
+    let of = |object| segments_where(&drawing, move |line| line.visible && line.object == object);
     let ends = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [[a, b], [c, d]];
-    assert_fills(
+    assert_segments_cover(
         &of(0),
         &[
             ends([-2.0, -0.25], [-0.25, -0.25]),
@@ -146,7 +157,7 @@ fn a_cycle_of_three() {
             ends([-2.0, 0.25], [-2.0, -0.25]),
         ],
     );
-    assert_fills(
+    assert_segments_cover(
         &of(1),
         &[
             ends([3.5, -2.0], [4.0, -1.5]),
@@ -157,7 +168,7 @@ fn a_cycle_of_three() {
             ends([1.75, -0.25], [3.5, -2.0]),
         ],
     );
-    assert_fills(
+    assert_segments_cover(
         &of(2),
         &[
             ends([-0.25, -2.0], [0.25, -2.0]),
@@ -175,27 +186,31 @@ fn a_cycle_of_three() {
 #[test]
 fn a_floor_cut_by_the_near_plane() {
     let floor =
-        quad([[-1.0, -1.0, 5.0], [1.0, -1.0, 5.0], [1.0, -1.0, -10.0], [-1.0, -1.0, -10.0]]);
-    let line = strokes(&[[0.0, -2.0, -1.5], [0.0, -2.0, -15.0]]);
+        quad_mesh([[-1.0, -1.0, 5.0], [1.0, -1.0, 5.0], [1.0, -1.0, -10.0], [-1.0, -1.0, -10.0]]);
+    let line = line_mesh(&[[0.0, -2.0, -1.5], [0.0, -2.0, -15.0]]);
     // The picture's half is 4 units, and 2 at distance 1: X = 2 x/−z.
     let lens = projection::Frustum::new(-2.0, 2.0, -2.0, 2.0, 1.0, 100.0).unwrap();
     let lens = lens.view_to_clip(projection::Convention::CHAPTER);
-    let drawing = drawn(&scene(model(vec![floor, line]), view_projection(lens)));
-    assert_fills(
-        &chosen(&drawing, visible(Boundary)),
+    let drawing =
+        draw_scene_lines(&drawing_scene(build_model(vec![floor, line]), view_projection(lens)));
+    assert_segments_cover(
+        &segments_where(&drawing, is_visible_class(Boundary)),
         &[[[-2.0, -2.0], [-0.2, -0.2]], [[2.0, -2.0], [0.2, -0.2]], [[-0.2, -0.2], [0.2, -0.2]]],
     );
     // The ray to (−2, z) passes the floor's height at z/2, which the near plane keeps from z = −2 on.
-    assert_fills(&chosen(&drawing, visible(Line)), &[[[0.0, -8.0 / 3.0], [0.0, -2.0]]]);
-    let hidden = chosen(&drawing, |line| !line.visible);
-    assert_fills(&hidden, &[[[0.0, -2.0], [0.0, -4.0 / 15.0]]]);
+    assert_segments_cover(
+        &segments_where(&drawing, is_visible_class(Line)),
+        &[[[0.0, -8.0 / 3.0], [0.0, -2.0]]],
+    );
+    let hidden = segments_where(&drawing, |line| !line.visible);
+    assert_segments_cover(&hidden, &[[[0.0, -2.0], [0.0, -4.0 / 15.0]]]);
 }
 
 /// Where two faces meet, seen from the front, a line runs exactly behind their common edge: together they hide it. Behind the
 /// border of one it touches, and stays.
 #[test]
 fn what_runs_exactly_behind_an_edge() {
-    let roof = triangles(
+    let roof = triangle_mesh(
         &[
             [-1.0, -1.0, 0.0],
             [0.0, -1.0, 0.5],
@@ -206,7 +221,7 @@ fn what_runs_exactly_behind_an_edge() {
         ],
         &[0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2],
     );
-    let lines = strokes(&[
+    let lines = line_mesh(&[
         [0.0, -2.0, -1.0],
         [0.0, 2.0, -1.0], // behind the ridge
         [1.0, -2.0, -1.0],
@@ -214,9 +229,12 @@ fn what_runs_exactly_behind_an_edge() {
         [-1.0, -1.0, -1.0],
         [1.0, 1.0, -1.0], // across the diagonals
     ]);
-    let drawing = drawn(&scene(model(vec![roof, lines]), view_projection(window())));
-    assert_fills(
-        &chosen(&drawing, visible(Line)),
+    let drawing = draw_scene_lines(&drawing_scene(
+        build_model(vec![roof, lines]),
+        view_projection(window_projection()),
+    ));
+    assert_segments_cover(
+        &segments_where(&drawing, is_visible_class(Line)),
         &[[[0.0, -2.0], [0.0, -1.0]], [[0.0, 1.0], [0.0, 2.0]], [[1.0, -2.0], [1.0, 2.0]]],
     );
 }

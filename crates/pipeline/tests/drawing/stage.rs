@@ -2,7 +2,7 @@
 
 use camera::Camera;
 use camera::ViewProjection;
-use drawing::{EdgeClass, Line, LineDrawing, Options, draw};
+use drawing::{DrawOptions, EdgeClass, EdgeSegment, LineDrawing, draw};
 use homog::{Affine, Clip, Point, Projective, Vector, View};
 use model::ModelInstance;
 use model::{Mesh, Model, Node, Primitive, Topology};
@@ -11,10 +11,10 @@ use pipeline::scene::{ImageSpec, Style};
 use projection::{Convention, Oblique, Orthographic};
 use std::sync::Arc;
 
-pub const SIZE: u32 = 800;
+pub const IMAGE_SIDE: u32 = 800;
 
 /// A model with one object for each primitive.
-pub fn model(primitives: Vec<Primitive>) -> Model {
+pub fn build_model(primitives: Vec<Primitive>) -> Model {
     let node = |mesh| Node { mesh: Some(mesh), ..Node::default() };
     Model {
         nodes: (0..primitives.len()).map(node).collect(),
@@ -27,7 +27,7 @@ pub fn model(primitives: Vec<Primitive>) -> Model {
     }
 }
 
-pub fn scene(model: Model, view_projection: ViewProjection) -> Scene {
+pub fn drawing_scene(model: Model, view_projection: ViewProjection) -> Scene {
     let placed =
         ModelInstance { model: Arc::new(model), model_to_world: Affine::scale(1.0, 1.0, 1.0) };
     Scene {
@@ -37,18 +37,18 @@ pub fn scene(model: Model, view_projection: ViewProjection) -> Scene {
         ground: None,
         occlusion_radius: None,
         environment: None,
-        develop: shade::Develop::default(),
+        tone_mapper: shade::ToneMapper::default(),
         style: Style::Flat,
         image: ImageSpec {
-            width: SIZE,
-            height: SIZE,
+            width: IMAGE_SIDE,
+            height: IMAGE_SIDE,
             background: [0.0; 4],
-            backdrop: None,
+            environment_blur: None,
             samples: raster::Samples::One,
-            anisotropy: 1,
+            max_anisotropy: 1,
         },
-        views: Vec::new(),
-        painting: None,
+        insets: Vec::new(),
+        backdrop: None,
         overlays: Vec::new(),
         sections: Vec::new(),
     }
@@ -61,65 +61,71 @@ pub fn view_projection(view_to_clip: Projective<View, Clip>) -> ViewProjection {
 }
 
 /// The window from −4 to 4 with depths from −8 to 8.
-pub fn window() -> Projective<View, Clip> {
+pub fn window_projection() -> Projective<View, Clip> {
     let window = Orthographic::new(-4.0, 4.0, -4.0, 4.0, -8.0, 8.0).unwrap();
     window.view_to_clip(Convention::CHAPTER)
 }
 
 /// From the front, the right and above: X = x − z/2, Y = y − z/2.
-pub fn oblique() -> ViewProjection {
+pub fn oblique_view() -> ViewProjection {
     let oblique = Oblique::by_direction(Vector::new(-0.5, -0.5, -1.0), 0.0).unwrap();
-    view_projection(oblique.depth_kept().then_project(window()))
+    view_projection(oblique.depth_preserving().then_project(window_projection()))
 }
 
-pub fn triangles(positions: &[[f32; 3]], indices: &[u32]) -> Primitive {
+pub fn triangle_mesh(positions: &[[f32; 3]], indices: &[u32]) -> Primitive {
     Primitive { positions: positions.to_vec(), indices: indices.to_vec(), ..Primitive::default() }
 }
 
-pub fn strokes(positions: &[[f32; 3]]) -> Primitive {
+pub fn line_mesh(positions: &[[f32; 3]]) -> Primitive {
     let indices = (0..positions.len() as u32).collect();
     let topology = Topology::Lines;
     Primitive { positions: positions.to_vec(), indices, topology, ..Primitive::default() }
 }
 
 /// A quadrilateral, cut along the diagonal from its first corner.
-pub fn quad(corners: [[f32; 3]; 4]) -> Primitive {
-    triangles(&corners, &[0, 1, 2, 0, 2, 3])
+pub fn quad_mesh(corners: [[f32; 3]; 4]) -> Primitive {
+    triangle_mesh(&corners, &[0, 1, 2, 0, 2, 3])
 }
 
 /// A box; each face has corners of its own, as files have them.
-pub fn cuboid(min: [f32; 3], max: [f32; 3]) -> Primitive {
+pub fn cuboid_mesh(min: [f32; 3], max: [f32; 3]) -> Primitive {
     let corner = |n: usize| [0, 1, 2].map(|axis| if n >> axis & 1 == 0 { min } else { max }[axis]);
     let faces =
         [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     let positions: Vec<[f32; 3]> = faces.as_flattened().iter().map(|&n| corner(n)).collect();
     let indices: Vec<u32> = (0..6).flat_map(|f| [0, 1, 2, 0, 2, 3].map(|k| 4 * f + k)).collect();
-    triangles(&positions, &indices)
+    triangle_mesh(&positions, &indices)
 }
 
 /// A segment of the picture by its ends.
 pub type Segment = [[f64; 2]; 2];
 
 /// The drawing with the hidden lines kept; the same from two threads.
-pub fn drawn(scene: &Scene) -> LineDrawing {
-    let drawing = draw(&scene.subject(), &Options::hidden_kept(), 1).unwrap();
-    assert_eq!(drawing, draw(&scene.subject(), &Options::hidden_kept(), 2).unwrap());
+pub fn draw_scene_lines(scene: &Scene) -> LineDrawing {
+    let drawing = draw(&scene.drawing_subject(), &DrawOptions::hidden_edges_retained(), 1).unwrap();
+    assert_eq!(
+        drawing,
+        draw(&scene.drawing_subject(), &DrawOptions::hidden_edges_retained(), 2).unwrap()
+    );
     drawing
 }
 
 /// The lines that a predicate chooses, as segments in units of the picture.
-pub fn chosen(drawing: &LineDrawing, choose: impl Fn(&Line) -> bool) -> Vec<Segment> {
+pub fn segments_where(
+    drawing: &LineDrawing,
+    choose: impl Fn(&EdgeSegment) -> bool,
+) -> Vec<Segment> {
     let unit = |at: glam::DVec2| [(at.x - 400.0) / 100.0, (400.0 - at.y) / 100.0];
-    drawing.lines.iter().filter(|line| choose(line)).map(|line| line.ends.map(unit)).collect()
+    drawing.segments.iter().filter(|line| choose(line)).map(|line| line.ends.map(unit)).collect()
 }
 
-pub fn visible(class: EdgeClass) -> impl Fn(&Line) -> bool {
+pub fn is_visible_class(class: EdgeClass) -> impl Fn(&EdgeSegment) -> bool {
     move |line| line.visible && line.class == class
 }
 
 /// The lines must lie on the expected segments, and fill them exactly once.
 #[track_caller]
-pub fn assert_fills(lines: &[Segment], expected: &[Segment]) {
+pub fn assert_segments_cover(lines: &[Segment], expected: &[Segment]) {
     const NEAR: f64 = 1e-9;
     let length = |[a, b]: Segment| glam::DVec2::from(a).distance(b.into());
     let mut filled = vec![0.0; expected.len()];
@@ -134,7 +140,10 @@ pub fn assert_fills(lines: &[Segment], expected: &[Segment]) {
         filled[at.unwrap_or_else(|| panic!("{line:?} is not expected: {lines:?}"))] += length(line);
     }
     for (segment, filled) in expected.iter().zip(filled) {
-        let due = length(*segment);
-        assert!((filled - due).abs() < NEAR, "{segment:?} is filled to {filled}, not {due}");
+        let segment_total = length(*segment);
+        assert!(
+            (filled - segment_total).abs() < NEAR,
+            "{segment:?} is filled to {filled}, not {segment_total}"
+        );
     }
 }

@@ -13,10 +13,10 @@ use pipeline::{Origin, Scene};
 use std::path::Path;
 
 /// A scene of the project, after a change of its file.
-fn scene(name: &str, change: impl FnOnce(&mut SceneFile)) -> Scene {
+fn load_scene(name: &str, change: impl FnOnce(&mut SceneFile)) -> Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let (origin, mut file) =
-        Origin::read(&folder.join(format!("{name}.ron"))).expect("a committed scene");
+        Origin::read_scene(&folder.join(format!("{name}.ron"))).expect("a committed scene");
     change(&mut file);
     Scene::resolve(&origin, &file, &ResolveOptions::default()).expect("a scene that makes sense")
 }

@@ -1,17 +1,17 @@
 //! Passes of scenes: against unprojection, `pixel`, the picture's alpha, and each other.
 
-use super::scene;
+use super::load_scene;
 use homog::PixelRect;
 use homog::{Point, World};
-use pipeline::render::passes::Values;
-use pipeline::render::{Pass, passes, pixel};
+use pipeline::render::passes::PassValues;
+use pipeline::render::{Pass, inspect_pixel, render_passes};
 use pipeline::{Picture, Scene, Timings, render};
 use viewport::Viewport;
 
 const SCENES: [&str; 5] = ["teapot", "crates", "mexican_hat", "primitives", "isometric"];
 
-fn small(name: &str, samples: u32) -> Scene {
-    scene(name, |file| {
+fn small_scene(name: &str, samples: u32) -> Scene {
+    load_scene(name, |file| {
         file.image.size = (160, 120);
         file.image.samples = samples;
     })
@@ -20,10 +20,11 @@ fn small(name: &str, samples: u32) -> Scene {
 #[test]
 fn places_are_the_unprojections_of_pixels_and_depths() {
     for name in SCENES {
-        let scene = small(name, 4);
-        let whole = scene.image.rect();
+        let scene = small_scene(name, 4);
+        let whole = scene.image.pixel_rect();
         let wanted = [Pass::Position, Pass::Depth, Pass::Distance, Pass::Barycentric];
-        let buffers = passes(&scene, whole, &wanted, 2, &Timings::default()).expect("passes");
+        let buffers =
+            render_passes(&scene, whole, &wanted, 2, &Timings::default()).expect("passes");
         let clip_to_world =
             scene.view_projection.world_to_clip().inverse().expect("a map with an inverse");
         let viewport = Viewport::image(160, 120).expect("a viewport");
@@ -31,7 +32,7 @@ fn places_are_the_unprojections_of_pixels_and_depths() {
         let world_to_view = scene.view_projection.camera.world_to_view();
         let mut seen = 0;
         for (x, y) in (0..120).flat_map(|y| (0..160).map(move |x| (x, y))) {
-            let at = |n: usize| buffers[n].floats(x, y).expect("a pixel");
+            let at = |n: usize| buffers[n].float_values(x, y).expect("a pixel");
             let &[depth] = at(1) else { panic!("one number") };
             // At borders of triangles the centre may lie outside by the 1/256 pixel that corners are moved; lines and points are
             // wider than they are.
@@ -39,9 +40,9 @@ fn places_are_the_unprojections_of_pixels_and_depths() {
                 continue;
             }
             seen += 1;
-            let ray = unprojector.ray([f64::from(x) + 0.5, f64::from(y) + 0.5], [1.0, -1.0]);
+            let ray = unprojector.pick_ray([f64::from(x) + 0.5, f64::from(y) + 0.5], [1.0, -1.0]);
             let ray = ray.expect("a ray");
-            let ahead = |p: Point<World>| -world_to_view.point(p).z();
+            let ahead = |p: Point<World>| -world_to_view.transform_point(p).z();
             let per_step = ahead(ray.origin + ray.direction) - ahead(ray.origin);
             let place =
                 ray.origin + ray.direction * ((f64::from(depth) - ahead(ray.origin)) / per_step);
@@ -51,7 +52,7 @@ fn places_are_the_unprojections_of_pixels_and_depths() {
                 (place - found).length() < 3e-6 * distance,
                 "{name} ({x}, {y}): {place:?} {found:?}"
             );
-            let eye = world_to_view.point(found).raw().length();
+            let eye = world_to_view.transform_point(found).raw().length();
             assert!((eye - distance).abs() < 3e-6 * distance);
         }
         assert!(seen > 500, "{name} shows something: {seen}");
@@ -61,15 +62,16 @@ fn places_are_the_unprojections_of_pixels_and_depths() {
 #[test]
 fn numbers_are_those_that_pixels_are_explained_by() {
     for name in ["teapot", "crates", "mexican_hat", "primitives", "room"] {
-        let scene = small(name, 1);
-        let whole = scene.image.rect();
+        let scene = small_scene(name, 1);
+        let whole = scene.image.pixel_rect();
         let wanted = [Pass::Id, Pass::Model, Pass::Node, Pass::Mesh, Pass::Material];
-        let buffers = passes(&scene, whole, &wanted, 2, &Timings::default()).expect("passes");
+        let buffers =
+            render_passes(&scene, whole, &wanted, 2, &Timings::default()).expect("passes");
         for (x, y) in (0..120).step_by(5).flat_map(|y| (0..160).step_by(5).map(move |x| (x, y))) {
-            let told = pixel(&scene, x, y).expect("a picture").expect("a pixel");
-            let owners: Vec<_> = told.fragments.iter().filter_map(|seen| seen.owner).collect();
+            let told = inspect_pixel(&scene, x, y).expect("a picture").expect("a pixel");
+            let owners: Vec<_> = told.fragments.iter().filter_map(|seen| seen.source).collect();
             let found: Vec<u32> =
-                buffers.iter().map(|b| b.number(x, y).expect("a pixel")).collect();
+                buffers.iter().map(|b| b.integer_value(x, y).expect("a pixel")).collect();
             let [owner] = owners[..] else {
                 assert!(!owners.is_empty() || found == [0; 5], "{name} ({x}, {y}) {found:?}");
                 continue;
@@ -78,17 +80,17 @@ fn numbers_are_those_that_pixels_are_explained_by() {
             let mesh = model.nodes[owner.node].mesh.expect("a mesh");
             let primitive = &model.meshes[mesh].primitives[owner.primitive];
             let material = primitive.material.map_or(0, |material| material + 1);
-            let due = [owner.model + 1, owner.node + 1, mesh + 1, material].map(|n| n as u32);
-            assert_eq!(found[1..], due, "{name} ({x}, {y})");
+            let expected = [owner.model + 1, owner.node + 1, mesh + 1, material].map(|n| n as u32);
+            assert_eq!(found[1..], expected, "{name} ({x}, {y})");
             let shown = scene.models.iter().enumerate().flat_map(|(number, placed)| {
-                placed.model.shown_primitives().map(move |(instance, p)| (number, instance, p))
+                placed.model.scene_primitives().map(move |(instance, p)| (number, instance, p))
             });
             let before = shown.take_while(|(number, instance, p)| {
                 (*number, instance.node) != (owner.model, owner.node)
                     || !std::ptr::eq(*p, primitive)
             });
-            let first: usize = before.map(|(_, _, p)| p.count()).sum();
-            assert_eq!(found[0] as usize, first + owner.item + 1, "{name} ({x}, {y})");
+            let first: usize = before.map(|(_, _, p)| p.item_count()).sum();
+            assert_eq!(found[0] as usize, first + owner.element + 1, "{name} ({x}, {y})");
         }
     }
 }
@@ -96,16 +98,16 @@ fn numbers_are_those_that_pixels_are_explained_by() {
 #[test]
 fn coverage_is_the_alpha_of_what_is_opaque() {
     for (name, samples) in [("teapot", 1), ("crates", 4), ("mexican_hat", 16), ("lights", 8)] {
-        let mut scene = small(name, samples);
-        (scene.image.background, scene.image.backdrop) = ([0.0; 4], None);
+        let mut scene = small_scene(name, samples);
+        (scene.image.background, scene.image.environment_blur) = ([0.0; 4], None);
         let picture: Picture = render(&scene, 2).expect("a picture");
-        let whole = scene.image.rect();
-        let [coverage] =
-            &passes(&scene, whole, &[Pass::Coverage], 1, &Timings::default()).expect("passes")[..]
+        let whole = scene.image.pixel_rect();
+        let [coverage] = &render_passes(&scene, whole, &[Pass::Coverage], 1, &Timings::default())
+            .expect("passes")[..]
         else {
             panic!("one pass");
         };
-        let Values::Floats(shares) = &coverage.values else { panic!("measures") };
+        let PassValues::Floats(shares) = &coverage.values else { panic!("measures") };
         for (at, (share, pixel)) in shares.iter().zip(&picture.pixels).enumerate() {
             assert_eq!((share * 255.0 + 0.5) as u8, pixel[3], "{name}, pixel {at}");
             assert!((share * samples as f32).fract() == 0.0);
@@ -115,18 +117,18 @@ fn coverage_is_the_alpha_of_what_is_opaque() {
 
 #[test]
 fn panes_are_counted_and_the_nearest_of_them_is_what_is_seen() {
-    let scene = small("panes", 1);
-    let whole = scene.image.rect();
+    let scene = small_scene("panes", 1);
+    let whole = scene.image.pixel_rect();
     let wanted = [Pass::Overdraw, Pass::Depth, Pass::Id];
-    let buffers = passes(&scene, whole, &wanted, 2, &Timings::default()).expect("passes");
+    let buffers = render_passes(&scene, whole, &wanted, 2, &Timings::default()).expect("passes");
     let mut most = 0;
     for (x, y) in (0..120).flat_map(|y| (0..160).map(move |x| (x, y))) {
-        let told = pixel(&scene, x, y).expect("a picture").expect("a pixel");
-        let shown = told.fragments.iter().filter(|seen| seen.owner.is_some()).count() as u32;
-        let count = buffers[0].number(x, y).expect("a pixel");
+        let told = inspect_pixel(&scene, x, y).expect("a picture").expect("a pixel");
+        let shown = told.fragments.iter().filter(|seen| seen.source.is_some()).count() as u32;
+        let count = buffers[0].integer_value(x, y).expect("a pixel");
         // What is hidden behind something solid is counted too.
         assert!(count >= shown, "({x}, {y}): {count} of {shown}");
-        assert_eq!(count == 0, buffers[2].number(x, y) == Some(0));
+        assert_eq!(count == 0, buffers[2].integer_value(x, y) == Some(0));
         most = most.max(count);
     }
     assert!(most >= 3, "panes lie over each other: {most}");
@@ -134,15 +136,20 @@ fn panes_are_counted_and_the_nearest_of_them_is_what_is_seen() {
 
 #[test]
 fn regions_of_passes_unite() {
-    let scene = small("panes", 4);
-    let whole = scene.image.rect();
-    let all = passes(&scene, whole, &Pass::ALL, 2, &Timings::default()).expect("passes");
+    let scene = small_scene("panes", 4);
+    let whole = scene.image.pixel_rect();
+    let all = render_passes(&scene, whole, &Pass::ALL, 2, &Timings::default()).expect("passes");
     let region = PixelRect { x: 37, y: 50, width: 90, height: 33 };
-    let part = passes(&scene, region, &Pass::ALL, 1, &Timings::default()).expect("passes");
+    let part = render_passes(&scene, region, &Pass::ALL, 1, &Timings::default()).expect("passes");
     for (all, part) in all.iter().zip(&part) {
         for (x, y) in (0..33).flat_map(|y| (0..90).map(move |x| (x, y))) {
-            assert_eq!(part.number(x, y), all.number(x + 37, y + 50), "{:?}", all.pass);
-            assert_eq!(part.floats(x, y), all.floats(x + 37, y + 50), "{:?}", all.pass);
+            assert_eq!(
+                part.integer_value(x, y),
+                all.integer_value(x + 37, y + 50),
+                "{:?}",
+                all.pass
+            );
+            assert_eq!(part.float_values(x, y), all.float_values(x + 37, y + 50), "{:?}", all.pass);
         }
     }
 }

@@ -1,24 +1,24 @@
 //! Regions, bands and sheets: parts of a picture are the whole, bit for bit, and 16 bits are the 8 bits and more.
 
-use super::scene;
+use super::load_scene;
 use homog::PixelRect;
-use pipeline::render::band_rows;
+use pipeline::render::rows_per_band;
 use pipeline::scene::file::OverlayFile;
-use pipeline::scene::{ResolveOptions, parse};
-use pipeline::{Channel, Origin, Paint, Picture, Scene, Timings, render};
+use pipeline::scene::{ResolveOptions, parse_scene};
+use pipeline::{BandedRenderer, Channel, Origin, Picture, Scene, Timings, render};
 use std::path::Path;
 
 /// Scenes with thin lines, layers, an environment behind everything, overlays, letters and line drawings.
 const SCENES: [&str; 7] =
     ["floor", "panes", "primitives", "finishes", "two_point", "technical", "view_volume"];
 
-fn region<C: Channel>(scene: &Scene, region: PixelRect) -> Picture<C> {
+fn render_region<C: Channel>(scene: &Scene, region: PixelRect) -> Picture<C> {
     let timings = Timings::default();
-    let mut paint = Paint::new(scene, 2, &timings).expect("a scene");
-    paint.region(region).expect("a region")
+    let mut paint = BandedRenderer::new(scene, 2, &timings).expect("a scene");
+    paint.render_region(region).expect("a region")
 }
 
-fn assert_part<C: Channel + std::fmt::Debug>(
+fn assert_same_as_part<C: Channel + std::fmt::Debug>(
     whole: &Picture<C>,
     part: &Picture<C>,
     at: PixelRect,
@@ -36,30 +36,30 @@ fn assert_part<C: Channel + std::fmt::Debug>(
 #[test]
 fn regions_and_bands_are_parts_of_the_whole() {
     for name in SCENES {
-        let scene = scene(name, |file| {
+        let scene = load_scene(name, |file| {
             file.image.size = (330, 210);
             file.overlays.push(OverlayFile::Axes { length: None });
         });
-        let all = scene.image.rect();
-        let whole: Picture = region(&scene, all);
+        let all = scene.image.pixel_rect();
+        let whole: Picture = render_region(&scene, all);
         let crop = PixelRect { x: 101, y: 59, width: 150, height: 80 };
-        assert_part(&whole, &region(&scene, crop), crop, name);
+        assert_same_as_part(&whole, &render_region(&scene, crop), crop, name);
         let timings = Timings::default();
-        let mut paint = Paint::new(&scene, 1, &timings).expect("a scene");
+        let mut paint = BandedRenderer::new(&scene, 1, &timings).expect("a scene");
         let mut pixels: Vec<[u8; 4]> = Vec::new();
         let mut file = Vec::new();
         let witness = |band: &Picture| pixels.extend(&band.pixels);
         paint.write_png(&mut file, all, 50, witness).expect("a file");
         assert!(pixels == whole.pixels, "{name} in bands");
         assert!(file == whole.to_png(), "{name} as a file");
-        let deep: Picture<u16> = region(&scene, all);
-        assert_part(&deep, &region(&scene, crop), crop, name);
-        hold_sixteen_bits(&whole, &deep, name);
+        let deep: Picture<u16> = render_region(&scene, all);
+        assert_same_as_part(&deep, &render_region(&scene, crop), crop, name);
+        assert_sixteen_bits_agree(&whole, &deep, name);
     }
 }
 
 /// That the nearest of 8 bits are those of the picture, but for what drawings over it round.
-fn hold_sixteen_bits(whole: &Picture, deep: &Picture<u16>, name: &str) {
+fn assert_sixteen_bits_agree(whole: &Picture, deep: &Picture<u16>, name: &str) {
     let mut drawn = 0;
     for (flat, deep) in whole.pixels.iter().zip(&deep.pixels) {
         let far = (0..4).any(|k| (f64::from(deep[k]) / 257.0 - f64::from(flat[k])).abs() > 0.503);
@@ -74,9 +74,10 @@ fn hold_sixteen_bits(whole: &Picture, deep: &Picture<u16>, name: &str) {
 #[test]
 fn without_drawings_sixteen_bits_round_to_eight() {
     for name in ["floor", "panes", "crates", "finishes"] {
-        let scene = scene(name, |file| file.image.size = (200, 130));
-        let all = scene.image.rect();
-        let (flat, deep): (Picture, Picture<u16>) = (region(&scene, all), region(&scene, all));
+        let scene = load_scene(name, |file| file.image.size = (200, 130));
+        let all = scene.image.pixel_rect();
+        let (flat, deep): (Picture, Picture<u16>) =
+            (render_region(&scene, all), render_region(&scene, all));
         for (flat, deep) in flat.pixels.iter().zip(&deep.pixels) {
             for k in 0..4 {
                 let fine = f64::from(deep[k]) / 257.0;
@@ -90,16 +91,16 @@ fn without_drawings_sixteen_bits_round_to_eight() {
 fn files_do_not_depend_on_the_bands_they_are_written_in() {
     // Opaque, transparent, and transparent but covered from side to side.
     for (background, covered) in [(1.0, false), (0.0, false), (0.0, true)] {
-        let mut scene = scene("spheres", |file| file.image.size = (333, 210));
+        let mut scene = load_scene("spheres", |file| file.image.size = (333, 210));
         scene.image.background = [background; 4];
         let all = if covered {
             PixelRect { x: 160, y: 90, width: 9, height: 14 }
         } else {
-            scene.image.rect()
+            scene.image.pixel_rect()
         };
         let timings = Timings::default();
-        let mut paint = Paint::new(&scene, 1, &timings).expect("a scene");
-        let whole: Picture = paint.region(all).expect("a picture");
+        let mut paint = BandedRenderer::new(&scene, 1, &timings).expect("a scene");
+        let whole: Picture = paint.render_region(all).expect("a picture");
         assert_eq!(whole.is_opaque(), covered || background == 1.0);
         for rows in [1, 64, 100] {
             let mut bytes = Vec::new();
@@ -112,27 +113,27 @@ fn files_do_not_depend_on_the_bands_they_are_written_in() {
 #[test]
 fn regions_of_a_giant_picture_unite_across_its_sheets() {
     for name in ["floor", "finishes", "two_point"] {
-        let scene = scene(name, |file| {
+        let scene = load_scene(name, |file| {
             file.image.size = (20_000, 20_000);
             file.image.samples = 4;
         });
         // Where four sheets meet.
         let whole = PixelRect { x: 16_200, y: 16_300, width: 400, height: 200 };
-        let picture: Picture = region(&scene, whole);
+        let picture: Picture = render_region(&scene, whole);
         for (x, y, width, height) in
             [(16_200, 16_300, 184, 84), (16_350, 16_320, 100, 140), (16_384, 16_384, 216, 116)]
         {
             let part = PixelRect { x, y, width, height };
-            let found: Picture = region(&scene, part);
+            let found: Picture = render_region(&scene, part);
             let within = PixelRect { x: x - whole.x, y: y - whole.y, ..part };
-            assert_part(&picture, &found, within, name);
+            assert_same_as_part(&picture, &found, within, name);
         }
     }
 }
 
 /// Textures, glass, soft and sharp shadows, a ground that catches them, occlusion, an environment, an overlay, and a view with a
 /// camera of its own: all that looks beyond a pixel, in a tall picture.
-const EVERYTHING: &str = r#"Scene(
+const EVERYTHING_SCENE: &str = r#"Scene(
     models: [
         (path: "models/table.glb"),
         (path: "models/crate.glb", translate: (-1.2, 0.5, 0), scale: 0.6),
@@ -164,27 +165,27 @@ const EVERYTHING: &str = r#"Scene(
 #[test]
 fn shadows_and_occlusion_are_those_of_the_whole_in_every_part() {
     let scene_of = |text: String| {
-        let file = parse("made.ron", &text).expect("a scene");
+        let file = parse_scene("made.ron", &text).expect("a scene");
         let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-        let origin = Origin::of_text("made.ron", text, scenes);
+        let origin = Origin::from_text("made.ron", text, scenes);
         Scene::resolve(&origin, &file, &ResolveOptions::default()).expect("a scene")
     };
-    let scene = scene_of(EVERYTHING.to_owned());
+    let scene = scene_of(EVERYTHING_SCENE.to_owned());
     let whole = render(&scene, 2).expect("a picture");
     for plain in
         ["shadows: On(size: 512, softness_degrees: 4)", "ambient_occlusion: (radius: 0.7),"]
     {
         let without = if plain.ends_with(')') { "shadows: Off" } else { "" };
-        let without = scene_of(EVERYTHING.replace(plain, without));
+        let without = scene_of(EVERYTHING_SCENE.replace(plain, without));
         let without = render(&without, 2).expect("a picture");
         let pairs = whole.pixels.chunks(90).zip(without.pixels.chunks(90));
         let rows = pairs.filter(|(with, without)| with != without).count();
         assert!(rows > 600, "{plain} is seen in {rows} rows");
     }
-    let all = scene.image.rect();
+    let all = scene.image.pixel_rect();
     let timings = Timings::default();
-    let mut paint = Paint::new(&scene, 2, &timings).expect("a scene");
-    for rows in [band_rows(scene.image.width), 512, 700] {
+    let mut paint = BandedRenderer::new(&scene, 2, &timings).expect("a scene");
+    for rows in [rows_per_band(scene.image.width), 512, 700] {
         let mut file = Vec::new();
         paint.write_png(&mut file, all, rows, |_: &Picture| ()).expect("a file");
         assert!(file == whole.to_png(), "in bands of {rows} rows");
@@ -194,7 +195,12 @@ fn shadows_and_occlusion_are_those_of_the_whole_in_every_part() {
         PixelRect { x: 31, y: 2030, width: 47, height: 40 },
         PixelRect { x: 0, y: 1101, width: 1, height: 1 },
     ] {
-        assert_part(&whole, &region(&scene, part), part, "alone");
-        assert_part(&whole, &paint.region(part).expect("a region"), part, "after others");
+        assert_same_as_part(&whole, &render_region(&scene, part), part, "alone");
+        assert_same_as_part(
+            &whole,
+            &paint.render_region(part).expect("a region"),
+            part,
+            "after others",
+        );
     }
 }

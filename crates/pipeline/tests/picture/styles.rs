@@ -1,36 +1,36 @@
 //! Styles: pixels against the formulas of each, by what the passes say of them.
 
-use super::scene;
-use pipeline::render::{Pass, PassBuffer, passes};
+use super::load_scene;
+use pipeline::render::{Pass, PassBuffer, render_passes};
 use pipeline::scene::Style;
 use pipeline::{Picture, Scene, Timings, render};
 use shade::Light;
 use std::f64::consts::PI;
 
-const SIZE: (u32, u32) = (160, 120);
+const IMAGE_SIZE: (u32, u32) = (160, 120);
 
-fn styled(name: &str, style: Style) -> Scene {
-    let mut scene = scene(name, |file| {
-        file.image.size = SIZE;
+fn styled_scene(name: &str, style: Style) -> Scene {
+    let mut scene = load_scene(name, |file| {
+        file.image.size = IMAGE_SIZE;
         file.image.samples = 1;
     });
     scene.style = style;
     scene
 }
 
-fn draw(scene: &Scene) -> Picture {
+fn render_scene(scene: &Scene) -> Picture {
     render(scene, 2).expect("a picture")
 }
 
-fn told(scene: &Scene, wanted: &[Pass]) -> Vec<PassBuffer> {
-    passes(scene, scene.image.rect(), wanted, 2, &Timings::default()).expect("passes")
+fn render_wanted_passes(scene: &Scene, wanted: &[Pass]) -> Vec<PassBuffer> {
+    render_passes(scene, scene.image.pixel_rect(), wanted, 2, &Timings::default()).expect("passes")
 }
 
 /// Calls `each` with the place of each pixel that shows a surface, and tells how many do.
-fn for_each_seen(ids: &PassBuffer, mut each: impl FnMut(u32, u32)) -> usize {
+fn for_each_covered_pixel(ids: &PassBuffer, mut each: impl FnMut(u32, u32)) -> usize {
     let mut seen = 0;
-    for (x, y) in (0..SIZE.1).flat_map(|y| (0..SIZE.0).map(move |x| (x, y))) {
-        if ids.number(x, y) != Some(0) {
+    for (x, y) in (0..IMAGE_SIZE.1).flat_map(|y| (0..IMAGE_SIZE.0).map(move |x| (x, y))) {
+        if ids.integer_value(x, y) != Some(0) {
             each(x, y);
             seen += 1;
         }
@@ -38,12 +38,12 @@ fn for_each_seen(ids: &PassBuffer, mut each: impl FnMut(u32, u32)) -> usize {
     seen
 }
 
-fn floats<const N: usize>(pass: &PassBuffer, x: u32, y: u32) -> [f64; N] {
-    let values = pass.floats(x, y).expect("a pixel");
+fn float_values<const N: usize>(pass: &PassBuffer, x: u32, y: u32) -> [f64; N] {
+    let values = pass.float_values(x, y).expect("a pixel");
     std::array::from_fn(|k| f64::from(values[k]))
 }
 
-fn srgb(light: f64) -> f64 {
+fn encode_srgb(light: f64) -> f64 {
     let light = light.clamp(0.0, 1.0);
     255.0
         * if light <= 0.003_130_8 {
@@ -59,16 +59,17 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 #[test]
 fn normals_are_the_codes_of_the_pass() {
-    let scene = styled("teapot", Style::Normals);
-    let (picture, told) = (draw(&scene), told(&scene, &[Pass::Id, Pass::Normal]));
+    let scene = styled_scene("teapot", Style::Normals);
+    let (picture, told) =
+        (render_scene(&scene), render_wanted_passes(&scene, &[Pass::Id, Pass::Normal]));
     let mut far = 0;
-    let seen = for_each_seen(&told[0], |x, y| {
-        let normal: [f64; 3] = floats(&told[1], x, y);
+    let seen = for_each_covered_pixel(&told[0], |x, y| {
+        let normal: [f64; 3] = float_values(&told[1], x, y);
         let pixel = picture.pixel(x, y).expect("a pixel");
         for k in 0..3 {
-            let due = 255.0 * (0.5 * normal[k] + 0.5);
+            let expected = 255.0 * (0.5 * normal[k] + 0.5);
             // Shading weighs the corners as they were snapped to 1/256 pixel, which tells on small triangles.
-            let off = (f64::from(pixel[k]) - due).abs();
+            let off = (f64::from(pixel[k]) - expected).abs();
             assert!(off < 6.0, "({x}, {y}) {pixel:?} {normal:?}");
             far += usize::from(off > 1.0);
         }
@@ -78,27 +79,30 @@ fn normals_are_the_codes_of_the_pass() {
 
 #[test]
 fn depth_is_linear_between_the_ends_of_the_models() {
-    let scene = styled("teapot", Style::Depth);
-    let (picture, told) = (draw(&scene), told(&scene, &[Pass::Id, Pass::Depth]));
+    let scene = styled_scene("teapot", Style::Depth);
+    let (picture, told) =
+        (render_scene(&scene), render_wanted_passes(&scene, &[Pass::Id, Pass::Depth]));
     let world_to_view = scene.view_projection.camera.world_to_view();
     let depths = scene.world_points();
-    let depths = depths.iter().map(|point| -world_to_view.point(*point).z());
+    let depths = depths.iter().map(|point| -world_to_view.transform_point(*point).z());
     let (near, far) = depths.fold((f64::INFINITY, 0.0_f64), |(a, b), d| (a.min(d), b.max(d)));
-    for_each_seen(&told[0], |x, y| {
-        let [depth] = floats(&told[1], x, y);
-        let due = 255.0 * (0.1 + 0.9 * (far - depth) / (far - near));
+    for_each_covered_pixel(&told[0], |x, y| {
+        let [depth] = float_values(&told[1], x, y);
+        let expected = 255.0 * (0.1 + 0.9 * (far - depth) / (far - near));
         let [r, g, b, a] = picture.pixel(x, y).expect("a pixel");
         assert!(r == g && g == b && a == 255);
-        assert!((f64::from(r) - due).abs() < 0.8, "({x}, {y}): {r} {due}");
+        assert!((f64::from(r) - expected).abs() < 0.8, "({x}, {y}): {r} {expected}");
     });
 }
 
 /// What a white matt surface sends to the viewer, of suns and ambient light.
-fn light(scene: &Scene, normal: [f64; 3]) -> [f64; 3] {
+fn expected_light(scene: &Scene, normal: [f64; 3]) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for light in &scene.lights {
         let (cosine, lux) = match light {
-            Light::Sun { towards, lux, .. } => (dot(normal, towards.map(f64::from)).max(0.0), *lux),
+            Light::Sun { to_light: towards, lux, .. } => {
+                (dot(normal, towards.map(f64::from)).max(0.0), *lux)
+            }
             Light::Ambient { lux } => (1.0, *lux),
             _ => panic!("the scene has suns only"),
         };
@@ -111,15 +115,19 @@ fn light(scene: &Scene, normal: [f64; 3]) -> [f64; 3] {
 
 #[test]
 fn clay_is_matt_in_the_light_of_the_scene() {
-    let mut scene = styled("teapot", Style::Clay);
+    let mut scene = styled_scene("teapot", Style::Clay);
     scene.environment = None;
-    let (picture, told) = (draw(&scene), told(&scene, &[Pass::Id, Pass::Normal]));
-    for_each_seen(&told[0], |x, y| {
-        let light = light(&scene, floats(&told[1], x, y));
+    let (picture, told) =
+        (render_scene(&scene), render_wanted_passes(&scene, &[Pass::Id, Pass::Normal]));
+    for_each_covered_pixel(&told[0], |x, y| {
+        let light = expected_light(&scene, float_values(&told[1], x, y));
         let pixel = picture.pixel(x, y).expect("a pixel");
         for (k, clay) in [0.58, 0.52, 0.46].into_iter().enumerate() {
-            let due = srgb(clay * light[k]);
-            assert!((f64::from(pixel[k]) - due).abs() < 1.6, "({x}, {y}) {pixel:?} {due}");
+            let expected = encode_srgb(clay * light[k]);
+            assert!(
+                (f64::from(pixel[k]) - expected).abs() < 1.6,
+                "({x}, {y}) {pixel:?} {expected}"
+            );
         }
     });
 }
@@ -127,12 +135,13 @@ fn clay_is_matt_in_the_light_of_the_scene() {
 #[test]
 fn gouraud_is_clay_at_the_vertices_and_even_on_flat_faces() {
     // On a crate all normals of a face are one: its light is even, as that of every matt surface in the sun.
-    let (gouraud, clay) = (styled("crates", Style::Gouraud), styled("crates", Style::Clay));
-    let told = told(&gouraud, &[Pass::Id, Pass::Normal, Pass::Material]);
-    let (gouraud, clay) = (draw(&gouraud), draw(&clay));
+    let (gouraud, clay) =
+        (styled_scene("crates", Style::Gouraud), styled_scene("crates", Style::Clay));
+    let told = render_wanted_passes(&gouraud, &[Pass::Id, Pass::Normal, Pass::Material]);
+    let (gouraud, clay) = (render_scene(&gouraud), render_scene(&clay));
     let mut faces: Vec<([i32; 3], [u8; 4])> = Vec::new();
-    let seen = for_each_seen(&told[0], |x, y| {
-        let normal: [f64; 3] = floats(&told[1], x, y);
+    let seen = for_each_covered_pixel(&told[0], |x, y| {
+        let normal: [f64; 3] = float_values(&told[1], x, y);
         let normal = normal.map(|c| libm::round(c * 1000.0) as i32);
         let even = clay.pixel(x, y).expect("a pixel");
         match faces.iter().find(|(known, _)| *known == normal) {
@@ -146,12 +155,12 @@ fn gouraud_is_clay_at_the_vertices_and_even_on_flat_faces() {
 
 #[test]
 fn parts_have_one_colour_each() {
-    let scene = styled("teapot", Style::Ids);
-    let picture = draw(&scene);
-    let told = told(&scene, &[Pass::Id, Pass::Node]);
+    let scene = styled_scene("teapot", Style::Ids);
+    let picture = render_scene(&scene);
+    let told = render_wanted_passes(&scene, &[Pass::Id, Pass::Node]);
     let mut colors: Vec<(u32, [u8; 4])> = Vec::new();
-    for_each_seen(&told[0], |x, y| {
-        let node = told[1].number(x, y).expect("a pixel");
+    for_each_covered_pixel(&told[0], |x, y| {
+        let node = told[1].integer_value(x, y).expect("a pixel");
         let color = picture.pixel(x, y).expect("a pixel");
         match colors.iter().find(|(known, _)| *known == node) {
             Some((_, known)) => assert_eq!(color, *known, "({x}, {y})"),
@@ -166,12 +175,12 @@ fn parts_have_one_colour_each() {
 
 #[test]
 fn checkers_change_where_texture_coordinates_pass_an_eighth() {
-    let scene = styled("crates", Style::UvChecker);
-    let picture = draw(&scene);
-    let told = told(&scene, &[Pass::Id, Pass::Uv, Pass::Normal]);
+    let scene = styled_scene("crates", Style::UvChecker);
+    let picture = render_scene(&scene);
+    let told = render_wanted_passes(&scene, &[Pass::Id, Pass::Uv, Pass::Normal]);
     let mut sums = [[0.0; 2]; 2];
-    for_each_seen(&told[0], |x, y| {
-        let [u, v]: [f64; 2] = floats(&told[1], x, y);
+    for_each_covered_pixel(&told[0], |x, y| {
+        let [u, v]: [f64; 2] = float_values(&told[1], x, y);
         let place = [u, v].map(|c| c * 8.0);
         // Away from the borders of squares.
         if place.iter().any(|c| (c - libm::round(*c)).abs() < 0.1) {
@@ -181,8 +190,8 @@ fn checkers_change_where_texture_coordinates_pass_an_eighth() {
         let [r, _, b, _] = picture.pixel(x, y).expect("a pixel");
         // Blue does not depend on the place; red over blue grows with u.
         let share = f64::from(r) / f64::from(b) * 0.55;
-        let due = 0.35 + 0.65 * (u - libm::floor(u));
-        assert!((share - due).abs() < 0.02, "({x}, {y}): {share} {due}");
+        let expected = 0.35 + 0.65 * (u - libm::floor(u));
+        assert!((share - expected).abs() < 0.02, "({x}, {y}): {share} {expected}");
         sums[odd][0] += f64::from(b);
         sums[odd][1] += 1.0;
     });
@@ -192,16 +201,16 @@ fn checkers_change_where_texture_coordinates_pass_an_eighth() {
 
 #[test]
 fn toons_have_few_tones_and_dark_outlines() {
-    let scene = styled("spheres", Style::Toon);
-    let picture = draw(&scene);
-    let told = told(&scene, &[Pass::Id, Pass::Material]);
+    let scene = styled_scene("spheres", Style::Toon);
+    let picture = render_scene(&scene);
+    let told = render_wanted_passes(&scene, &[Pass::Id, Pass::Material]);
     let mut tones: Vec<(u32, Vec<[u8; 4]>)> = Vec::new();
     let (mut dark, mut inner) = (0, 0);
-    for_each_seen(&told[0], |x, y| {
+    for_each_covered_pixel(&told[0], |x, y| {
         let color = picture.pixel(x, y).expect("a pixel");
         let around = [(x.wrapping_sub(2), y), (x + 2, y), (x, y.wrapping_sub(2)), (x, y + 2)];
-        let ids = around.map(|(x, y)| told[1].number(x, y));
-        if ids.iter().any(|id| *id != told[1].number(x, y)) {
+        let ids = around.map(|(x, y)| told[1].integer_value(x, y));
+        if ids.iter().any(|id| *id != told[1].integer_value(x, y)) {
             dark += usize::from(color[..3].iter().all(|c| *c < 60));
             return;
         }
@@ -221,11 +230,11 @@ fn toons_have_few_tones_and_dark_outlines() {
 
 #[test]
 fn glass_shows_what_is_behind_and_backs_too() {
-    let mut glass = styled("spheres", Style::XRay);
+    let mut glass = styled_scene("spheres", Style::XRay);
     glass.image.background = [0.0; 4];
-    let picture = draw(&glass);
-    let told = told(&glass, &[Pass::Id, Pass::ViewNormal, Pass::Distance]);
-    let seen = for_each_seen(&told[0], |x, y| {
+    let picture = render_scene(&glass);
+    let told = render_wanted_passes(&glass, &[Pass::Id, Pass::ViewNormal, Pass::Distance]);
+    let seen = for_each_covered_pixel(&told[0], |x, y| {
         let [.., alpha] = picture.pixel(x, y).expect("a pixel");
         // At least two layers, front and back, of 7 to 80 per cent.
         assert!(alpha > 30 && alpha < 255, "({x}, {y}): {alpha}");
@@ -235,8 +244,8 @@ fn glass_shows_what_is_behind_and_backs_too() {
 
 #[test]
 fn matcaps_depend_on_the_normal_towards_the_viewer_alone() {
-    let scene = styled("spheres", Style::Matcap);
+    let scene = styled_scene("spheres", Style::Matcap);
     let mut dark = scene.clone();
     (dark.lights, dark.environment) = (Vec::new(), None);
-    assert_eq!(draw(&scene), draw(&dark), "the light of the scene does not count");
+    assert_eq!(render_scene(&scene), render_scene(&dark), "the light of the scene does not count");
 }

@@ -4,7 +4,7 @@
 use crate::samples::{self, convention, conventions, distance, frustum, orthographic, perspective};
 use glam::DMat4;
 use homog::{Clip, Point, Projective, View};
-use projection::{Convention, Film, Fov, Frustum, Orthographic, Perspective};
+use projection::{Convention, Fov, Frustum, Orthographic, Perspective, SensorSize};
 use proptest::prelude::*;
 
 /// The view-space point `distance` ahead of the eye at (x, y).
@@ -13,7 +13,7 @@ fn ahead(convention: Convention, x: f64, y: f64, distance: f64) -> Point<View> {
 }
 
 fn assert_maps(map: Projective<View, Clip>, from: Point<View>, to: [f64; 3]) {
-    let image = map.point(from);
+    let image = map.transform_point(from);
     assert!(image.w() > 0.0, "{from:?} has w = {}", image.w());
     let ndc = <[f64; 3]>::from(image.divide().expect("w > 0"));
     for (ours, due) in ndc.iter().zip(to) {
@@ -116,11 +116,11 @@ proptest! {
         let same = [
             Fov::Horizontal(lens.fov_x()),
             Fov::Diagonal(lens.fov_diagonal()),
-            Fov::FocalLength { focal: 35.0, film: Film::Height(film(half.y)) },
-            Fov::FocalLength { focal: 35.0, film: Film::Width(film(half.x)) },
+            Fov::FocalLength { focal: 35.0, film: SensorSize::Height(film(half.y)) },
+            Fov::FocalLength { focal: 35.0, film: SensorSize::Width(film(half.x)) },
             Fov::FocalLength {
                 focal: 35.0,
-                film: Film::Diagonal(film(libm::hypot(half.x, half.y))),
+                film: SensorSize::Diagonal(film(libm::hypot(half.x, half.y))),
             },
         ];
         for way in same {

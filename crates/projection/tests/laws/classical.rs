@@ -51,7 +51,7 @@ proptest! {
     #[test]
     fn foreshortening_is_the_length_of_the_axes_images(a in axonometric()) {
         let images =
-            [Vector::X, Vector::Y, Vector::Z].map(|axis| a.onto_plane().vector(axis).length());
+            [Vector::X, Vector::Y, Vector::Z].map(|axis| a.onto_plane().transform_vector(axis).length());
         for (image, ratio) in images.iter().zip(a.foreshortening()) {
             prop_assert!((image - ratio).abs() < 1e-14);
         }
@@ -74,25 +74,25 @@ proptest! {
     #[test]
     fn the_normal_turns_to_the_viewer(normal in direction()) {
         let made = Axonometric::by_normal(Normal::from_raw(normal.raw())).expect("a direction");
-        let turned = made.depth_kept().vector(normal);
+        let turned = made.depth_preserving().transform_vector(normal);
         prop_assert!((turned - Vector::Z * normal.length()).length() < 1e-12);
-        prop_assert!(made.depth_kept().vector(Vector::Y).x().abs() < 1e-12, "y stays upright");
+        prop_assert!(made.depth_preserving().transform_vector(Vector::Y).x().abs() < 1e-12, "y stays upright");
     }
 
     #[test]
     fn projecting_twice_is_projecting_once(c in classical(), p in point()) {
         if let Classical::Oblique(o) = c {
             let flat = o.onto_plane();
-            prop_assert!((flat.point(flat.point(p)) - flat.point(p)).length() < 1e-12);
+            prop_assert!((flat.transform_point(flat.transform_point(p)) - flat.transform_point(p)).length() < 1e-12);
         }
         prop_assert_eq!(c.onto_plane().inverse(), None);
-        let inverse = c.depth_kept().then(c.depth_kept_inverse()).raw();
+        let inverse = c.depth_preserving().then(c.depth_preserving_inverse()).raw();
         prop_assert!(distance(inverse, DMat4::IDENTITY) < 1e-13);
     }
 
     #[test]
     fn keeping_depth_does_not_change_the_picture(c in classical(), p in point()) {
-        let (flat, kept) = (c.onto_plane().point(p), c.depth_kept().point(p));
+        let (flat, kept) = (c.onto_plane().transform_point(p), c.depth_preserving().transform_point(p));
         prop_assert_eq!(flat.w(), kept.w());
         if flat.w().abs() > 1e-9 {
             prop_assert!(close(xy(flat).expect("w"), xy(kept).expect("w")));
@@ -113,7 +113,7 @@ proptest! {
         let inverse = c.clip_to_view(volume, k).expect("as the map");
         prop_assert!(distance(view_to_clip.then(inverse).raw(), DMat4::IDENTITY) < 1e-9);
         let seen = Point::new(p.x(), p.y(), -k.ahead() * p.z());
-        let (ndc, picture) = (view_to_clip.point(seen), c.onto_plane().point(p));
+        let (ndc, picture) = (view_to_clip.transform_point(seen), c.onto_plane().transform_point(p));
         if picture.w() > 0.05 {
             let (x, y) = xy(picture).expect("w");
             let w = volume.window();
@@ -137,13 +137,13 @@ proptest! {
             let on_axis = match c {
                 Classical::NPoint(_) => Point::new(0.0, 0.0, -at),
                 _ => c
-                    .depth_kept_inverse()
-                    .point(Point::new(0.0, 0.0, -at))
+                    .depth_preserving_inverse()
+                    .transform_point(Point::new(0.0, 0.0, -at))
                     .divide()
                     .expect("affine"),
             };
             let turned = Point::new(on_axis.x(), on_axis.y(), -k.ahead() * on_axis.z());
-            let ndc = view_to_clip.point(turned).divide().expect("before the eye");
+            let ndc = view_to_clip.transform_point(turned).divide().expect("before the eye");
             prop_assert!((ndc.z() - depth).abs() < 1e-9);
         }
     }
@@ -159,7 +159,7 @@ proptest! {
         }
         let moved = Oblique::by_direction(by_length.direction(), z).expect("valid");
         let on_plane = Point::new(0.3, -0.2, z);
-        prop_assert!((moved.onto_plane().point(on_plane) - on_plane).length() < 1e-14);
+        prop_assert!((moved.onto_plane().transform_point(on_plane) - on_plane).length() < 1e-14);
     }
 
     /// C72, C75, C78, C82: centre or direction and a plane are enough.
@@ -169,12 +169,12 @@ proptest! {
         let central = Projector::from_eye(Point::new(0.0, 0.0, d), picture).expect("above");
         let one = NPoint::from_eye(d).expect("valid");
         prop_assert!(distance(central.onto_plane().raw(), one.onto_plane().raw()) < 1e-13);
-        prop_assert!(distance(central.depth_kept().raw(), one.depth_kept().raw()) < 1e-13);
+        prop_assert!(distance(central.depth_preserving().raw(), one.depth_preserving().raw()) < 1e-13);
         let slanted = Projector::along(o.direction(), picture).expect("slanted");
         prop_assert!(distance(slanted.onto_plane().raw(), o.onto_plane().raw()) < 1e-12);
         for plane in PrincipalPlane::ALL {
             let drop = plane.onto_plane::<View>();
-            let normal = Vector::new(1.0, 1.0, 1.0) - drop.vector(Vector::new(1.0, 1.0, 1.0));
+            let normal = Vector::new(1.0, 1.0, 1.0) - drop.transform_vector(Vector::new(1.0, 1.0, 1.0));
             let onto = Plane::through(Point::ORIGIN, Normal::from_raw(normal.raw()));
             let across = Projector::along(normal, onto).expect("perpendicular");
             prop_assert_eq!(across.onto_plane().raw(), drop.raw());
@@ -191,7 +191,7 @@ proptest! {
         let plane = Plane::through(q, Normal::from_raw(normal.raw()));
         prop_assume!(plane.evaluate(eye).abs() > 0.05 && (p - eye).length() > 0.1);
         let Some(image) =
-            Projector::from_eye(eye, plane).expect("beside").onto_plane().point(p).divide()
+            Projector::from_eye(eye, plane).expect("beside").onto_plane().transform_point(p).divide()
         else {
             return Ok(());
         };
@@ -207,13 +207,13 @@ proptest! {
         turn in rotation(),
         p in point(),
     ) {
-        let normal = turn.vector(Vector::Z);
+        let normal = turn.transform_vector(Vector::Z);
         let plane = Plane::through(Point::ORIGIN, Normal::from_raw(normal.raw()));
-        let towards = turn.vector(o.direction());
+        let towards = turn.transform_vector(o.direction());
         let limit = Projector::along(towards, plane)
             .expect("slanted")
             .onto_plane()
-            .point(p)
+            .transform_point(p)
             .divide()
             .expect("affine");
         let mut last = f64::INFINITY;
@@ -222,7 +222,7 @@ proptest! {
             let image = Projector::from_eye(eye, plane)
                 .expect("far")
                 .onto_plane()
-                .point(p)
+                .transform_point(p)
                 .divide()
                 .expect("in front");
             let error = (image - limit).length();
@@ -240,7 +240,7 @@ proptest! {
         d in direction(),
     ) {
         let flat = o.onto_plane();
-        let along = |start: Point<View>| flat.point(start + d) - flat.point(start);
+        let along = |start: Point<View>| flat.transform_point(start + d) - flat.transform_point(start);
         prop_assert!((along(p) - along(q)).length() < 1e-12);
     }
 
@@ -249,10 +249,10 @@ proptest! {
     fn only_the_eyes_own_plane_has_no_image(d in 0.5..9.0, p in point()) {
         let eye = NPoint::from_eye(d).expect("valid");
         let beside = Point::new(p.x(), p.y(), d);
-        prop_assert!(eye.onto_plane().point(beside).w().abs() < 1e-15);
-        prop_assert!(eye.keeps_picture_plane());
+        prop_assert!(eye.onto_plane().transform_point(beside).w().abs() < 1e-15);
+        prop_assert!(eye.preserves_picture_plane());
         let on_picture = Point::new(p.x(), p.y(), 0.0);
-        prop_assert_eq!(eye.depth_kept().point(on_picture).divide(), Some(on_picture));
+        prop_assert_eq!(eye.depth_preserving().transform_point(on_picture).divide(), Some(on_picture));
     }
 }
 
@@ -293,7 +293,7 @@ fn circles_become_ellipses_under_isometric_projection() {
     let iso = Axonometric::isometric().onto_plane();
     let radii = (0..360).map(|degree| {
         let (sin, cos) = libm::sincos(f64::from(degree).to_radians());
-        iso.vector(Vector::new(cos, 0.0, sin)).length()
+        iso.transform_vector(Vector::new(cos, 0.0, sin)).length()
     });
     let (least, most) = radii.fold((f64::MAX, 0.0), |(a, b): (f64, f64), r| (a.min(r), b.max(r)));
     assert!((most - 1.0).abs() < 1e-12 && (least - 1.0 / 3_f64.sqrt()).abs() < 1e-12);
@@ -304,7 +304,7 @@ fn circles_become_ellipses_under_isometric_projection() {
 fn principal_views_look_along_their_axis_and_keep_right_and_up() {
     let part = Point::<View>::new(1.0, 2.0, 3.0);
     let drawn = |view: PrincipalView| {
-        let p = view.depth_kept().point(part);
+        let p = view.depth_preserving().transform_point(part);
         (p.x(), p.y())
     };
     assert_eq!(drawn(PrincipalView::Front), (1.0, 2.0));
@@ -314,20 +314,21 @@ fn principal_views_look_along_their_axis_and_keep_right_and_up() {
     assert_eq!(drawn(PrincipalView::Top), (1.0, -3.0));
     assert_eq!(drawn(PrincipalView::Bottom), (1.0, 3.0));
     for view in PrincipalView::ALL {
-        assert_eq!(view.depth_kept().determinant(), 1.0, "{view:?} is a turn");
+        assert_eq!(view.depth_preserving().determinant(), 1.0, "{view:?} is a turn");
         // The plane drops the axis the viewer looks along.
-        let towards = view.depth_kept().inverse().expect("a turn").vector(Vector::Z);
-        assert_eq!(view.plane().onto_plane::<View>().vector(towards), Vector::ZERO);
+        let towards =
+            view.depth_preserving().inverse().expect("a turn").transform_vector(Vector::Z);
+        assert_eq!(view.plane().onto_plane::<View>().transform_vector(towards), Vector::ZERO);
     }
 }
 
 /// C75.
 #[test]
 fn sheets_are_laid_out_in_first_and_third_angle() {
-    assert_eq!(PrincipalView::Top.place(SheetAngle::Third), (0, 1));
-    assert_eq!(PrincipalView::Top.place(SheetAngle::First), (0, -1));
-    assert_eq!(PrincipalView::Left.place(SheetAngle::Third), (-1, 0));
-    assert_eq!(PrincipalView::Left.place(SheetAngle::First), (1, 0));
+    assert_eq!(PrincipalView::Top.sheet_position(SheetAngle::Third), (0, 1));
+    assert_eq!(PrincipalView::Top.sheet_position(SheetAngle::First), (0, -1));
+    assert_eq!(PrincipalView::Left.sheet_position(SheetAngle::Third), (-1, 0));
+    assert_eq!(PrincipalView::Left.sheet_position(SheetAngle::First), (1, 0));
 }
 
 /// C73.

@@ -77,7 +77,7 @@ proptest! {
     #[test]
     fn apex_moved_frusta_come_back_under_their_own_name(f in frustum(), c in convention()) {
         let (w, far) = (f.window(), f.far().min(1e4 * f.near()));
-        prop_assume!(f64::abs(w.centre().0) > 1e-6 * f.near());
+        prop_assume!(f64::abs(w.center().0) > 1e-6 * f.near());
         let made = ApexMovedFrustum::new(w.left(), w.right(), w.bottom(), w.top(), f.near(), far)
             .expect("valid");
         let Decomposed::ApexMoved(back) = kind(made.view_to_clip(c).raw(), c) else {
@@ -148,12 +148,12 @@ proptest! {
         a in axonometric(),
         c in convention(),
     ) {
-        prop_assert_eq!(kind(n.depth_kept().raw(), c), Decomposed::NPoint(n));
+        prop_assert_eq!(kind(n.depth_preserving().raw(), c), Decomposed::NPoint(n));
         let Decomposed::Flat { centre, projection } = kind(n.onto_plane().raw(), c) else {
             panic!("flat")
         };
         prop_assert_eq!(projection, Some(n.into()));
-        prop_assert!(n.onto_plane().hpoint(centre).raw().length() < 1e-9 * centre.raw().length());
+        prop_assert!(n.onto_plane().transform_hpoint(centre).raw().length() < 1e-9 * centre.raw().length());
         let Decomposed::Flat { centre, projection: Some(Classical::Oblique(back)) } =
             kind(o.onto_plane().raw(), c)
         else {

@@ -19,7 +19,7 @@ proptest! {
         let distance = f.near() + t * (far - f.near());
         let seen = f
             .view_to_clip(c)
-            .point(Point::new(0.0, 0.0, c.ahead() * distance))
+            .transform_point(Point::new(0.0, 0.0, c.ahead() * distance))
             .divide()
             .expect("in front");
         let depth = f.depth_curve(c).depth(distance).expect("in front");
@@ -27,7 +27,7 @@ proptest! {
         let distance = o.near() + t * (o.far() - o.near());
         let seen = o
             .view_to_clip(c)
-            .point(Point::new(0.0, 0.0, c.ahead() * distance))
+            .transform_point(Point::new(0.0, 0.0, c.ahead() * distance))
             .divide()
             .expect("affine");
         prop_assert!((seen.z() - o.depth_curve(c).depth(distance).expect("finite")).abs() < 1e-10);

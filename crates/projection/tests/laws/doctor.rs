@@ -5,9 +5,9 @@ use crate::samples::{self, convention, distance, frustum, orthographic, perspect
 use glam::{DMat4, DVec4};
 use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, View, World};
 use projection::{
-    ApexMovedFrustum, Axonometric, Convention, DepthCurve, Fov, Frustum, Misprint, NPoint, Oblique,
-    Orthographic, Perspective, Wanted, api, chapter, misprint_of, principal_vanishing_points,
-    symptoms,
+    ApexMovedFrustum, Axonometric, Convention, DepthCurve, Fov, Frustum, IntendedProjection,
+    Misprint, NPoint, Oblique, Orthographic, Perspective, api, chapter, misprint_of,
+    principal_vanishing_points, symptoms,
 };
 use proptest::prelude::*;
 
@@ -18,21 +18,25 @@ const TOP: f64 = 1.0;
 const NEAR: f64 = 2.0;
 const FAR: f64 = 6.0;
 
-fn wanted_frustum() -> Wanted {
-    Wanted::Frustum(Frustum::new(LEFT, RIGHT, BOTTOM, TOP, NEAR, FAR).expect("valid"))
+fn wanted_frustum() -> IntendedProjection {
+    IntendedProjection::Frustum(Frustum::new(LEFT, RIGHT, BOTTOM, TOP, NEAR, FAR).expect("valid"))
 }
 
-fn wanted_box() -> Wanted {
-    Wanted::Orthographic(Orthographic::new(LEFT, RIGHT, BOTTOM, TOP, NEAR, FAR).expect("valid"))
+fn wanted_box() -> IntendedProjection {
+    IntendedProjection::Orthographic(
+        Orthographic::new(LEFT, RIGHT, BOTTOM, TOP, NEAR, FAR).expect("valid"),
+    )
 }
 
-fn lens(fovy: f64) -> Wanted {
-    Wanted::Perspective(Perspective::new(Fov::Vertical(fovy), 2.0, NEAR, FAR).expect("valid"))
+fn lens(fovy: f64) -> IntendedProjection {
+    IntendedProjection::Perspective(
+        Perspective::new(Fov::Vertical(fovy), 2.0, NEAR, FAR).expect("valid"),
+    )
 }
 
 /// The image of a view-space point.
 fn image(matrix: DMat4, x: f64, y: f64, z: f64) -> Option<Point<Ndc>> {
-    Projective::<View, Clip>::from_raw(matrix).point(Point::new(x, y, z)).divide()
+    Projective::<View, Clip>::from_raw(matrix).transform_point(Point::new(x, y, z)).divide()
 }
 
 /// Both corners that define the volume go where they should.
@@ -44,10 +48,10 @@ fn fits(matrix: DMat4, far_scale: f64) -> bool {
     })
 }
 
-fn printed(misprint: Misprint, wanted: Wanted) -> DMat4 {
-    let matrix = misprint.printed(wanted).expect("the slip applies");
+fn printed(misprint: Misprint, wanted: IntendedProjection) -> DMat4 {
+    let matrix = misprint.misprinted_matrix(wanted).expect("the slip applies");
     assert_eq!(misprint_of(matrix, wanted), Some(misprint));
-    assert_eq!(misprint_of(wanted.matrix(), wanted), None, "the right matrix is healthy");
+    assert_eq!(misprint_of(wanted.correct_matrix(), wanted), None, "the right matrix is healthy");
     matrix
 }
 
@@ -61,7 +65,7 @@ fn cured(matrix: DMat4, misprint: Misprint, wanted: DMat4) {
 #[test]
 fn m4_without_p_nothing_is_foreshortened() {
     let slip = printed(Misprint::PerspectiveLeftOut, wanted_frustum());
-    assert!(!fits(slip, FAR / NEAR) && fits(wanted_frustum().matrix(), FAR / NEAR));
+    assert!(!fits(slip, FAR / NEAR) && fits(wanted_frustum().correct_matrix(), FAR / NEAR));
     let (near, far) = (image(slip, 1.0, 0.0, -2.0), image(slip, 1.0, 0.0, -6.0));
     assert_eq!(near.map(Point::x), far.map(Point::x), "the same size near and far");
 }
@@ -70,7 +74,7 @@ fn m4_without_p_nothing_is_foreshortened() {
 #[test]
 fn m8_opengl_has_the_same_box_but_the_opposite_depth() {
     let per = chapter::m_per(LEFT, RIGHT, BOTTOM, TOP, -NEAR, -FAR).expect("valid").raw();
-    let gl = wanted_frustum().matrix();
+    let gl = wanted_frustum().correct_matrix();
     let flip = DMat4::from_diagonal(DVec4::new(1.0, 1.0, -1.0, 1.0));
     assert!(distance(flip * -per, gl) < 1e-14, "M_OpenGL = diag(1, 1, −1, 1)(−M_per)");
     let depth = |matrix| image(matrix, 0.0, 0.0, -NEAR).expect("in front").z();
@@ -83,7 +87,7 @@ fn m8_the_raw_sign_of_w_is_the_same_map_but_fails_the_clip_test() {
     let per = chapter::m_per(LEFT, RIGHT, BOTTOM, TOP, -NEAR, -FAR).expect("valid");
     let positive = chapter::m_per_positive(LEFT, RIGHT, BOTTOM, TOP, -NEAR, -FAR).expect("valid");
     let p = Point::new(0.5, 0.5, -3.0);
-    let (raw, turned) = (per.point(p), positive.point(p));
+    let (raw, turned) = (per.transform_point(p), positive.transform_point(p));
     assert_eq!(raw.divide(), turned.divide());
     let inside =
         |p: HPoint<Clip>| p.x().abs() <= p.w() && p.y().abs() <= p.w() && p.z().abs() <= p.w();
@@ -121,7 +125,7 @@ fn m12_the_lessons_frustum_is_another_projection() {
     let slip = printed(Misprint::ApexMoved, wanted_frustum());
     assert_eq!(slip, lesson.view_to_clip(Convention::OPENGL).raw());
     assert!(!fits(slip, FAR / NEAR));
-    let gl = wanted_frustum().matrix();
+    let gl = wanted_frustum().correct_matrix();
     let near = |m| image(m, 0.3, -0.4, -NEAR).expect("in front");
     assert!((near(slip) - near(gl)).length() < 1e-14, "they agree on the near plane");
     cured(slip, Misprint::ApexMoved, gl);
@@ -138,22 +142,25 @@ fn m14_a_one_in_the_bottom_row_makes_w_the_distance_plus_one() {
         (image(slip, 0.0, 0.0, -NEAR).expect("w = 3").z() + 2.0 / 3.0).abs() < 1e-12,
         "n = 2 goes to −0.667"
     );
-    assert!((image(lens(1.0).matrix(), 0.0, 0.0, -NEAR).expect("w = 2").z() + 1.0).abs() < 1e-12);
-    cured(slip, Misprint::BottomRowOne, lens(1.0).matrix());
+    assert!(
+        (image(lens(1.0).correct_matrix(), 0.0, 0.0, -NEAR).expect("w = 2").z() + 1.0).abs()
+            < 1e-12
+    );
+    cured(slip, Misprint::BottomRowOne, lens(1.0).correct_matrix());
 }
 
 #[test]
 fn m15_the_wrong_sign_sends_near_and_far_out_of_the_cube() {
     let slip = printed(Misprint::OrthoOffsetSign, wanted_box());
     assert_eq!(image(slip, 0.0, 0.0, -NEAR).map(Point::z), Some(3.0));
-    assert!(!fits(slip, 1.0) && fits(wanted_box().matrix(), 1.0));
-    cured(slip, Misprint::OrthoOffsetSign, wanted_box().matrix());
+    assert!(!fits(slip, 1.0) && fits(wanted_box().correct_matrix(), 1.0));
+    cured(slip, Misprint::OrthoOffsetSign, wanted_box().correct_matrix());
 }
 
 #[test]
 fn m16_a_difference_for_a_sum_misplaces_the_window() {
     let slip = printed(Misprint::FrustumOffsetOne, wanted_frustum());
-    assert!(!fits(slip, FAR / NEAR) && fits(wanted_frustum().matrix(), FAR / NEAR));
+    assert!(!fits(slip, FAR / NEAR) && fits(wanted_frustum().correct_matrix(), FAR / NEAR));
     assert!(symptoms(slip).any(|symptom| symptom.misprint == Misprint::FrustumOffsetOne));
 }
 
@@ -162,10 +169,14 @@ fn m17_half_of_the_tangent_is_not_the_tangent_of_the_half() {
     let wanted = lens(60_f64.to_radians());
     let slip = printed(Misprint::HalfOfTangent, wanted);
     assert!(
-        (slip.y_axis.y - 1.155).abs() < 5e-4 && (wanted.matrix().y_axis.y - 1.732).abs() < 5e-4
+        (slip.y_axis.y - 1.155).abs() < 5e-4
+            && (wanted.correct_matrix().y_axis.y - 1.732).abs() < 5e-4
     );
     let top = NEAR * libm::tan(30_f64.to_radians());
-    assert!((image(wanted.matrix(), 0.0, top, -NEAR).expect("in front").y() - 1.0).abs() < 1e-12);
+    assert!(
+        (image(wanted.correct_matrix(), 0.0, top, -NEAR).expect("in front").y() - 1.0).abs()
+            < 1e-12
+    );
     assert!((image(slip, 0.0, top, -NEAR).expect("in front").y() - 1.0).abs() > 0.3);
 }
 
@@ -174,8 +185,11 @@ fn m19_forty_five_degrees_are_not_forty_five_radians() {
     assert!(Perspective::new(Fov::Vertical(45.0), 2.0, NEAR, FAR).is_err(), "out of (0, π)");
     let wanted = lens(45_f64.to_radians());
     let slip = printed(Misprint::Degrees, wanted);
-    assert!((slip.y_axis.y - 1.79).abs() < 5e-3 && (wanted.matrix().y_axis.y - 2.41).abs() < 5e-3);
-    cured(slip, Misprint::Degrees, wanted.matrix());
+    assert!(
+        (slip.y_axis.y - 1.79).abs() < 5e-3
+            && (wanted.correct_matrix().y_axis.y - 2.41).abs() < 5e-3
+    );
+    cured(slip, Misprint::Degrees, wanted.correct_matrix());
 }
 
 #[test]
@@ -184,7 +198,7 @@ fn m20_the_factor_u_exceeds_one_between_plane_and_eye() {
     let u = |z: f64| {
         let image = eye
             .onto_plane()
-            .point(Point::new(1.0, 0.0, z))
+            .transform_point(Point::new(1.0, 0.0, z))
             .divide()
             .expect("not in the eye's plane");
         assert!((image.x() - d / (d - z)).abs() < 1e-15);
@@ -210,7 +224,8 @@ fn m24_the_canonical_cube_has_side_two() {
     let inverse = Frustum::new(LEFT, RIGHT, BOTTOM, TOP, NEAR, FAR)
         .expect("valid")
         .clip_to_view(Convention::OPENGL);
-    let corner = |s: f64| inverse.hpoint(HPoint::new(s, s, -1.0, 1.0)).divide().expect("finite");
+    let corner =
+        |s: f64| inverse.transform_hpoint(HPoint::new(s, s, -1.0, 1.0)).divide().expect("finite");
     assert!((corner(1.0) - Point::new(RIGHT, TOP, -NEAR)).length() < 1e-14);
     assert!((corner(0.5) - Point::new(RIGHT, TOP, -NEAR)).length() > 0.1, "½ is not the side");
 }
@@ -218,8 +233,8 @@ fn m24_the_canonical_cube_has_side_two() {
 #[test]
 fn m25_foot_and_oblique_image_are_two_points() {
     let p = Point::<View>::new(1.0, 2.0, 3.0);
-    let foot = Oblique::new(0.0, 0.0).expect("valid").onto_plane().point(p);
-    let image = Oblique::cavalier(0.0).expect("valid").onto_plane().point(p);
+    let foot = Oblique::new(0.0, 0.0).expect("valid").onto_plane().transform_point(p);
+    let image = Oblique::cavalier(0.0).expect("valid").onto_plane().transform_point(p);
     assert_eq!((foot.x(), image.x()), (1.0, 4.0));
 }
 
@@ -242,7 +257,7 @@ fn printed_31_only_symmetric_frusta_are_perspectives() {
 #[test]
 fn printed_39_and_40_q_and_r_belong_to_y_and_z() {
     let two = NPoint::new(0.0, 0.2, 0.1).expect("p may be 0");
-    let found = principal_vanishing_points(two.depth_kept())
+    let found = principal_vanishing_points(two.depth_preserving())
         .expect("finite")
         .axes
         .map(|axis| axis.point().is_some());
@@ -260,14 +275,14 @@ fn printed_49_near_and_far_go_to_zero_and_one_they_are_not_set_to_them() {
 #[test]
 fn row_vectors_are_recognised() {
     for wanted in [wanted_frustum(), lens(1.0), wanted_box()] {
-        cured(printed(Misprint::Transposed, wanted), Misprint::Transposed, wanted.matrix());
+        cured(printed(Misprint::Transposed, wanted), Misprint::Transposed, wanted.correct_matrix());
     }
 }
 
 #[test]
 fn every_finding_has_a_sentence_and_a_remedy() {
     for misprint in Misprint::ALL {
-        assert!(misprint.finding().len() > 10 && misprint.remedy().len() > 10);
+        assert!(misprint.description().len() > 10 && misprint.remedy().len() > 10);
     }
     assert_eq!(Misprint::HalfOfTangent.id(), Some("M17"));
 }
@@ -283,7 +298,7 @@ proptest! {
         let w = o.window();
         let ahead = Orthographic::from_window(w, 0.0, (o.far() - o.near()).abs()).expect("valid");
         prop_assert_eq!(symptoms(ahead.view_to_clip(Convention::OPENGL).raw()).next(), None);
-        prop_assert_eq!(symptoms(Axonometric::isometric().depth_kept().raw()).next(), None);
+        prop_assert_eq!(symptoms(Axonometric::isometric().depth_preserving().raw()).next(), None);
     }
 
     #[test]
@@ -293,15 +308,15 @@ proptest! {
         o in orthographic(),
         factor in 0.1..9.0,
     ) {
-        for wanted in [Wanted::Frustum(f), Wanted::Perspective(p), Wanted::Orthographic(o)] {
-            prop_assert_eq!(misprint_of(wanted.matrix() * factor, wanted), None);
+        for wanted in [IntendedProjection::Frustum(f), IntendedProjection::Perspective(p), IntendedProjection::Orthographic(o)] {
+            prop_assert_eq!(misprint_of(wanted.correct_matrix() * factor, wanted), None);
             for misprint in Misprint::ALL {
-                let Some(slip) = misprint.printed(wanted) else { continue };
+                let Some(slip) = misprint.misprinted_matrix(wanted) else { continue };
                 // Where the slip changes nothing or equals another one, as for centred windows, any
                 // name will do.
                 if let Some(found) = misprint_of(slip * factor, wanted) {
                     let same =
-                        found.printed(wanted).is_some_and(|other| distance(other, slip) < 1e-5);
+                        found.misprinted_matrix(wanted).is_some_and(|other| distance(other, slip) < 1e-5);
                     prop_assert!(found == misprint || same, "{misprint:?} is taken for {found:?}");
                 }
             }

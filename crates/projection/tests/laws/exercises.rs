@@ -51,7 +51,7 @@ fn exercise_3_the_third_row_follows_from_two_planes_that_stay() {
 #[test]
 fn exercise_4_depth_order_is_kept() {
     let p = chapter::p(N, F).expect("valid");
-    let z = |z: f64| p.point(Point::new(0.3, -0.2, z)).divide().expect("in front").z();
+    let z = |z: f64| p.transform_point(Point::new(0.3, -0.2, z)).divide().expect("in front").z();
     let images = [-1.0, -2.0, -3.0, -4.0, -5.0].map(z);
     assert_eq!([images[0], images[4]], [-1.0, -5.0]);
     assert!(images.windows(2).all(|pair| pair[0] > pair[1]), "{images:?}");
@@ -79,7 +79,7 @@ fn exercise_6_the_inverse_up_to_the_factor_nf() {
     let inverse = chapter::p_inverse(N, F).expect("valid");
     assert!(close(p.then(inverse).raw(), DMat4::IDENTITY));
     let place = Point::new(1.0, 2.0, -3.0);
-    let back = p.then(scaled).point(place).divide();
+    let back = p.then(scaled).transform_point(place).divide();
     assert_eq!(back, Some(place), "as a projective map the factor does not matter");
 }
 
@@ -87,10 +87,13 @@ fn exercise_6_the_inverse_up_to_the_factor_nf() {
 #[test]
 fn exercise_7_m_per_maps_the_near_corners_to_those_of_the_cube() {
     let per = chapter::m_per(L, R, B, T, N, F).expect("valid");
-    assert_eq!(per.point(Point::new(R, T, N)), HPoint::new(N, N, N, N));
-    assert_eq!(per.point(Point::new(R, T, N)).divide(), Some(Point::new(1.0, 1.0, 1.0)));
-    assert_eq!(per.point(Point::new(L, B, N)).divide(), Some(Point::new(-1.0, -1.0, 1.0)));
-    assert_eq!(per.point(Point::new(0.0, 0.0, F)).divide().map(Point::z), Some(-1.0));
+    assert_eq!(per.transform_point(Point::new(R, T, N)), HPoint::new(N, N, N, N));
+    assert_eq!(per.transform_point(Point::new(R, T, N)).divide(), Some(Point::new(1.0, 1.0, 1.0)));
+    assert_eq!(
+        per.transform_point(Point::new(L, B, N)).divide(),
+        Some(Point::new(-1.0, -1.0, 1.0))
+    );
+    assert_eq!(per.transform_point(Point::new(0.0, 0.0, F)).divide().map(Point::z), Some(-1.0));
     let product =
         chapter::p(N, F).expect("valid").then(chapter::m_orth(L, R, B, T, N, F).expect("valid"));
     assert!(close(product.raw(), per.raw()));
@@ -103,7 +106,7 @@ fn exercise_8_and_9_n_1_f_2() {
         [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 3.0, -2.0], [0.0, 0.0, 1.0, 0.0]];
     assert_eq!(rows(p.raw()), due);
     for [x, y, z] in [[1.0, 2.0, 4.0], [3.0, -1.0, 0.5], [0.5, 0.25, 2.0]] {
-        let image = p.point(Point::new(x, y, z));
+        let image = p.transform_point(Point::new(x, y, z));
         assert_eq!(image, HPoint::new(x, y, 3.0 * z - 2.0, z));
         assert_eq!(image.divide(), Some(Point::new(x / z, y / z, 3.0 - 2.0 / z)));
     }
@@ -113,7 +116,8 @@ fn exercise_8_and_9_n_1_f_2() {
 #[test]
 fn c14_size_goes_with_the_reciprocal_of_the_distance() {
     let p = chapter::p(-1.0, -9.0).expect("valid");
-    let height = |z: f64| p.point(Point::new(0.0, 3.0, z)).divide().expect("in front").y();
+    let height =
+        |z: f64| p.transform_point(Point::new(0.0, 3.0, z)).divide().expect("in front").y();
     assert!((height(-2.0) - 1.5).abs() < 1e-15 && (height(-4.0) - 0.75).abs() < 1e-15);
     assert!((height(-6.0) - 0.5).abs() < 1e-15);
 }
@@ -122,8 +126,8 @@ fn c14_size_goes_with_the_reciprocal_of_the_distance() {
 fn c22_and_m3_p_keeps_the_near_plane_pointwise_and_the_far_plane_as_a_plane() {
     let p = chapter::p(N, F).expect("valid");
     let on_near = Point::new(0.7, -0.3, N);
-    assert_eq!(p.point(on_near).divide(), Some(on_near));
-    let on_far = p.point(Point::new(1.0, 2.0, F)).divide().expect("in front");
+    assert_eq!(p.transform_point(on_near).divide(), Some(on_near));
+    let on_far = p.transform_point(Point::new(1.0, 2.0, F)).divide().expect("in front");
     assert!(
         (on_far - Point::new(N / F, 2.0 * N / F, F)).length() < 1e-15,
         "moved within its plane"
@@ -134,8 +138,8 @@ fn c22_and_m3_p_keeps_the_near_plane_pointwise_and_the_far_plane_as_a_plane() {
 fn c23_lines_through_the_eye_become_parallel_to_z() {
     let p = chapter::p(N, F).expect("valid");
     let ray = Vector::<View>::new(0.4, -0.7, -1.0);
-    let images =
-        [1.0, 2.0, 4.5].map(|s| p.point(Point::ORIGIN + ray * s).divide().expect("in front"));
+    let images = [1.0, 2.0, 4.5]
+        .map(|s| p.transform_point(Point::ORIGIN + ray * s).divide().expect("in front"));
     for image in images {
         assert!((image.x() - 0.4).abs() < 1e-15 && (image.y() + 0.7).abs() < 1e-15);
     }
@@ -144,7 +148,7 @@ fn c23_lines_through_the_eye_become_parallel_to_z() {
 #[test]
 fn c36_across_the_eyes_plane_depth_jumps_from_one_infinity_to_the_other() {
     let p = chapter::p(N, F).expect("valid");
-    let z = |z: f64| p.point(Point::new(0.0, 0.0, z)).divide().map(Point::z);
+    let z = |z: f64| p.transform_point(Point::new(0.0, 0.0, z)).divide().map(Point::z);
     assert!(z(-1e-9).expect("in front") > 1e8 && z(1e-9).expect("behind") < -1e8);
     assert_eq!(z(0.0), None);
 }
@@ -152,7 +156,7 @@ fn c36_across_the_eyes_plane_depth_jumps_from_one_infinity_to_the_other() {
 #[test]
 fn c48_the_middle_moves_away_from_the_eye() {
     let p = chapter::p(-1.0, -3.0).expect("valid");
-    assert_eq!(p.point(Point::new(0.0, 0.0, -2.0)).divide().map(Point::z), Some(-2.5));
+    assert_eq!(p.transform_point(Point::new(0.0, 0.0, -2.0)).divide().map(Point::z), Some(-2.5));
 }
 
 #[test]
@@ -163,7 +167,8 @@ fn c57_the_derivation_reaches_m_opengl_step_by_step() {
     let point = Point::<View>::new(1.3, 0.4, -3.7);
     let on_near = -near * point.x() / point.z();
     let remapped = -1.0 + (on_near - l) * 2.0 / (r - l);
-    let ndc = frustum.view_to_clip(Convention::OPENGL).point(point).divide().expect("in front");
+    let ndc =
+        frustum.view_to_clip(Convention::OPENGL).transform_point(point).divide().expect("in front");
     assert!((ndc.x() - remapped).abs() < 1e-15);
 }
 
@@ -189,11 +194,14 @@ fn c88_the_frustum_becomes_a_box_and_order_is_kept() {
     let frustum = Frustum::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0).expect("valid");
     let factors = frustum.factors(Convention::OPENGL);
     let upright = factors.shear.then(factors.scale);
-    let corner = upright.point(Point::new(9.0, 3.0, -6.0));
+    let corner = upright.transform_point(Point::new(9.0, 3.0, -6.0));
     assert!((corner - Point::new(6.0, 6.0, -6.0)).length() < 1e-14, "x = y = D");
     assert!(close(factors.view_to_clip().raw(), frustum.view_to_clip(Convention::OPENGL).raw()));
     let unit = frustum.view_to_canonical_frustum(Convention::OPENGL).expect("a far plane");
-    assert!((unit.point(Point::new(9.0, 3.0, -6.0)) - Point::new(1.0, 1.0, -1.0)).length() < 1e-14);
+    assert!(
+        (unit.transform_point(Point::new(9.0, 3.0, -6.0)) - Point::new(1.0, 1.0, -1.0)).length()
+            < 1e-14
+    );
 }
 
 #[test]

@@ -5,8 +5,8 @@ use glam::DMat4;
 use homog::{Clip, Normal, Plane, Point, Projective, Vector, View};
 use projection::{
     ApexMovedFrustum, Axonometric, Classical, ConstructedPerspective, Convention, DepthCurve,
-    DepthFormat, Film, FourAngles, Fov, Frustum, Jitter, NPoint, Oblique, Orthographic,
-    Perspective, Planometric, Projector, Tile, ViewVolume, Window, chapter, decompose,
+    DepthFormat, FourAngles, Fov, Frustum, Jitter, NPoint, Oblique, Orthographic, Perspective,
+    Planometric, Projector, SensorSize, ViewOffset, ViewVolume, Window, chapter, decompose,
     oblique_near_plane, opening_angle_of, principal_vanishing_points, symptoms, third_row,
     vanishing_point,
 };
@@ -92,9 +92,9 @@ proptest! {
             Fov::Vertical(angle),
             Fov::Horizontal(angle),
             Fov::Diagonal(angle),
-            Fov::FocalLength { focal: angle, film: Film::Height(film) },
-            Fov::FocalLength { focal: angle, film: Film::Width(film) },
-            Fov::FocalLength { focal: angle, film: Film::Diagonal(film) },
+            Fov::FocalLength { focal: angle, film: SensorSize::Height(film) },
+            Fov::FocalLength { focal: angle, film: SensorSize::Width(film) },
+            Fov::FocalLength { focal: angle, film: SensorSize::Diagonal(film) },
         ];
         for lens in fovs.into_iter().filter_map(|fov| Perspective::new(fov, aspect, near, far).ok())
         {
@@ -104,9 +104,9 @@ proptest! {
             prop_assert!(
                 lens.fov_x().is_finite() && lens.fov_y().is_finite() && lens.aspect().is_finite()
             );
-            let tile = Tile { full: (film, angle), corner: (near, angle), size: (aspect, film) };
+            let tile = ViewOffset { full: (film, angle), corner: (near, angle), size: (aspect, film) };
             let moved = [
-                lens.tile(tile),
+                lens.view_offset(tile),
                 lens.shifted(angle, film),
                 lens.jittered(Jitter { image: (film, far), offset: (angle, near) }),
             ];
@@ -149,9 +149,9 @@ proptest! {
         let volume = Orthographic::new(-w, 2.0 * w, -1.0, 1.0, -0.1, 0.1);
         for classical in made.into_iter().flatten() {
             finite("onto plane", classical.onto_plane().raw());
-            finite("depth kept", classical.depth_kept().raw());
-            finite("inverse", classical.depth_kept_inverse().raw());
-            let _ = (classical.class().name(), decompose(classical.depth_kept().raw(), c));
+            finite("depth kept", classical.depth_preserving().raw());
+            finite("inverse", classical.depth_preserving_inverse().raw());
+            let _ = (classical.class().name(), decompose(classical.depth_preserving().raw(), c));
             if let Ok(map) = volume.and_then(|volume| classical.view_to_clip(volume, c)) {
                 let _ = (
                     decompose(map.raw(), c),
@@ -162,7 +162,7 @@ proptest! {
         }
         if let Ok(moved) = Axonometric::isometric().about(Point::new(a, b, d)) {
             finite("about", moved.onto_plane().raw());
-            finite("about, inverse", moved.depth_kept_inverse().raw());
+            finite("about, inverse", moved.depth_preserving_inverse().raw());
         }
     }
 
@@ -184,9 +184,9 @@ proptest! {
         .flatten()
         {
             finite("projector", projector.onto_plane().raw());
-            finite("projector, depth kept", projector.depth_kept().raw());
+            finite("projector, depth kept", projector.depth_preserving().raw());
         }
-        let window = Window::centred(1.0, 1.0).expect("valid");
+        let window = Window::centered(1.0, 1.0).expect("valid");
         for drawing in [
             ConstructedPerspective::one_point((a, b), w),
             ConstructedPerspective::two_point((a, b), (d, z), 0.3),

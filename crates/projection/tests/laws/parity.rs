@@ -32,13 +32,13 @@ fn by_box(o: Orthographic, c: Convention, glam: Six) {
 
 fn centred(f: Frustum) -> Frustum {
     let w = f.window();
-    let window = Window::centred(w.width(), w.height()).expect("not empty");
+    let window = Window::centered(w.width(), w.height()).expect("not empty");
     Frustum::from_window(window, f.near(), f.far()).expect("valid")
 }
 
 fn centred_box(o: Orthographic) -> Orthographic {
     let w = o.window();
-    let window = Window::centred(w.width(), w.height()).expect("not empty");
+    let window = Window::centered(w.width(), w.height()).expect("not empty");
     Orthographic::from_window(window, o.near(), o.far()).expect("valid")
 }
 

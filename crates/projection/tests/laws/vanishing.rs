@@ -27,7 +27,7 @@ proptest! {
             return Ok(());
         };
         let way = if ahead { d } else { -d };
-        let gap = |s: f64| (map.point(p + way * s).divide().expect("in front") - goal).length();
+        let gap = |s: f64| (map.transform_point(p + way * s).divide().expect("in front") - goal).length();
         let (near, far) = (gap(1e4 / d.z().abs()), gap(1e7 / d.z().abs()));
         prop_assert!(
             far <= near * 1e-2 + 1e-6 * (1.0 + (goal - Point::ORIGIN).length()),
@@ -63,7 +63,7 @@ proptest! {
     /// C83.
     #[test]
     fn non_zero_entries_count_the_principal_vanishing_points(n in npoint()) {
-        let found = principal_vanishing_points(n.depth_kept()).expect("finite");
+        let found = principal_vanishing_points(n.depth_preserving()).expect("finite");
         prop_assert_eq!(found.count(), n.count());
         let class =
             [PointPerspective::OnePoint, PointPerspective::TwoPoint, PointPerspective::ThreePoint];
@@ -103,7 +103,7 @@ proptest! {
         prop_assert_eq!(class(Affine::rotation_y(yaw)), PointPerspective::TwoPoint);
         let skew = [Vector::X, Vector::Y, Vector::Z]
             .iter()
-            .all(|axis| turn.vector(*axis).z().abs() > 1e-6);
+            .all(|axis| turn.transform_vector(*axis).z().abs() > 1e-6);
         prop_assume!(skew);
         prop_assert_eq!(class(turn), PointPerspective::ThreePoint);
     }
@@ -116,7 +116,7 @@ proptest! {
         distance in 0.5_f64..4.0,
     ) {
         // Any attitude gives three points; the construction finds the eye that belongs to them.
-        let axes = [Vector::<View>::X, Vector::Y, Vector::Z].map(|axis| turn.vector(axis));
+        let axes = [Vector::<View>::X, Vector::Y, Vector::Z].map(|axis| turn.transform_vector(axis));
         prop_assume!(axes.iter().all(|axis| axis.z().abs() > 0.05));
         let at = |axis: Vector<View>| {
             (px - distance * axis.x() / axis.z(), py - distance * axis.y() / axis.z())

@@ -6,13 +6,13 @@ use crate::samples::{
 use glam::{DMat4, DVec3};
 use homog::{Clip, HPoint, Ndc, Normal, Plane, Point, Projective, View};
 use projection::{
-    Convention, FourAngles, Fov, Frustum, Jitter, Orthographic, Perspective, Tile, ViewVolume,
-    Window, oblique_near_plane, opening_angle_of,
+    Convention, FourAngles, Fov, Frustum, Jitter, Orthographic, Perspective, ViewOffset,
+    ViewVolume, Window, oblique_near_plane, opening_angle_of,
 };
 use proptest::prelude::*;
 
 /// Where tile coordinates lie in the whole picture's NDC: x' = a x + b.
-fn tile_to_whole(tile: Tile, convention: Convention) -> DMat4 {
+fn tile_to_whole(tile: ViewOffset, convention: Convention) -> DMat4 {
     let (w, h) = tile.full;
     let (sx, sy) = (tile.size.0 / w, tile.size.1 / h);
     let middle = (tile.corner.0 + tile.size.0 / 2.0, tile.corner.1 + tile.size.1 / 2.0);
@@ -21,9 +21,9 @@ fn tile_to_whole(tile: Tile, convention: Convention) -> DMat4 {
     DMat4::from_translation(offset) * DMat4::from_scale(DVec3::new(sx, sy, 1.0))
 }
 
-fn tile() -> impl Strategy<Value = Tile> {
+fn tile() -> impl Strategy<Value = ViewOffset> {
     (10.0..4000.0, 10.0..4000.0, -0.5..1.2, -0.5..1.2, 0.05..1.0, 0.05..1.0).prop_map(
-        |(w, h, x, y, sx, sy)| Tile {
+        |(w, h, x, y, sx, sy)| ViewOffset {
             full: (w, h),
             corner: (x * w, y * h),
             size: (sx * w, sy * h),
@@ -44,9 +44,9 @@ proptest! {
     ) {
         let back = tile_to_whole(t, c);
         for (tiled, whole) in [
-            (f.tile(t).expect("valid").view_to_clip(c), f.view_to_clip(c)),
-            (p.tile(t).expect("valid").view_to_clip(c), p.view_to_clip(c)),
-            (o.tile(t).expect("valid").view_to_clip(c), o.view_to_clip(c)),
+            (f.view_offset(t).expect("valid").view_to_clip(c), f.view_to_clip(c)),
+            (p.view_offset(t).expect("valid").view_to_clip(c), p.view_to_clip(c)),
+            (o.view_offset(t).expect("valid").view_to_clip(c), o.view_to_clip(c)),
         ] {
             prop_assert!(distance(back * tiled.raw(), whole.raw()) < 1e-10);
         }
@@ -56,9 +56,9 @@ proptest! {
     fn neighbouring_tiles_share_their_edge_exactly(f in frustum(), cut in 1_u32..99) {
         let (full, at) = ((100.0, 80.0), f64::from(cut));
         let left =
-            f.tile(Tile { full, corner: (0.0, 0.0), size: (at, 80.0) }).expect("valid").window();
+            f.view_offset(ViewOffset { full, corner: (0.0, 0.0), size: (at, 80.0) }).expect("valid").window();
         let right = f
-            .tile(Tile { full, corner: (at, 0.0), size: (100.0 - at, 80.0) })
+            .view_offset(ViewOffset { full, corner: (at, 0.0), size: (100.0 - at, 80.0) })
             .expect("valid")
             .window();
         prop_assert_eq!(left.right(), right.left());
@@ -76,7 +76,7 @@ proptest! {
     ) {
         let image = (640.0, 480.0);
         let moved = f.jittered(Jitter { image, offset: (dx, dy) }).expect("valid").view_to_clip(c);
-        let (before, after) = (f.view_to_clip(c).point(p), moved.point(p));
+        let (before, after) = (f.view_to_clip(c).transform_point(p), moved.transform_point(p));
         prop_assume!(before.w() > 0.1);
         prop_assert!((after.w() - before.w()).abs() < 1e-12);
         let pixels = |a: f64, b: f64, size: f64| (b - a) / before.w() * size / 2.0;
@@ -98,7 +98,7 @@ proptest! {
                 && (w.aspect() / p.aspect() - 1.0).abs() < 1e-12
         );
         prop_assert!(
-            (w.centre().0 - x * from.width()).abs() < 1e-12 * (1.0 + x.abs()) * from.width()
+            (w.center().0 - x * from.width()).abs() < 1e-12 * (1.0 + x.abs()) * from.width()
         );
         let volume = ViewVolume::new(shifted.view_to_clip(Convention::OPENGL), Convention::OPENGL);
         let eye = volume.eye().expect("regular").divide().expect("finite");
@@ -145,7 +145,7 @@ proptest! {
             let Some(seen) = map
                 .inverse()
                 .expect("regular")
-                .hpoint(HPoint::<Clip>::new(x, y, depth, 1.0))
+                .transform_hpoint(HPoint::<Clip>::new(x, y, depth, 1.0))
                 .divide()
             else {
                 continue;
@@ -155,7 +155,7 @@ proptest! {
                 .min((1.0 - f64::abs(y)).abs())
                 .min(f64::abs(t))
                 .min(f64::abs(1.0 - t));
-            if margin > 1e-6 && map.point(seen).w() > 0.0 && t < 1.0 {
+            if margin > 1e-6 && map.transform_point(seen).w() > 0.0 && t < 1.0 {
                 prop_assert_eq!(volume.contains(seen), c.contains(ndc));
             }
         }
@@ -192,7 +192,7 @@ fn check_cut(
     prop_assert!((ours - due).length() < 1e-9, "the near plane is the plane");
     let inwards = (c.far_depth() - c.near_depth()).signum();
     let beyond = ViewVolume::new(map, c).corners().expect("regular").into_iter().all(|corner| {
-        let clip = cut.hpoint(corner);
+        let clip = cut.transform_hpoint(corner);
         (clip.z() - c.far_depth() * clip.w()) * inwards <= 1e-9 * clip.raw().length().max(1.0)
     });
     prop_assert!(beyond, "nothing of the old volume is cut at far");
@@ -215,16 +215,21 @@ fn a_mirror_behind_the_eye_or_beyond_the_volume_is_refused() {
 fn tiles_of_nothing_are_refused() {
     let lens = Perspective::new(Fov::Vertical(1.0), 1.0, 1.0, 10.0).expect("valid");
     for size in [(0.0, 1.0), (1.0, -1.0), (f64::NAN, 1.0), (1.0, f64::INFINITY)] {
-        assert!(lens.tile(Tile { full: (8.0, 8.0), corner: (0.0, 0.0), size }).is_err());
-        assert!(lens.tile(Tile { full: size, corner: (0.0, 0.0), size: (1.0, 1.0) }).is_err());
+        assert!(
+            lens.view_offset(ViewOffset { full: (8.0, 8.0), corner: (0.0, 0.0), size }).is_err()
+        );
+        assert!(
+            lens.view_offset(ViewOffset { full: size, corner: (0.0, 0.0), size: (1.0, 1.0) })
+                .is_err()
+        );
         assert!(lens.jittered(Jitter { image: size, offset: (0.0, 0.0) }).is_err());
     }
     assert!(lens.shifted(f64::NAN, 0.0).is_err());
     let wide = FourAngles { left: -1.6, right: 0.1, down: -0.1, up: 0.1 };
     assert!(wide.frustum(1.0, 2.0).is_err());
-    assert!(Frustum::from_slopes(Window::centred(1.0, 1.0).expect("valid"), 1.0, 1.0).is_err());
+    assert!(Frustum::from_slopes(Window::centered(1.0, 1.0).expect("valid"), 1.0, 1.0).is_err());
     assert!(
-        Orthographic::from_window(Window::centred(1.0, 1.0).expect("valid"), 1.0, f64::NAN)
+        Orthographic::from_window(Window::centered(1.0, 1.0).expect("valid"), 1.0, f64::NAN)
             .is_err()
     );
 }

@@ -5,9 +5,9 @@ use png::{BitDepth, ColorType, Compression, Encoder, SrgbRenderingIntent, Stream
 use std::io::{self, Write};
 
 /// How much of a file is one of its data chunks.
-const CHUNK: usize = 1 << 20;
+const CHUNK_BYTES: usize = 1 << 20;
 /// About as many pixels are handed over at once.
-const AT_ONCE: usize = 1 << 13;
+const PIXELS_PER_WRITE: usize = 1 << 13;
 
 /// The pixels of a PNG file that is being written. Its bytes do not depend on how many are given at a time.
 pub struct PngRows<'a, W: Write> {
@@ -35,7 +35,7 @@ pub fn encode_png<W: Write, E: From<io::Error>>(
     encoder.set_compression(Compression::Fast);
     let mut writer = encoder.write_header().map_err(io::Error::from)?;
     {
-        let stream = writer.stream_writer_with_size(CHUNK).map_err(io::Error::from)?;
+        let stream = writer.stream_writer_with_size(CHUNK_BYTES).map_err(io::Error::from)?;
         let mut rows = PngRows { stream, opaque, bytes: Vec::new() };
         draw(&mut rows)?;
         rows.stream.finish().map_err(io::Error::from)?;
@@ -48,14 +48,14 @@ impl<W: Write> PngRows<'_, W> {
     ///
     /// # Errors
     /// If they cannot be written, or are more than the picture has.
-    pub fn write<C: Channel>(&mut self, pixels: &[[C; 4]]) -> io::Result<()> {
-        for pixels in pixels.chunks(AT_ONCE) {
+    pub fn write_pixels<C: Channel>(&mut self, pixels: &[[C; 4]]) -> io::Result<()> {
+        for pixels in pixels.chunks(PIXELS_PER_WRITE) {
             self.bytes.clear();
             for &[r, g, b, alpha] in pixels {
                 if self.opaque {
-                    C::write([r, g, b], &mut self.bytes);
+                    C::append_bytes([r, g, b], &mut self.bytes);
                 } else {
-                    C::write([r, g, b, alpha], &mut self.bytes);
+                    C::append_bytes([r, g, b, alpha], &mut self.bytes);
                 }
             }
             self.stream.write_all(&self.bytes)?;

@@ -1,6 +1,6 @@
 //! The two depths of a channel: 8 and 16 bits.
 
-use crate::color::{DeepEncoder, SrgbEncoder};
+use crate::color::{Srgb16Encoder, SrgbEncoder};
 use raster::Encode;
 
 /// One of the four numbers of a pixel: `u8` or `u16`.
@@ -12,13 +12,13 @@ pub trait Channel: sealed::Sealed + Copy + Default + Eq + Send + Sync + 'static 
     /// Makes sRGB pixels with straight alpha of linear colours that are multiplied by alpha.
     fn encoder() -> impl Encode<[Self; 4]>;
     /// The same share of all, from 8 bits.
-    fn of_byte(byte: u8) -> Self;
+    fn from_byte(byte: u8) -> Self;
     /// The nearest of 8 bits.
     fn to_byte(self) -> u8;
     /// Appends the bytes that a PNG has for some of them: of each the upper first.
-    fn write<const K: usize>(channels: [Self; K], bytes: &mut Vec<u8>);
+    fn append_bytes<const K: usize>(channels: [Self; K], bytes: &mut Vec<u8>);
     /// A pixel under one of a drawing: sRGB and multiplied by alpha as canvases are, of 8 bits.
-    fn under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4];
+    fn composite_under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4];
 }
 
 mod sealed {
@@ -37,7 +37,7 @@ impl Channel for u8 {
         SrgbEncoder::shared()
     }
 
-    fn of_byte(byte: u8) -> Self {
+    fn from_byte(byte: u8) -> Self {
         byte
     }
 
@@ -46,12 +46,12 @@ impl Channel for u8 {
     }
 
     #[inline]
-    fn write<const K: usize>(channels: [Self; K], bytes: &mut Vec<u8>) {
+    fn append_bytes<const K: usize>(channels: [Self; K], bytes: &mut Vec<u8>) {
         bytes.extend_from_slice(&channels);
     }
 
-    fn under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4] {
-        u16::under(pixel.map(u16::of_byte), over).map(u16::to_byte)
+    fn composite_under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4] {
+        u16::composite_under(pixel.map(u16::from_byte), over).map(u16::to_byte)
     }
 }
 
@@ -61,10 +61,10 @@ impl Channel for u16 {
 
     #[inline(always)]
     fn encoder() -> impl Encode<[Self; 4]> {
-        DeepEncoder::shared()
+        Srgb16Encoder::shared()
     }
 
-    fn of_byte(byte: u8) -> Self {
+    fn from_byte(byte: u8) -> Self {
         Self::from(byte) * 257
     }
 
@@ -73,11 +73,11 @@ impl Channel for u16 {
     }
 
     #[inline]
-    fn write<const K: usize>(channels: [Self; K], bytes: &mut Vec<u8>) {
+    fn append_bytes<const K: usize>(channels: [Self; K], bytes: &mut Vec<u8>) {
         bytes.extend_from_slice(channels.map(Self::to_be_bytes).as_flattened());
     }
 
-    fn under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4] {
+    fn composite_under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4] {
         if over[3] == 0 {
             return pixel;
         }
@@ -101,19 +101,19 @@ mod tests {
     #[test]
     fn drawings_lie_over_pixels_as_alpha_has_it() {
         let under = [65_535, 0, 32_768, 65_535];
-        assert_eq!(u16::under(under, [0; 4]), under);
-        assert_eq!(u16::under(under, [10, 20, 30, 255]), [2570, 5140, 7710, 65_535]);
+        assert_eq!(u16::composite_under(under, [0; 4]), under);
+        assert_eq!(u16::composite_under(under, [10, 20, 30, 255]), [2570, 5140, 7710, 65_535]);
         // Half of the drawing's black over it.
-        let [r, g, b, a] = u16::under(under, [0, 0, 0, 51]);
+        let [r, g, b, a] = u16::composite_under(under, [0, 0, 0, 51]);
         assert_eq!([r, g, a], [52_428, 0, 65_535]);
         assert!(b.abs_diff(26_214) <= 1);
-        assert_eq!(u16::under([0; 4], [25, 0, 0, 51]), [32_125, 0, 0, 13_107]);
+        assert_eq!(u16::composite_under([0; 4], [25, 0, 0, 51]), [32_125, 0, 0, 13_107]);
     }
 
     #[test]
     fn bytes_survive_sixteen_bits() {
         for byte in 0..=255_u8 {
-            assert_eq!(u16::of_byte(byte).to_byte(), byte);
+            assert_eq!(u16::from_byte(byte).to_byte(), byte);
         }
         assert_eq!(u16::FULL.to_byte(), 255);
     }

@@ -10,40 +10,40 @@
 //! So it is read at several places along the longer axis, on the level whose texels are as large as the shorter one (Heckbert,
 //! *Fundamentals of texture mapping and image warping*, 1989; McCormack and others, *Feline*, 1999).
 
-use super::layout::{Cells, Choice, Layout};
+use super::addressing::{LevelOfDetail, TexelAddressing, TexelQuads};
 
 /// How lanes read textures of one layout: places along a line, and what each place stands for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Footprint<const N: usize> {
     /// The middle of the line, in texture coordinates.
-    middle: [[f32; N]; 2],
+    center: [[f32; N]; 2],
     /// How many places.
-    taps: [f32; N],
+    tap_counts: [f32; N],
     /// The line in texture coordinates, from end to end.
-    line: [[f32; N]; 2],
+    major_axis: [[f32; N]; 2],
     /// The levels that are read at each place.
-    choice: Choice<N>,
+    lod: LevelOfDetail<N>,
 }
 
 /// One of the places, in all lanes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tap<const N: usize> {
     /// The cells of its level, and those of the level behind.
-    pub(super) cells: [Cells<N>; 2],
+    pub(super) cells: [TexelQuads<N>; 2],
     /// How many of the two count.
-    pub(super) count: usize,
+    pub(super) level_count: usize,
     /// How much they count against those before.
-    pub(super) shares: [[f32; N]; 2],
+    pub(super) level_weights: [[f32; N]; 2],
     /// How much the place counts: nothing in lanes that have fewer.
-    pub(super) parts: [f32; N],
+    pub(super) tap_weights: [f32; N],
 }
 
 impl<const N: usize> Footprint<N> {
     /// The number of places in the lane that has most.
     #[inline(always)]
-    pub(crate) fn count(&self) -> u32 {
+    pub(crate) fn max_tap_count(&self) -> u32 {
         let mut count = 1.0_f32;
-        for taps in self.taps {
+        for taps in self.tap_counts {
             count = count.max(taps);
         }
         count as u32
@@ -51,28 +51,34 @@ impl<const N: usize> Footprint<N> {
 
     /// The place with this number, from 0 on.
     #[inline(always)]
-    pub(crate) fn tap(&self, layout: &Layout, number: u32) -> Tap<N> {
+    pub(crate) fn tap(&self, layout: &TexelAddressing, number: u32) -> Tap<N> {
         let number = number as f32;
-        let (mut place, mut parts) = (self.middle, [0.0; N]);
+        let (mut place, mut parts) = (self.center, [0.0; N]);
         for lane in 0..N {
-            let along = (number + 0.5) / self.taps[lane] - 0.5;
-            parts[lane] = if number < self.taps[lane] { 1.0 / self.taps[lane] } else { 0.0 };
+            let along = (number + 0.5) / self.tap_counts[lane] - 0.5;
+            parts[lane] =
+                if number < self.tap_counts[lane] { 1.0 / self.tap_counts[lane] } else { 0.0 };
             for axis in 0..2 {
-                place[axis][lane] += self.line[axis][lane] * along;
+                place[axis][lane] += self.major_axis[axis][lane] * along;
             }
         }
-        let Choice { near, far, share, is_mixed } = &self.choice;
-        let near = layout.cells(near, &place);
+        let LevelOfDetail {
+            near_levels: near,
+            far_levels: far,
+            far_weights: share,
+            is_trilinear: is_mixed,
+        } = &self.lod;
+        let near = layout.locate_texels(near, &place);
         let (mut cells, mut count) = ([near; 2], 1);
         if *is_mixed {
-            cells[1] = layout.cells(far, &place);
+            cells[1] = layout.locate_texels(far, &place);
             count = 2;
         }
-        Tap { cells, count, shares: [[1.0; N], *share], parts }
+        Tap { cells, level_count: count, level_weights: [[1.0; N], *share], tap_weights: parts }
     }
 }
 
-impl Layout {
+impl TexelAddressing {
     /// The footprints of pixels at `uvs[0]`, with the derivatives `uvs[1]` by the column and `uvs[2]` by the row, as at most
     /// so many places.
     #[inline(always)]
@@ -83,17 +89,22 @@ impl Layout {
     ) -> Footprint<N> {
         let (mut taps, mut line) = ([1.0; N], [[0.0; N]; 2]);
         let mut steps = [*right, *below];
-        if most > 1 && self.last > 0 {
-            self.stretch(most as f32, &mut taps, &mut line, &mut steps);
+        if most > 1 && self.last_level > 0 {
+            self.fit_anisotropy(most as f32, &mut taps, &mut line, &mut steps);
         }
-        Footprint { middle: *middle, taps, line, choice: self.choice(&steps) }
+        Footprint {
+            center: *middle,
+            tap_counts: taps,
+            major_axis: line,
+            lod: self.select_levels(&steps),
+        }
     }
 
     /// Lays long footprints along a line, and leaves steps that stand for each place of it.
     ///
     /// The axes of the ellipse that a pixel covers are those of J Jᵀ: J, its derivatives in texels, maps the unit circle to it.
     #[inline(always)]
-    fn stretch<const N: usize>(
+    fn fit_anisotropy<const N: usize>(
         &self,
         most: f32,
         taps: &mut [f32; N],
@@ -110,7 +121,7 @@ impl Layout {
             let longer = (0.5 * (sum + root)).sqrt();
             let shorter = area.abs() / longer;
             // What is no larger than a texel is read as it is.
-            let count = floor(longer / shorter.max(1.0) + 0.5).min(most);
+            let count = floor_positive(longer / shorter.max(1.0) + 0.5).min(most);
             let is_long = (count > 1.0) & (longer < 1e6);
             // The longer axis is an eigenvector; of its two forms the one that does not vanish.
             let x = if uu > vv { 0.5 * (uu - vv + root) } else { uv };
@@ -131,19 +142,19 @@ impl Layout {
 
 /// The largest whole number not above a positive one; numbers too large for it are out of use here.
 #[inline(always)]
-fn floor(x: f32) -> f32 {
+fn floor_positive(x: f32) -> f32 {
     x.clamp(0.0, 1e6) as i32 as f32
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::{MipChain, Texels};
+    use crate::{MipChain, TexelEncoding};
     use model::{Image, Sampler};
 
     #[test]
     fn a_long_footprint_is_the_ellipse_of_its_derivatives() {
         let image = Image { width: 64, height: 64, rgba: vec![[0; 4]; 64 * 64] };
-        let chain = MipChain::new(&image, Sampler::default(), Texels::Linear);
+        let chain = MipChain::new(&image, Sampler::default(), TexelEncoding::Linear);
         // Axes of 12 and 3 texels, turned by an angle; the pixel's own axes are turned too.
         for (turn, own) in [(0.0, 0.0), (0.4, 0.0), (1.2, 0.7), (2.5, 1.9), (1.5, 0.3)] {
             let rotated = |x: f32, y: f32, by: f32| {
@@ -156,7 +167,7 @@ mod tests {
             };
             let uvs = [[[0.0], [0.0]], column(1.0, 0.0), column(0.0, 1.0)];
             let (mut taps, mut line, mut steps) = ([1.0], [[0.0]; 2], [uvs[1], uvs[2]]);
-            chain.layout().stretch(8.0, &mut taps, &mut line, &mut steps);
+            chain.addressing().fit_anisotropy(8.0, &mut taps, &mut line, &mut steps);
             assert_eq!(taps, [4.0]);
             let [[x], [y]] = line;
             let [due_x, due_y] = rotated(12.0, 0.0, turn);

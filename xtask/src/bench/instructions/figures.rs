@@ -1,11 +1,11 @@
 //! The stored counts: a text file, a line for each.
 
-use crate::workspace::{read, root};
+use crate::workspace::{project_root, read_text};
 use std::path::PathBuf;
 
 /// A stored count.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Figure {
+pub struct InstructionCount {
     pub name: String,
     pub count: u64,
     /// Why it last changed.
@@ -14,30 +14,30 @@ pub struct Figure {
 
 /// All stored counts, in the order of the file.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct Figures {
+pub struct CountTable {
     /// The compiler whose instructions were counted; empty as long as nothing is stored.
     pub compiler: String,
-    figures: Vec<Figure>,
+    figures: Vec<InstructionCount>,
 }
 
 /// The name that stands before the compiler, where other lines have theirs.
-const COMPILER: &str = "compiler";
+const COMPILER_KEY: &str = "compiler";
 
-const HEADING: &str = "\
+const TABLE_HEADING: &str = "\
 # Instructions that small pieces of work take, by callgrind: name, count, why it last changed.
 # Written by `cargo xtask bench --instructions --update NAME --reason \"…\"`.
 ";
 
-impl Figures {
-    pub fn read() -> Result<Self, String> {
-        let path = path();
+impl CountTable {
+    pub fn read_table() -> Result<Self, String> {
+        let path = table_path();
         if !path.exists() {
             return Ok(Self::default());
         }
-        Self::parse(&read(&path)?)
+        Self::parse_table(&read_text(&path)?)
     }
 
-    fn parse(text: &str) -> Result<Self, String> {
+    fn parse_table(text: &str) -> Result<Self, String> {
         let mut found = Self::default();
         for (at, line) in text.lines().enumerate() {
             if line.starts_with('#') || line.trim().is_empty() {
@@ -45,34 +45,36 @@ impl Figures {
             }
             let fault = || format!("instructions.txt:{}: expected NAME COUNT REASON", at + 1);
             let (name, rest) = line.split_once(char::is_whitespace).ok_or_else(fault)?;
-            if name == COMPILER {
+            if name == COMPILER_KEY {
                 found.compiler = rest.trim().to_owned();
                 continue;
             }
             let (count, reason) = rest.trim().split_once(char::is_whitespace).ok_or_else(fault)?;
-            found.set(name, count.parse().map_err(|_| fault())?, reason.trim());
+            found.set_count(name, count.parse().map_err(|_| fault())?, reason.trim());
         }
         Ok(found)
     }
 
-    pub fn write(&self) -> Result<(), String> {
-        let path = path();
-        std::fs::write(&path, self.text()).map_err(|error| format!("{}: {error}", path.display()))
+    pub fn write_table(&self) -> Result<(), String> {
+        let path = table_path();
+        std::fs::write(&path, self.to_text())
+            .map_err(|error| format!("{}: {error}", path.display()))
     }
 
-    fn text(&self) -> String {
-        let line =
-            |Figure { name, count, reason }: &Figure| format!("{name:12} {count:>14}  {reason}\n");
+    fn to_text(&self) -> String {
+        let line = |InstructionCount { name, count, reason }: &InstructionCount| {
+            format!("{name:12} {count:>14}  {reason}\n")
+        };
         let lines: String = self.figures.iter().map(line).collect();
-        format!("{HEADING}{COMPILER:12} {}\n{lines}", self.compiler)
+        format!("{TABLE_HEADING}{COMPILER_KEY:12} {}\n{lines}", self.compiler)
     }
 
-    pub fn find(&self, name: &str) -> Option<&Figure> {
+    pub fn count_for(&self, name: &str) -> Option<&InstructionCount> {
         self.figures.iter().find(|figure| figure.name == name)
     }
 
-    pub fn set(&mut self, name: &str, count: u64, reason: &str) {
-        let new = Figure { name: name.to_owned(), count, reason: reason.to_owned() };
+    pub fn set_count(&mut self, name: &str, count: u64, reason: &str) {
+        let new = InstructionCount { name: name.to_owned(), count, reason: reason.to_owned() };
         match self.figures.iter_mut().find(|figure| figure.name == name) {
             Some(figure) => *figure = new,
             None => self.figures.push(new),
@@ -80,8 +82,8 @@ impl Figures {
     }
 }
 
-fn path() -> PathBuf {
-    root().join("tests/bench/instructions.txt")
+fn table_path() -> PathBuf {
+    project_root().join("tests/bench/instructions.txt")
 }
 
 #[cfg(test)]
@@ -90,19 +92,19 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read_again() {
-        let mut figures = Figures { compiler: "rustc 1.95.0".into(), ..Figures::default() };
-        figures.set("floor", 1, "first count");
-        figures.set("teapot", 12_345_678_901, "more tea");
-        figures.set("floor", 2, "tiles with  gaps");
-        assert_eq!(Figures::parse(&figures.text()), Ok(figures.clone()));
-        assert_eq!(figures.find("floor").map(|figure| figure.count), Some(2));
-        assert_eq!(figures.find("moon"), None);
+        let mut figures = CountTable { compiler: "rustc 1.95.0".into(), ..CountTable::default() };
+        figures.set_count("floor", 1, "first count");
+        figures.set_count("teapot", 12_345_678_901, "more tea");
+        figures.set_count("floor", 2, "tiles with  gaps");
+        assert_eq!(CountTable::parse_table(&figures.to_text()), Ok(figures.clone()));
+        assert_eq!(figures.count_for("floor").map(|figure| figure.count), Some(2));
+        assert_eq!(figures.count_for("moon"), None);
     }
 
     #[test]
     fn a_line_that_is_no_figure_is_pointed_at() {
-        let error = Figures::parse("# a\nfloor 12\n").unwrap_err();
+        let error = CountTable::parse_table("# a\nfloor 12\n").unwrap_err();
         assert!(error.starts_with("instructions.txt:2"), "{error}");
-        assert!(Figures::parse("floor many reasons\n").is_err());
+        assert!(CountTable::parse_table("floor many reasons\n").is_err());
     }
 }

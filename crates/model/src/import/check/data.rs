@@ -3,17 +3,17 @@
 //! One problem tells of all elements of an accessor that are wrong in one way: how many there are, and the first of them.
 
 use super::codes::{self, Code};
-use super::document::{Document, items};
-use super::elements::Elements;
-use super::layout::{Component, Layout};
-use super::store::Store;
+use super::document::{CheckedDocument, array_items};
+use super::elements::AccessorElements;
+use super::layout::{AccessorLayout, ComponentType};
+use super::store::BufferStore;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
 /// What the user of an accessor demands of its elements.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) enum Demand {
+pub(super) enum ElementRule {
     /// Unit vectors; the fourth number of four is −1 or 1.
     Unit,
     /// Numbers from 0 to 1.
@@ -30,38 +30,42 @@ pub(super) enum Demand {
 
 /// The demands on all accessors, each with the pointer of the member that makes it.
 #[derive(Default, Debug)]
-pub(super) struct Demands {
-    by_accessor: BTreeMap<usize, Vec<(Demand, String)>>,
+pub(super) struct ElementRules {
+    by_accessor: BTreeMap<usize, Vec<(ElementRule, String)>>,
 }
 
 /// So many users of one accessor may have demands: each costs a comparison for every element.
-const MOST_DEMANDS: usize = 16;
+const MAX_RULES: usize = 16;
 
 /// A unit vector may be longer or shorter by so much: slightly more than the error of signed bytes. The validator's numbers.
-const UNIT_3: f64 = 0.00674;
-const UNIT_4: f64 = 0.00769;
+const UNIT_VECTOR_TOLERANCE: f64 = 0.00674;
+const UNIT_QUATERNION_TOLERANCE: f64 = 0.00769;
 
-impl Demands {
-    pub(super) fn add(&mut self, accessor: usize, demand: Demand, pointer: &str) {
+impl ElementRules {
+    pub(super) fn add(&mut self, accessor: usize, demand: ElementRule, pointer: &str) {
         let list = self.by_accessor.entry(accessor).or_default();
-        if list.len() < MOST_DEMANDS && list.iter().all(|(known, _)| *known != demand) {
+        if list.len() < MAX_RULES && list.iter().all(|(known, _)| *known != demand) {
             list.push((demand, pointer.to_owned()));
         }
     }
 }
 
 /// Reads all accessors that have data.
-pub(super) fn check(document: &Document<'_>, store: &Store<'_>, demands: &Demands) {
-    for (at, accessor) in document.all("accessors").iter().enumerate() {
-        let Some(layout) = Layout::of(accessor) else { continue };
-        let Some(elements) = store.elements(accessor, layout) else { continue };
+pub(super) fn check_data(
+    document: &CheckedDocument<'_>,
+    store: &BufferStore<'_>,
+    demands: &ElementRules,
+) {
+    for (at, accessor) in document.root_array("accessors").iter().enumerate() {
+        let Some(layout) = AccessorLayout::from_accessor(accessor) else { continue };
+        let Some(elements) = store.accessor_elements(accessor, layout) else { continue };
         let own = demands.by_accessor.get(&at).map_or(&[][..], Vec::as_slice);
         let pointer = format!("/accessors/{at}");
         // Bytes take as long to look at as floats: the work is counted as if all numbers were floats.
-        let cost = layout.count.saturating_mul(4 * layout.shape.numbers() as u64);
+        let cost = layout.count.saturating_mul(4 * layout.element_type.component_count() as u64);
         // Without any data the numbers are zeros, or in a stream that an extension knows of: there is nothing to read.
-        if !elements.is_hollow() && store.may_spend(&format!("{pointer}/count"), cost) {
-            Reader::new(document, &elements, pointer, own).read(accessor);
+        if !elements.has_no_data() && store.charge_budget(&format!("{pointer}/count"), cost) {
+            AccessorScan::new(document, &elements, pointer, own).scan_elements(accessor);
         }
     }
 }
@@ -75,7 +79,7 @@ struct Tally {
 }
 
 impl Tally {
-    fn note(&mut self, wrong: bool, at: u64, value: f64) {
+    fn record_if(&mut self, wrong: bool, at: u64, value: f64) {
         if wrong {
             if self.count == 0 {
                 (self.first, self.value) = (at, value);
@@ -85,83 +89,87 @@ impl Tally {
     }
 }
 
-struct Reader<'a> {
-    document: &'a Document<'a>,
-    elements: &'a Elements<'a>,
+struct AccessorScan<'a> {
+    document: &'a CheckedDocument<'a>,
+    elements: &'a AccessorElements<'a>,
     pointer: String,
-    demands: Vec<Watch<'a>>,
+    scans: Vec<RuleScan<'a>>,
 }
 
 /// A demand, and where it is not met.
-struct Watch<'a> {
-    demand: Demand,
+struct RuleScan<'a> {
+    rule: ElementRule,
     pointer: &'a str,
     tallies: [Tally; 2],
     last: f64,
-    corners: [f64; 3],
+    triangle: [f64; 3],
 }
 
 /// The least and the greatest number of each component, and how often the declared bounds are exceeded.
-struct Extremes {
+struct BoundsScan {
     declared: [Vec<Option<f64>>; 2],
-    found: [[f64; 16]; 2],
+    actual: [[f64; 16]; 2],
     outside: [[u64; 16]; 2],
-    strange: Tally,
+    non_finite: Tally,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> AccessorScan<'a> {
     fn new(
-        document: &'a Document<'a>,
-        elements: &'a Elements<'a>,
+        document: &'a CheckedDocument<'a>,
+        elements: &'a AccessorElements<'a>,
         pointer: String,
-        demands: &'a [(Demand, String)],
+        demands: &'a [(ElementRule, String)],
     ) -> Self {
-        let watch = |(demand, pointer): &'a (Demand, String)| Watch {
-            demand: *demand,
+        let watch = |(demand, pointer): &'a (ElementRule, String)| RuleScan {
+            rule: *demand,
             pointer,
             tallies: Default::default(),
             last: f64::NEG_INFINITY,
-            corners: [0.0; 3],
+            triangle: [0.0; 3],
         };
-        Self { document, elements, pointer, demands: demands.iter().map(watch).collect() }
+        Self { document, elements, pointer, scans: demands.iter().map(watch).collect() }
     }
 
-    fn read(mut self, accessor: &Value) {
-        let mut extremes = Extremes::new(accessor, self.elements.layout);
-        let (elements, watches) = (self.elements, &mut self.demands);
-        elements.each(|at, numbers| {
-            extremes.see(at, numbers);
+    fn scan_elements(mut self, accessor: &Value) {
+        let mut extremes = BoundsScan::new(accessor, self.elements.layout);
+        let (elements, watches) = (self.elements, &mut self.scans);
+        elements.for_each_element(|at, numbers| {
+            extremes.visit_element(at, numbers);
             for watch in &mut *watches {
-                watch.see(elements, at, numbers);
+                watch.visit_element(elements, at, numbers);
             }
         });
-        extremes.tell(self.document, &self.pointer);
-        for watch in &self.demands {
-            watch.tell(self.document, elements.layout.count);
+        extremes.report_bounds(self.document, &self.pointer);
+        for watch in &self.scans {
+            watch.report_violations(self.document, elements.layout.count);
         }
     }
 }
 
-impl Extremes {
-    fn new(accessor: &Value, layout: Layout) -> Self {
+impl BoundsScan {
+    fn new(accessor: &Value, layout: AccessorLayout) -> Self {
         // Numbers of JSON have more digits than floats: what is compared is the nearest float.
         let bound = |value: &Value| {
             let number = value.as_f64()?;
-            Some(if layout.component == Component::F32 { f64::from(number as f32) } else { number })
+            Some(if layout.component_type == ComponentType::F32 {
+                f64::from(number as f32)
+            } else {
+                number
+            })
         };
-        let declared =
-            ["min", "max"].map(|key| items(accessor, key).iter().map(bound).collect::<Vec<_>>());
-        let found = [[f64::INFINITY; 16], [f64::NEG_INFINITY; 16]];
-        Self { declared, found, outside: [[0; 16]; 2], strange: Tally::default() }
+        let declared = ["min", "max"]
+            .map(|key| array_items(accessor, key).iter().map(bound).collect::<Vec<_>>());
+        let actual = [[f64::INFINITY; 16], [f64::NEG_INFINITY; 16]];
+        Self { declared, actual, outside: [[0; 16]; 2], non_finite: Tally::default() }
     }
 
-    fn see(&mut self, at: u64, numbers: &[f64]) {
+    fn visit_element(&mut self, at: u64, numbers: &[f64]) {
         for (component, &number) in numbers.iter().enumerate() {
             if !number.is_finite() {
-                self.strange.note(true, at, number);
+                self.non_finite.record_if(true, at, number);
                 continue;
             }
-            let [least, most] = &mut self.found;
+            let [least, most] = &mut self.actual;
             least[component] = least[component].min(number);
             most[component] = most[component].max(number);
             let [min, max] =
@@ -171,13 +179,13 @@ impl Extremes {
         }
     }
 
-    fn tell(&self, document: &Document<'_>, pointer: &str) {
-        let Tally { count, first, value } = self.strange;
+    fn report_bounds(&self, document: &CheckedDocument<'_>, pointer: &str) {
+        let Tally { count, first, value } = self.non_finite;
         if count > 0 {
             let message = format_args!(
                 "{count} numbers are not finite; the first, in element {first}, is {value}"
             );
-            document.findings.add(&codes::ACCESSOR_INVALID_FLOAT, pointer, message);
+            document.diagnostics.add(&codes::ACCESSOR_INVALID_FLOAT, pointer, message);
         }
         let sides = [
             (
@@ -195,7 +203,7 @@ impl Extremes {
         ];
         for (side, (key, word, mismatch, outside)) in sides.into_iter().enumerate() {
             for (component, declared) in self.declared[side].iter().enumerate().take(16) {
-                let (Some(declared), found) = (*declared, self.found[side][component]) else {
+                let (Some(declared), found) = (*declared, self.actual[side][component]) else {
                     continue;
                 };
                 if !found.is_finite() || declared == found {
@@ -204,85 +212,97 @@ impl Extremes {
                 let pointer = format!("{pointer}/{key}/{component}");
                 let message =
                     format_args!("the {word} number is {found}, and the bound says {declared}");
-                document.findings.add(mismatch, &pointer, message);
+                document.diagnostics.add(mismatch, &pointer, message);
                 let count = self.outside[side][component];
                 if count > 0 {
                     let message = format_args!("{count} elements are beyond the bound {declared}");
-                    document.findings.add(outside, &pointer, message);
+                    document.diagnostics.add(outside, &pointer, message);
                 }
             }
         }
     }
 }
 
-impl Watch<'_> {
-    fn see(&mut self, elements: &Elements<'_>, at: u64, numbers: &[f64]) {
+impl RuleScan<'_> {
+    fn visit_element(&mut self, elements: &AccessorElements<'_>, at: u64, numbers: &[f64]) {
         let length = |numbers: &[f64]| {
-            let squares = numbers.iter().map(|&x| elements.meaning(x)).map(|x| x * x);
+            let squares = numbers.iter().map(|&x| elements.dequantize(x)).map(|x| x * x);
             squares.sum::<f64>().sqrt()
         };
         let [first, second] = &mut self.tallies;
-        match self.demand {
-            Demand::Unit => {
+        match self.rule {
+            ElementRule::Unit => {
                 let length = length(&numbers[..numbers.len().min(3)]);
-                first.note(length.is_finite() && (length - 1.0).abs() > UNIT_3, at, length);
-                let sign = numbers.get(3).map_or(1.0, |&sign| elements.meaning(sign));
-                second.note(sign.abs() != 1.0, at, sign);
+                first.record_if(
+                    length.is_finite() && (length - 1.0).abs() > UNIT_VECTOR_TOLERANCE,
+                    at,
+                    length,
+                );
+                let sign = numbers.get(3).map_or(1.0, |&sign| elements.dequantize(sign));
+                second.record_if(sign.abs() != 1.0, at, sign);
             }
-            Demand::Clamped => {
+            ElementRule::Clamped => {
                 for &number in numbers {
-                    first.note(!(0.0..=1.0).contains(&number) && number.is_finite(), at, number);
+                    first.record_if(
+                        !(0.0..=1.0).contains(&number) && number.is_finite(),
+                        at,
+                        number,
+                    );
                 }
             }
-            Demand::Indices { vertices, triangles } => {
+            ElementRule::Indices { vertices, triangles } => {
                 let index = numbers[0];
-                first.note(index >= vertices as f64, at, index);
-                second.note(index == elements.layout.component.largest(), at, index);
-                self.corners[(at % 3) as usize] = index;
-                let [a, b, c] = self.corners;
+                first.record_if(index >= vertices as f64, at, index);
+                second.record_if(index == elements.layout.component_type.max_value(), at, index);
+                self.triangle[(at % 3) as usize] = index;
+                let [a, b, c] = self.triangle;
                 if triangles && at % 3 == 2 && (a == b || b == c || c == a) {
                     self.last = self.last.max(0.0) + 1.0;
                 }
             }
-            Demand::Times => {
-                first.note(numbers[0] < 0.0, at, numbers[0]);
-                second.note(numbers[0] <= self.last && numbers[0] >= 0.0, at, numbers[0]);
+            ElementRule::Times => {
+                first.record_if(numbers[0] < 0.0, at, numbers[0]);
+                second.record_if(numbers[0] <= self.last && numbers[0] >= 0.0, at, numbers[0]);
                 self.last = numbers[0];
             }
-            Demand::Quaternions { spline } if !spline || at % 3 == 1 => {
+            ElementRule::Quaternions { spline } if !spline || at % 3 == 1 => {
                 let length = length(numbers);
-                first.note(length.is_finite() && (length - 1.0).abs() > UNIT_4, at, length);
+                first.record_if(
+                    length.is_finite() && (length - 1.0).abs() > UNIT_QUATERNION_TOLERANCE,
+                    at,
+                    length,
+                );
             }
-            Demand::Quaternions { .. } => {}
-            Demand::Matrices => {
-                for (place, due) in [(3, 0.0), (7, 0.0), (11, 0.0), (15, 1.0)] {
-                    let number = numbers.get(place).copied().unwrap_or(due);
-                    first.note(number != due, at, number);
+            ElementRule::Quaternions { .. } => {}
+            ElementRule::Matrices => {
+                for (slot, expected) in [(3, 0.0), (7, 0.0), (11, 0.0), (15, 1.0)] {
+                    let number = numbers.get(slot).copied().unwrap_or(expected);
+                    first.record_if(number != expected, at, number);
                 }
             }
         }
     }
 
-    fn tell(&self, document: &Document<'_>, total: u64) {
+    fn report_violations(&self, document: &CheckedDocument<'_>, total: u64) {
         let say = |code: &Code, tally: &Tally, what: &dyn Display| {
             let Tally { count, first, value } = tally;
             if *count > 0 {
                 let message = format_args!(
                     "{what} (how many: {count} of {total}; the first is {value}, in element {first})"
                 );
-                document.findings.add(code, self.pointer, message);
+                document.diagnostics.add(code, self.pointer, message);
             }
         };
         let [first, second] = &self.tallies;
-        match self.demand {
-            Demand::Unit => {
+        match self.rule {
+            ElementRule::Unit => {
                 say(&codes::ACCESSOR_VECTOR3_NON_UNIT, first, &"vectors are not of unit length");
                 say(&codes::ACCESSOR_INVALID_SIGN, second, &"signs are neither 1 nor -1");
             }
-            Demand::Clamped => {
+            ElementRule::Clamped => {
                 say(&codes::ACCESSOR_NON_CLAMPED, first, &"numbers are not in [0, 1]");
             }
-            Demand::Indices { vertices, .. } => {
+            ElementRule::Indices { vertices, .. } => {
                 let what = format_args!("indices have no vertex, of which there are {vertices}");
                 say(&codes::ACCESSOR_INDEX_OOB, first, &what);
                 let what = "indices are the largest number, which restarts strips elsewhere";
@@ -291,18 +311,18 @@ impl Watch<'_> {
                     let message =
                         format_args!("{} triangles have two corners at one vertex", self.last);
                     let code = &codes::ACCESSOR_INDEX_TRIANGLE_DEGENERATE;
-                    document.findings.add(code, self.pointer, message);
+                    document.diagnostics.add(code, self.pointer, message);
                 }
             }
-            Demand::Times => {
+            ElementRule::Times => {
                 say(&codes::ACCESSOR_ANIMATION_INPUT_NEGATIVE, first, &"times are negative");
                 say(&codes::ACCESSOR_ANIMATION_INPUT_NON_INCREASING, second, &"times do not rise");
             }
-            Demand::Quaternions { .. } => {
+            ElementRule::Quaternions { .. } => {
                 let code = &codes::ACCESSOR_ANIMATION_SAMPLER_OUTPUT_NON_NORMALIZED_QUATERNION;
                 say(code, first, &"rotations are not of unit length");
             }
-            Demand::Matrices => {
+            ElementRule::Matrices => {
                 let what = "numbers of the last rows are not 0, 0, 0, 1";
                 say(&codes::ACCESSOR_INVALID_IBM, first, &what);
             }

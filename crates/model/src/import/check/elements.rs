@@ -1,11 +1,11 @@
 //! The elements of an accessor, one after the other, without an array of them.
 
-use super::layout::Layout;
+use super::layout::AccessorLayout;
 
 /// The elements of one accessor, whose bytes are known to be there.
 #[derive(Debug)]
-pub(super) struct Elements<'a> {
-    pub(super) layout: Layout,
+pub(super) struct AccessorElements<'a> {
+    pub(super) layout: AccessorLayout,
     /// The elements' bytes and stride; `None` for zeros.
     base: Option<(&'a [u8], usize)>,
     /// Which elements are replaced, sorted, and by which value.
@@ -13,10 +13,10 @@ pub(super) struct Elements<'a> {
     values: &'a [u8],
 }
 
-impl<'a> Elements<'a> {
+impl<'a> AccessorElements<'a> {
     /// `indices` says which elements are replaced by the `values`, which lie without gaps.
     pub(super) fn new(
-        layout: Layout,
+        layout: AccessorLayout,
         base: Option<(&'a [u8], usize)>,
         indices: Vec<u32>,
         values: &'a [u8],
@@ -27,42 +27,45 @@ impl<'a> Elements<'a> {
     }
 
     /// Whether all elements are zero because nothing says otherwise.
-    pub(super) fn is_hollow(&self) -> bool {
+    pub(super) fn has_no_data(&self) -> bool {
         self.base.is_none() && self.replaced.is_empty()
     }
 
     /// Calls `see` with the number of each element and its numbers.
-    pub(super) fn each(&self, mut see: impl FnMut(u64, &[f64])) {
+    pub(super) fn for_each_element(&self, mut see: impl FnMut(u64, &[f64])) {
         let mut numbers = [0.0; 16];
-        let numbers = &mut numbers[..self.layout.shape.numbers()];
+        let numbers = &mut numbers[..self.layout.element_type.component_count()];
         let mut replaced = self.replaced.iter().peekable();
         for at in 0..self.layout.count {
             let mut value = None;
-            while let Some((_, place)) = replaced.next_if(|(index, _)| u64::from(*index) <= at) {
-                value = Some(*place as usize * self.layout.tight());
+            while let Some((_, slot)) = replaced.next_if(|(index, _)| u64::from(*index) <= at) {
+                value = Some(*slot as usize * self.layout.packed_stride());
             }
             match (value, self.base) {
-                (Some(start), _) => self.read(self.values, start, numbers),
-                (None, Some((bytes, stride))) => self.read(bytes, at as usize * stride, numbers),
+                (Some(start), _) => self.read_element(self.values, start, numbers),
+                (None, Some((bytes, stride))) => {
+                    self.read_element(bytes, at as usize * stride, numbers)
+                }
                 (None, None) => numbers.fill(0.0),
             }
             see(at, numbers);
         }
     }
 
-    fn read(&self, bytes: &[u8], start: usize, numbers: &mut [f64]) {
-        let Layout { component, shape, .. } = self.layout;
+    fn read_element(&self, bytes: &[u8], start: usize, numbers: &mut [f64]) {
+        let AccessorLayout { component_type: component, element_type: shape, .. } = self.layout;
         let bytes = bytes.get(start..).unwrap_or(&[]);
         for (at, number) in numbers.iter_mut().enumerate() {
-            let place = at / shape.rows * self.layout.column() + at % shape.rows * component.size();
-            *number = component.read(bytes.get(place..).unwrap_or(&[]));
+            let offset = at / shape.rows * self.layout.column_stride()
+                + at % shape.rows * component.byte_size();
+            *number = component.read_number(bytes.get(offset..).unwrap_or(&[]));
         }
     }
 
     /// What a number means: normalised integers lie in [0, 1] or [−1, 1] (glTF 2.0 §3.11).
-    pub(super) fn meaning(&self, number: f64) -> f64 {
+    pub(super) fn dequantize(&self, number: f64) -> f64 {
         match self.layout.normalized {
-            true => (number / self.layout.component.largest()).max(-1.0),
+            true => (number / self.layout.component_type.max_value()).max(-1.0),
             false => number,
         }
     }
@@ -73,9 +76,9 @@ mod tests {
     use super::*;
     use serde_json::json;
 
-    fn seen(elements: &Elements<'_>) -> Vec<Vec<f64>> {
+    fn collect_elements(elements: &AccessorElements<'_>) -> Vec<Vec<f64>> {
         let mut all = Vec::new();
-        elements.each(|at, numbers| {
+        elements.for_each_element(|at, numbers| {
             assert_eq!(at, all.len() as u64);
             all.push(numbers.to_vec());
         });
@@ -86,17 +89,17 @@ mod tests {
     fn strides_replaced_elements_and_zeros() {
         let layout = |kind, count| {
             let accessor = json!({"componentType": 5121, "type": kind, "count": count});
-            Layout::of(&accessor).unwrap()
+            AccessorLayout::from_accessor(&accessor).unwrap()
         };
         let bytes: Vec<u8> = (0..12).collect();
-        let spread = Elements::new(layout("VEC2", 3), Some((&bytes, 4)), vec![], &[]);
-        assert_eq!(seen(&spread), [[0.0, 1.0], [4.0, 5.0], [8.0, 9.0]]);
-        let sparse = Elements::new(layout("VEC2", 3), None, vec![2, 0], &[7, 8, 5, 6]);
-        assert_eq!(seen(&sparse), [[5.0, 6.0], [0.0, 0.0], [7.0, 8.0]]);
-        let matrix = Elements::new(layout("MAT2", 1), Some((&bytes, 8)), vec![], &[]);
-        assert_eq!(seen(&matrix), [[0.0, 1.0, 4.0, 5.0]]);
-        let zeros = Elements::new(layout("SCALAR", 2), None, vec![], &[]);
-        assert!(zeros.is_hollow());
-        assert_eq!(seen(&zeros), [[0.0], [0.0]]);
+        let spread = AccessorElements::new(layout("VEC2", 3), Some((&bytes, 4)), vec![], &[]);
+        assert_eq!(collect_elements(&spread), [[0.0, 1.0], [4.0, 5.0], [8.0, 9.0]]);
+        let sparse = AccessorElements::new(layout("VEC2", 3), None, vec![2, 0], &[7, 8, 5, 6]);
+        assert_eq!(collect_elements(&sparse), [[5.0, 6.0], [0.0, 0.0], [7.0, 8.0]]);
+        let matrix = AccessorElements::new(layout("MAT2", 1), Some((&bytes, 8)), vec![], &[]);
+        assert_eq!(collect_elements(&matrix), [[0.0, 1.0, 4.0, 5.0]]);
+        let zeros = AccessorElements::new(layout("SCALAR", 2), None, vec![], &[]);
+        assert!(zeros.has_no_data());
+        assert_eq!(collect_elements(&zeros), [[0.0], [0.0]]);
     }
 }

@@ -1,30 +1,30 @@
 //! The formats that each attribute may have (glTF 2.0 §3.7.2.1 and §3.7.2.2), and those KHR_mesh_quantization adds.
 
-use super::layout::Component::{F32, I8, I16, U8, U16, U32};
-use super::layout::{Component, Layout, SCALAR, Shape, VEC2, VEC3, VEC4};
+use super::layout::ComponentType::{F32, I8, I16, U8, U16, U32};
+use super::layout::{AccessorLayout, ComponentType, ElementType, SCALAR, VEC2, VEC3, VEC4};
 
 /// A format: how many numbers, their type, and whether integers are normalised.
-type Format = (Shape, Component, bool);
+type AttributeFormat = (ElementType, ComponentType, bool);
 
 /// What the name of an attribute says: its kind, and which one of several it is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Semantic<'a> {
     /// POSITION, NORMAL, TANGENT.
-    One(&'a str),
+    Single(&'a str),
     /// TEXCOORD_0 and the like.
     Numbered(&'a str, u32),
     /// A name of its own, which begins with an underscore.
-    Own,
+    Custom,
 }
 
 impl<'a> Semantic<'a> {
     /// `None` for a name that glTF does not have.
-    pub(super) fn of(name: &'a str) -> Option<Self> {
+    pub(super) fn from_name(name: &'a str) -> Option<Self> {
         if name.starts_with('_') {
-            return Some(Self::Own);
+            return Some(Self::Custom);
         }
         if ["POSITION", "NORMAL", "TANGENT"].contains(&name) {
-            return Some(Self::One(name));
+            return Some(Self::Single(name));
         }
         let (kind, number) = name.split_once('_')?;
         let is_plain = number.bytes().all(|b| b.is_ascii_digit())
@@ -34,38 +34,42 @@ impl<'a> Semantic<'a> {
         Some(Self::Numbered(kind, number))
     }
 
-    fn kind(self) -> &'a str {
+    fn base_name(self) -> &'a str {
         match self {
-            Self::One(kind) | Self::Numbered(kind, _) => kind,
-            Self::Own => "",
+            Self::Single(kind) | Self::Numbered(kind, _) => kind,
+            Self::Custom => "",
         }
     }
 
     /// The formats that an attribute may have; `None` for a name of its own, which may have any.
-    pub(super) fn formats(self, in_target: bool, quantized: bool) -> Option<Vec<Format>> {
-        let mut formats: Vec<Format> = match (self.kind(), in_target) {
+    pub(super) fn allowed_formats(
+        self,
+        in_target: bool,
+        quantized: bool,
+    ) -> Option<Vec<AttributeFormat>> {
+        let mut formats: Vec<AttributeFormat> = match (self.base_name(), in_target) {
             ("", _) => return None,
             ("TANGENT", false) => vec![(VEC4, F32, false)],
             ("POSITION" | "NORMAL" | "TANGENT", _) => vec![(VEC3, F32, false)],
-            ("TEXCOORD", false) => soft(&[VEC2], &[U8, U16]),
-            ("TEXCOORD", true) => soft(&[VEC2], &[I8, U8, I16, U16]),
-            ("COLOR", false) => soft(&[VEC3, VEC4], &[U8, U16]),
-            ("COLOR", true) => soft(&[VEC3, VEC4], &[I8, U8, I16, U16]),
+            ("TEXCOORD", false) => float_or_normalized(&[VEC2], &[U8, U16]),
+            ("TEXCOORD", true) => float_or_normalized(&[VEC2], &[I8, U8, I16, U16]),
+            ("COLOR", false) => float_or_normalized(&[VEC3, VEC4], &[U8, U16]),
+            ("COLOR", true) => float_or_normalized(&[VEC3, VEC4], &[I8, U8, I16, U16]),
             ("JOINTS", _) => vec![(VEC4, U8, false), (VEC4, U16, false)],
-            _ => soft(&[VEC4], &[U8, U16]),
+            _ => float_or_normalized(&[VEC4], &[U8, U16]),
         };
         if quantized {
-            formats.extend(self.quantized(in_target));
+            formats.extend(self.quantized_formats(in_target));
         }
         Some(formats)
     }
 
-    fn quantized(self, in_target: bool) -> Vec<Format> {
-        let all = |shape, components: &[Component], normalized: &[bool]| {
+    fn quantized_formats(self, in_target: bool) -> Vec<AttributeFormat> {
+        let all = |shape, components: &[ComponentType], normalized: &[bool]| {
             let pairs = components.iter().flat_map(|&c| normalized.iter().map(move |&n| (c, n)));
             pairs.map(|(component, normalized)| (shape, component, normalized)).collect()
         };
-        match (self.kind(), in_target) {
+        match (self.base_name(), in_target) {
             ("POSITION", false) => all(VEC3, &[I8, U8, I16, U16], &[false, true]),
             ("POSITION", true) => all(VEC3, &[I8, I16], &[false, true]),
             ("NORMAL", _) | ("TANGENT", true) => all(VEC3, &[I8, I16], &[true]),
@@ -77,8 +81,11 @@ impl<'a> Semantic<'a> {
 }
 
 /// Floats, or normalised integers of some types.
-fn soft(shapes: &[Shape], components: &[Component]) -> Vec<Format> {
-    let of = |&shape: &Shape| {
+fn float_or_normalized(
+    shapes: &[ElementType],
+    components: &[ComponentType],
+) -> Vec<AttributeFormat> {
+    let of = |&shape: &ElementType| {
         let integers = components.iter().map(move |&component| (shape, component, true));
         std::iter::once((shape, F32, false)).chain(integers)
     };
@@ -86,20 +93,20 @@ fn soft(shapes: &[Shape], components: &[Component]) -> Vec<Format> {
 }
 
 /// Whether a layout is one of some formats.
-pub(super) fn is_one_of(layout: Layout, formats: &[Format]) -> bool {
-    formats.contains(&(layout.shape, layout.component, layout.normalized))
+pub(super) fn is_allowed(layout: AccessorLayout, formats: &[AttributeFormat]) -> bool {
+    formats.contains(&(layout.element_type, layout.component_type, layout.normalized))
 }
 
 /// What indices may be.
-pub(super) const INDICES: [Format; 3] =
+pub(super) const INDEX_FORMATS: [AttributeFormat; 3] =
     [(SCALAR, U8, false), (SCALAR, U16, false), (SCALAR, U32, false)];
 
 /// What the values of an animation may be, by the path they move; `None` for a path that is not known.
-pub(super) fn outputs(path: &str) -> Option<Vec<Format>> {
+pub(super) fn animation_output_formats(path: &str) -> Option<Vec<AttributeFormat>> {
     match path {
         "translation" | "scale" => Some(vec![(VEC3, F32, false)]),
-        "rotation" => Some(soft(&[VEC4], &[I8, U8, I16, U16])),
-        "weights" => Some(soft(&[SCALAR], &[I8, U8, I16, U16])),
+        "rotation" => Some(float_or_normalized(&[VEC4], &[I8, U8, I16, U16])),
+        "weights" => Some(float_or_normalized(&[SCALAR], &[I8, U8, I16, U16])),
         _ => None,
     }
 }
@@ -110,9 +117,9 @@ mod tests {
 
     #[test]
     fn names_of_attributes() {
-        assert_eq!(Semantic::of("TEXCOORD_10"), Some(Semantic::Numbered("TEXCOORD", 10)));
-        assert_eq!(Semantic::of("NORMAL"), Some(Semantic::One("NORMAL")));
-        assert_eq!(Semantic::of("_HEAT"), Some(Semantic::Own));
+        assert_eq!(Semantic::from_name("TEXCOORD_10"), Some(Semantic::Numbered("TEXCOORD", 10)));
+        assert_eq!(Semantic::from_name("NORMAL"), Some(Semantic::Single("NORMAL")));
+        assert_eq!(Semantic::from_name("_HEAT"), Some(Semantic::Custom));
         for wrong in [
             "",
             "TEXCOORD",
@@ -123,17 +130,23 @@ mod tests {
             "NORMAL_0",
             "COLOR_0_1",
         ] {
-            assert_eq!(Semantic::of(wrong), None, "{wrong}");
+            assert_eq!(Semantic::from_name(wrong), None, "{wrong}");
         }
     }
 
     #[test]
     fn quantization_widens_the_formats() {
-        let position = Semantic::One("POSITION");
-        assert_eq!(position.formats(false, false), Some(vec![(VEC3, F32, false)]));
-        assert_eq!(position.formats(false, true).unwrap().len(), 9);
-        assert_eq!(position.formats(true, true).unwrap().len(), 5);
-        assert_eq!(Semantic::Own.formats(false, true), None);
-        assert!(Semantic::Numbered("JOINTS", 0).formats(false, true).unwrap().iter().all(|f| !f.2));
+        let position = Semantic::Single("POSITION");
+        assert_eq!(position.allowed_formats(false, false), Some(vec![(VEC3, F32, false)]));
+        assert_eq!(position.allowed_formats(false, true).unwrap().len(), 9);
+        assert_eq!(position.allowed_formats(true, true).unwrap().len(), 5);
+        assert_eq!(Semantic::Custom.allowed_formats(false, true), None);
+        assert!(
+            Semantic::Numbered("JOINTS", 0)
+                .allowed_formats(false, true)
+                .unwrap()
+                .iter()
+                .all(|f| !f.2)
+        );
     }
 }

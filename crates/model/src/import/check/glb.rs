@@ -5,13 +5,13 @@
 //! ```
 
 use super::codes::{self, Code};
-use super::findings::Findings;
+use super::diagnostics::Diagnostics;
 use std::fmt::Display;
 use std::ops::Range;
 
 /// Where the parts of a file lie, as far as they can be made out.
 #[derive(Default, Debug)]
-pub(super) struct Parts {
+pub(super) struct ContainerParts {
     pub(super) json: Option<Range<usize>>,
     pub(super) binary: Option<Range<usize>>,
     /// Whether the file is a binary one.
@@ -19,85 +19,88 @@ pub(super) struct Parts {
 }
 
 /// Finds the parts of a file and what is wrong with its container.
-pub(super) fn check(bytes: &[u8], findings: &Findings) -> Parts {
+pub(super) fn check_container(bytes: &[u8], findings: &Diagnostics) -> ContainerParts {
     if !bytes.starts_with(b"glTF") {
         let mark = if bytes.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
-        check_mark(bytes, findings);
-        return Parts { json: Some(mark..bytes.len()), ..Parts::default() };
+        check_byte_order_mark(bytes, findings);
+        return ContainerParts { json: Some(mark..bytes.len()), ..ContainerParts::default() };
     }
-    let mut reader =
-        Reader { bytes, findings, parts: Parts { is_binary: true, ..Parts::default() } };
-    reader.header();
+    let mut reader = ContainerReader {
+        bytes,
+        findings,
+        parts: ContainerParts { is_binary: true, ..ContainerParts::default() },
+    };
+    reader.check_header();
     if let Some(json) = &reader.parts.json {
-        check_mark(&bytes[json.clone()], findings);
+        check_byte_order_mark(&bytes[json.clone()], findings);
     }
     reader.parts
 }
 
 /// JSON must not begin with a byte order mark (glTF 2.0 §2.7); it is skipped.
-fn check_mark(json: &[u8], findings: &Findings) {
+fn check_byte_order_mark(json: &[u8], findings: &Diagnostics) {
     if json.starts_with(b"\xEF\xBB\xBF") {
         findings.add(&codes::INVALID_JSON, "", "the JSON begins with a byte order mark");
     }
 }
 
-struct Reader<'a> {
+struct ContainerReader<'a> {
     bytes: &'a [u8],
-    findings: &'a Findings,
-    parts: Parts,
+    findings: &'a Diagnostics,
+    parts: ContainerParts,
 }
 
-impl Reader<'_> {
-    fn say(&self, code: &Code, message: impl Display) {
+impl ContainerReader<'_> {
+    fn report(&self, code: &Code, message: impl Display) {
         self.findings.add(code, "", message);
     }
 
-    fn number(&self, at: usize) -> Option<usize> {
+    fn read_u32(&self, at: usize) -> Option<usize> {
         let number = u32::from_le_bytes(*self.bytes.get(at..)?.first_chunk()?);
         usize::try_from(number).ok()
     }
 
-    fn header(&mut self) {
+    fn check_header(&mut self) {
         let there = self.bytes.len();
-        let (Some(version), Some(length)) = (self.number(4), self.number(8)) else {
+        let (Some(version), Some(length)) = (self.read_u32(4), self.read_u32(8)) else {
             let message = format_args!("the file ends after {there} bytes, in its header");
-            return self.say(&codes::GLB_UNEXPECTED_END_OF_HEADER, message);
+            return self.report(&codes::GLB_UNEXPECTED_END_OF_HEADER, message);
         };
         if version != 2 {
             let message = format_args!("the version is {version}, and only 2 is known");
-            return self.say(&codes::GLB_INVALID_VERSION, message);
+            return self.report(&codes::GLB_INVALID_VERSION, message);
         }
         let is_small = length < 20;
         if is_small {
             let message = format_args!("the header says {length} bytes, too few for any content");
-            self.say(&codes::GLB_LENGTH_TOO_SMALL, message);
+            self.report(&codes::GLB_LENGTH_TOO_SMALL, message);
         }
         if length > there || is_small {
             let message = format_args!("the header says {length} bytes, the file has {there}");
-            self.say(&codes::GLB_LENGTH_MISMATCH, message);
+            self.report(&codes::GLB_LENGTH_MISMATCH, message);
         } else if length < there {
             let message = format_args!("{} bytes follow the end", there - length);
-            self.say(&codes::GLB_EXTRA_DATA, message);
+            self.report(&codes::GLB_EXTRA_DATA, message);
             self.bytes = &self.bytes[..length];
         }
-        self.chunks();
+        self.check_chunks();
     }
 
-    fn chunks(&mut self) {
+    fn check_chunks(&mut self) {
         let (mut at, mut number, mut known) = (12, 0, [false; 2]);
         while at < self.bytes.len() {
-            let (Some(length), Some(kind)) = (self.number(at), self.bytes.get(at + 4..at + 8))
+            let (Some(length), Some(kind)) = (self.read_u32(at), self.bytes.get(at + 4..at + 8))
             else {
                 let message = format_args!("chunk {number} ends within its header");
-                return self.say(&codes::GLB_UNEXPECTED_END_OF_CHUNK_HEADER, message);
+                return self.report(&codes::GLB_UNEXPECTED_END_OF_CHUNK_HEADER, message);
             };
             let name = String::from_utf8_lossy(kind).escape_default().to_string();
-            self.chunk(number, &name, kind, length, &mut known);
+            self.check_chunk(number, &name, kind, length, &mut known);
             let (start, end) = (at + 8, (at + 8).saturating_add(length));
             if end > self.bytes.len() {
                 let left = self.bytes.len() - start;
                 let message = format_args!("chunk {number} says {length} bytes, {left} are left");
-                return self.say(&codes::GLB_UNEXPECTED_END_OF_CHUNK_DATA, message);
+                return self.report(&codes::GLB_UNEXPECTED_END_OF_CHUNK_DATA, message);
             }
             match kind {
                 b"JSON" if self.parts.json.is_none() && number == 0 => {
@@ -113,32 +116,39 @@ impl Reader<'_> {
     }
 
     /// The rules for one chunk.
-    fn chunk(&self, number: usize, name: &str, kind: &[u8], length: usize, known: &mut [bool; 2]) {
+    fn check_chunk(
+        &self,
+        number: usize,
+        name: &str,
+        kind: &[u8],
+        length: usize,
+        known: &mut [bool; 2],
+    ) {
         if !length.is_multiple_of(4) {
             let message = format_args!("chunk {number} has {length} bytes, no multiple of 4");
-            self.say(&codes::GLB_CHUNK_LENGTH_UNALIGNED, message);
+            self.report(&codes::GLB_CHUNK_LENGTH_UNALIGNED, message);
         }
         if number == 0 && kind != b"JSON" {
             let message = format_args!("the first chunk is {name} and not JSON");
-            self.say(&codes::GLB_UNEXPECTED_FIRST_CHUNK, message);
+            self.report(&codes::GLB_UNEXPECTED_FIRST_CHUNK, message);
         }
         let slot = match kind {
             b"JSON" => 0,
             b"BIN\0" => 1,
             _ => {
                 let message = format_args!("chunk {number} is {name}, which is not known");
-                return self.say(&codes::GLB_UNKNOWN_CHUNK_TYPE, message);
+                return self.report(&codes::GLB_UNKNOWN_CHUNK_TYPE, message);
             }
         };
         if length == 0 && slot == 0 {
-            self.say(&codes::GLB_EMPTY_CHUNK, format_args!("chunk {number} is empty"));
+            self.report(&codes::GLB_EMPTY_CHUNK, format_args!("chunk {number} is empty"));
         }
         if known[slot] {
             let message = format_args!("chunk {number} is {name} once more");
-            self.say(&codes::GLB_DUPLICATE_CHUNK, message);
+            self.report(&codes::GLB_DUPLICATE_CHUNK, message);
         } else if slot == 1 && number > 1 {
             let message = format_args!("{name} is chunk {number} and must be the second");
-            self.say(&codes::GLB_UNEXPECTED_BIN_CHUNK, message);
+            self.report(&codes::GLB_UNEXPECTED_BIN_CHUNK, message);
         }
         known[slot] = true;
     }
@@ -149,9 +159,9 @@ mod tests {
     use super::*;
 
     /// A chunk's type and data.
-    type Chunk<'a> = (&'a [u8; 4], &'a [u8]);
+    type TestChunk<'a> = (&'a [u8; 4], &'a [u8]);
 
-    fn glb(length: Option<u32>, chunks: &[Chunk<'_>]) -> Vec<u8> {
+    fn build_glb(length: Option<u32>, chunks: &[TestChunk<'_>]) -> Vec<u8> {
         let mut bytes = b"glTF\x02\0\0\0\0\0\0\0".to_vec();
         for (kind, data) in chunks {
             bytes.extend((data.len() as u32).to_le_bytes());
@@ -163,38 +173,38 @@ mod tests {
         bytes
     }
 
-    fn codes(bytes: &[u8]) -> (Parts, Vec<&'static str>) {
-        let findings = Findings::default();
-        let parts = check(bytes, &findings);
+    fn reported_codes(bytes: &[u8]) -> (ContainerParts, Vec<&'static str>) {
+        let findings = Diagnostics::default();
+        let parts = check_container(bytes, &findings);
         let (problems, _) = findings.into_parts();
         (parts, problems.iter().map(|problem| problem.code).collect())
     }
 
     #[test]
     fn every_rule_of_the_container() {
-        let (json, bin): (Chunk<'_>, Chunk<'_>) = ((b"JSON", b"{}  "), (b"BIN\0", b"1234"));
-        let good = glb(None, &[json, bin]);
-        let (parts, found) = codes(&good);
+        let (json, bin): (TestChunk<'_>, TestChunk<'_>) = ((b"JSON", b"{}  "), (b"BIN\0", b"1234"));
+        let good = build_glb(None, &[json, bin]);
+        let (parts, found) = reported_codes(&good);
         assert_eq!((parts.json, parts.binary, found), (Some(20..24), Some(32..36), vec![]));
         let cases: [(Vec<u8>, &[&str]); 9] = [
             (b"glTF\x02".to_vec(), &["GLB_UNEXPECTED_END_OF_HEADER"]),
-            (glb(Some(3), &[json]), &["GLB_LENGTH_TOO_SMALL", "GLB_LENGTH_MISMATCH"]),
+            (build_glb(Some(3), &[json]), &["GLB_LENGTH_TOO_SMALL", "GLB_LENGTH_MISMATCH"]),
             (good[..34].to_vec(), &["GLB_LENGTH_MISMATCH", "GLB_UNEXPECTED_END_OF_CHUNK_DATA"]),
             (good[..28].to_vec(), &["GLB_LENGTH_MISMATCH", "GLB_UNEXPECTED_END_OF_CHUNK_HEADER"]),
-            (glb(None, &[bin, json]), &["GLB_UNEXPECTED_FIRST_CHUNK"]),
+            (build_glb(None, &[bin, json]), &["GLB_UNEXPECTED_FIRST_CHUNK"]),
             (
-                glb(None, &[json, (b"ACME", b""), bin]),
+                build_glb(None, &[json, (b"ACME", b""), bin]),
                 &["GLB_UNEXPECTED_BIN_CHUNK", "GLB_UNKNOWN_CHUNK_TYPE"],
             ),
-            (glb(None, &[json, bin, bin]), &["GLB_DUPLICATE_CHUNK"]),
-            (glb(None, &[(b"JSON", b"")]), &["GLB_EMPTY_CHUNK"]),
-            (glb(None, &[(b"JSON", b"{}")]), &["GLB_CHUNK_LENGTH_UNALIGNED"]),
+            (build_glb(None, &[json, bin, bin]), &["GLB_DUPLICATE_CHUNK"]),
+            (build_glb(None, &[(b"JSON", b"")]), &["GLB_EMPTY_CHUNK"]),
+            (build_glb(None, &[(b"JSON", b"{}")]), &["GLB_CHUNK_LENGTH_UNALIGNED"]),
         ];
         for (bytes, expected) in cases {
-            assert_eq!(codes(&bytes).1, expected);
+            assert_eq!(reported_codes(&bytes).1, expected);
         }
         for end in 4..good.len() {
-            assert!(!codes(&good[..end]).1.is_empty(), "cut at {end}");
+            assert!(!reported_codes(&good[..end]).1.is_empty(), "cut at {end}");
         }
     }
 }

@@ -1,26 +1,26 @@
 //! Images: where their bytes are, whether they are what the file says, and whether textures may use them.
 
 use super::codes;
-use super::document::{Document, extension, index, text};
-use super::store::Store;
+use super::document::{CheckedDocument, extension_object, index_member, string_member};
+use super::store::BufferStore;
 use super::uris;
-use super::usage::{Usage, ViewUse};
-use crate::import::decode;
-use crate::import::resolver::Resolver;
+use super::usage::{UsageMap, ViewUse};
+use crate::import::image_decoder;
+use crate::import::uri_resolver::UriResolver;
 use serde_json::Value;
 use std::borrow::Cow;
 
 /// Checks all images, and the textures that use them.
-pub(super) fn check(
-    document: &Document<'_>,
-    store: &Store<'_>,
-    usage: &Usage<'_>,
-    resolver: &Resolver<'_>,
+pub(super) fn check_images(
+    document: &CheckedDocument<'_>,
+    store: &BufferStore<'_>,
+    usage: &UsageMap<'_>,
+    resolver: &UriResolver<'_>,
     is_binary: bool,
 ) {
     let mut kinds = Vec::new();
-    for (at, image) in document.all("images").iter().enumerate() {
-        let checker = Checker {
+    for (at, image) in document.root_array("images").iter().enumerate() {
+        let checker = ImageChecker {
             document,
             store,
             usage,
@@ -28,15 +28,15 @@ pub(super) fn check(
             is_binary,
             pointer: format!("/images/{at}"),
         };
-        kinds.push(checker.check(image));
+        kinds.push(checker.check_image(image));
     }
-    for (at, texture) in document.all("textures").iter().enumerate() {
+    for (at, texture) in document.root_array("textures").iter().enumerate() {
         check_texture(document, at, texture, &kinds);
     }
 }
 
 /// The kinds of image, by their media types, with the extension that allows each and that extension's place.
-const KINDS: [(&str, Option<&str>); 4] = [
+const IMAGE_FORMATS: [(&str, Option<&str>); 4] = [
     ("image/png", None),
     ("image/jpeg", None),
     ("image/webp", Some("EXT_texture_webp")),
@@ -44,7 +44,7 @@ const KINDS: [(&str, Option<&str>); 4] = [
 ];
 
 /// What an image is by its first bytes.
-fn recognised(bytes: &[u8]) -> Option<&'static str> {
+fn sniff_media_type(bytes: &[u8]) -> Option<&'static str> {
     match bytes {
         [0x89, b'P', b'N', b'G', ..] => Some("image/png"),
         [0xFF, 0xD8, 0xFF, ..] => Some("image/jpeg"),
@@ -54,28 +54,28 @@ fn recognised(bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
-struct Checker<'a> {
-    document: &'a Document<'a>,
-    store: &'a Store<'a>,
-    usage: &'a Usage<'a>,
-    resolver: &'a Resolver<'a>,
+struct ImageChecker<'a> {
+    document: &'a CheckedDocument<'a>,
+    store: &'a BufferStore<'a>,
+    usage: &'a UsageMap<'a>,
+    resolver: &'a UriResolver<'a>,
     is_binary: bool,
     pointer: String,
 }
 
-impl Checker<'_> {
+impl ImageChecker<'_> {
     /// Checks an image; gives what it is, as far as its bytes or the file tell.
-    fn check(&self, image: &Value) -> Option<String> {
-        let findings = self.document.findings;
-        let declared = text(image, "mimeType");
+    fn check_image(&self, image: &Value) -> Option<String> {
+        let findings = self.document.diagnostics;
+        let declared = string_member(image, "mimeType");
         if image.get("bufferView").is_some() && declared.is_none() {
             let message = "an image in a buffer view must have a mimeType";
             let pointer = format_args!("{}/bufferView", self.pointer);
             findings.add(&codes::UNSATISFIED_DEPENDENCY, pointer, message);
         }
-        let in_uri = text(image, "uri").and_then(uris::media_type);
-        let bytes = self.bytes(image);
-        let found = bytes.as_deref().and_then(|bytes| self.look(bytes));
+        let in_uri = string_member(image, "uri").and_then(uris::media_type);
+        let bytes = self.image_bytes(image);
+        let found = bytes.as_deref().and_then(|bytes| self.check_image_header(bytes));
         if let (Some(said), Some(found)) = (declared, found)
             && found != said
         {
@@ -88,9 +88,9 @@ impl Checker<'_> {
             findings.add(&codes::INVALID_URI, format_args!("{}/uri", self.pointer), message);
         }
         let kind = found.or(declared)?;
-        if let Some((_, Some(extension))) = KINDS.iter().find(|known| known.0 == kind)
+        if let Some((_, Some(extension))) = IMAGE_FORMATS.iter().find(|known| known.0 == kind)
             && found.is_some()
-            && !self.document.uses(extension)
+            && !self.document.uses_extension(extension)
         {
             let message = format_args!("{kind} is allowed only with {extension}");
             // The validator does not know the format of the other ones, and extensions of vendors allow it too.
@@ -102,28 +102,28 @@ impl Checker<'_> {
         Some(kind.to_owned())
     }
 
-    fn bytes(&self, image: &Value) -> Option<Cow<'_, [u8]>> {
-        let findings = self.document.findings;
-        if let Some(view) = index(image, "bufferView") {
+    fn image_bytes(&self, image: &Value) -> Option<Cow<'_, [u8]>> {
+        let findings = self.document.diagnostics;
+        if let Some(view) = index_member(image, "bufferView") {
             let pointer = format!("{}/bufferView", self.pointer);
-            self.usage.view(view, ViewUse::Image, &pointer);
-            if self.store.stride(view).is_some() {
+            self.usage.note_view(view, ViewUse::Image, &pointer);
+            if self.store.view_stride(view).is_some() {
                 let message = "the view of an image must not have a stride";
                 findings.add(&codes::IMAGE_BUFFER_VIEW_WITH_BYTESTRIDE, &pointer, message);
             }
-            return self.store.view(view).map(Cow::Borrowed);
+            return self.store.view_bytes(view).map(Cow::Borrowed);
         }
-        let uri = text(image, "uri")?;
+        let uri = string_member(image, "uri")?;
         let pointer = format!("{}/uri", self.pointer);
-        uris::check(uri, &pointer, self.is_binary, findings);
-        uris::read(self.resolver, uri, &pointer, findings).map(Cow::Owned)
+        uris::check_uri(uri, &pointer, self.is_binary, findings);
+        uris::read_uri(self.resolver, uri, &pointer, findings).map(Cow::Owned)
     }
 
     /// What an image is; its header must be whole.
-    fn look(&self, bytes: &[u8]) -> Option<&'static str> {
-        let findings = self.document.findings;
-        let Some(kind) = recognised(bytes) else {
-            let is_cut = KINDS.len() > bytes.len();
+    fn check_image_header(&self, bytes: &[u8]) -> Option<&'static str> {
+        let findings = self.document.diagnostics;
+        let Some(kind) = sniff_media_type(bytes) else {
+            let is_cut = IMAGE_FORMATS.len() > bytes.len();
             let code = if is_cut {
                 &codes::IMAGE_UNEXPECTED_EOS
             } else {
@@ -135,7 +135,7 @@ impl Checker<'_> {
         };
         let problem = match kind {
             "image/ktx2" => None,
-            _ => decode::size(bytes).err(),
+            _ => image_decoder::image_size(bytes).err(),
         };
         if let Some(problem) = problem {
             let is_cut = ["end of file", "EOF", "fill whole buffer", "end before", "exhausted"]
@@ -150,20 +150,25 @@ impl Checker<'_> {
 }
 
 /// A texture uses PNG or JPEG, and other formats through the extension for each.
-fn check_texture(document: &Document<'_>, at: usize, texture: &Value, kinds: &[Option<String>]) {
+fn check_texture(
+    document: &CheckedDocument<'_>,
+    at: usize,
+    texture: &Value,
+    kinds: &[Option<String>],
+) {
     let say = |member: &str, found: &str| {
         let message = format_args!("an image that is {found} cannot be used here");
         let pointer = format_args!("/textures/{at}/{member}");
-        document.findings.add(&codes::TEXTURE_INVALID_IMAGE_MIME_TYPE, pointer, message);
+        document.diagnostics.add(&codes::TEXTURE_INVALID_IMAGE_MIME_TYPE, pointer, message);
     };
     let kind = |source: Option<usize>| kinds.get(source?)?.as_deref();
-    let source = kind(index(texture, "source"));
+    let source = kind(index_member(texture, "source"));
     if let Some(found) = source.filter(|&kind| kind != "image/png" && kind != "image/jpeg") {
         say("source", found);
     }
-    for (due, name) in KINDS.iter().filter_map(|(due, name)| Some((due, (*name)?))) {
-        let source =
-            extension(texture, name).and_then(|extension| kind(index(extension, "source")));
+    for (due, name) in IMAGE_FORMATS.iter().filter_map(|(due, name)| Some((due, (*name)?))) {
+        let source = extension_object(texture, name)
+            .and_then(|extension| kind(index_member(extension, "source")));
         if let Some(found) = source.filter(|found| found != due) {
             say(&format!("extensions/{name}/source"), found);
         }

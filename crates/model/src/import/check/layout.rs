@@ -1,22 +1,22 @@
 //! How the elements of an accessor lie in memory (glTF 2.0 §3.6.2).
 
-use super::document::{index, integer, text};
+use super::document::{index_member, integer_member, string_member};
 use serde_json::Value;
 
 /// What an accessor says of its elements, as far as it makes sense.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Layout {
-    pub(super) component: Component,
-    pub(super) shape: Shape,
+pub(super) struct AccessorLayout {
+    pub(super) component_type: ComponentType,
+    pub(super) element_type: ElementType,
     pub(super) normalized: bool,
     pub(super) count: u64,
-    pub(super) offset: u64,
-    pub(super) view: Option<usize>,
+    pub(super) byte_offset: u64,
+    pub(super) buffer_view: Option<usize>,
 }
 
 /// The type of a number.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(super) enum Component {
+pub(super) enum ComponentType {
     I8,
     U8,
     I16,
@@ -27,20 +27,20 @@ pub(super) enum Component {
 
 /// How many numbers an element has: rows and columns.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Shape {
+pub(super) struct ElementType {
     pub(super) rows: usize,
     pub(super) columns: usize,
 }
 
-pub(super) const SCALAR: Shape = Shape { rows: 1, columns: 1 };
-pub(super) const VEC2: Shape = Shape { rows: 2, columns: 1 };
-pub(super) const VEC3: Shape = Shape { rows: 3, columns: 1 };
-pub(super) const VEC4: Shape = Shape { rows: 4, columns: 1 };
-pub(super) const MAT4: Shape = Shape { rows: 4, columns: 4 };
+pub(super) const SCALAR: ElementType = ElementType { rows: 1, columns: 1 };
+pub(super) const VEC2: ElementType = ElementType { rows: 2, columns: 1 };
+pub(super) const VEC3: ElementType = ElementType { rows: 3, columns: 1 };
+pub(super) const VEC4: ElementType = ElementType { rows: 4, columns: 1 };
+pub(super) const MAT4: ElementType = ElementType { rows: 4, columns: 4 };
 
-impl Component {
+impl ComponentType {
     /// The type with this number in OpenGL.
-    pub(super) fn of(number: u64) -> Option<Self> {
+    pub(super) fn from_gl_constant(number: u64) -> Option<Self> {
         Some(match number {
             5120 => Self::I8,
             5121 => Self::U8,
@@ -52,7 +52,7 @@ impl Component {
         })
     }
 
-    pub(super) fn size(self) -> usize {
+    pub(super) fn byte_size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
             Self::I16 | Self::U16 => 2,
@@ -61,7 +61,7 @@ impl Component {
     }
 
     /// The largest number of the type: among indices it would restart a strip.
-    pub(super) fn largest(self) -> f64 {
+    pub(super) fn max_value(self) -> f64 {
         match self {
             Self::I8 => f64::from(i8::MAX),
             Self::U8 => f64::from(u8::MAX),
@@ -73,7 +73,7 @@ impl Component {
     }
 
     /// The number at the beginning of some bytes; 0 if they are too few, which the caller has excluded.
-    pub(super) fn read(self, bytes: &[u8]) -> f64 {
+    pub(super) fn read_number(self, bytes: &[u8]) -> f64 {
         let one = || bytes.first().copied().unwrap_or(0);
         let two = || bytes.first_chunk().copied().unwrap_or_default();
         let four = || bytes.first_chunk().copied().unwrap_or_default();
@@ -99,8 +99,8 @@ impl Component {
     }
 }
 
-impl Shape {
-    fn of(name: &str) -> Option<Self> {
+impl ElementType {
+    fn from_name(name: &str) -> Option<Self> {
         Some(match name {
             "SCALAR" => SCALAR,
             "VEC2" => VEC2,
@@ -114,7 +114,7 @@ impl Shape {
     }
 
     /// How many numbers an element has.
-    pub(super) fn numbers(self) -> usize {
+    pub(super) fn component_count(self) -> usize {
         self.rows * self.columns
     }
 
@@ -135,51 +135,55 @@ impl Shape {
     }
 }
 
-impl Layout {
+impl AccessorLayout {
     /// What an accessor says, if its type, its component type and its count can be read.
-    pub(super) fn of(accessor: &Value) -> Option<Self> {
+    pub(super) fn from_accessor(accessor: &Value) -> Option<Self> {
         Some(Self {
-            component: Component::of(integer(accessor, "componentType")?)?,
-            shape: Shape::of(text(accessor, "type")?)?,
+            component_type: ComponentType::from_gl_constant(integer_member(
+                accessor,
+                "componentType",
+            )?)?,
+            element_type: ElementType::from_name(string_member(accessor, "type")?)?,
             normalized: accessor.get("normalized").and_then(Value::as_bool).unwrap_or(false),
-            count: integer(accessor, "count")?,
-            offset: match accessor.get("byteOffset") {
-                Some(_) => integer(accessor, "byteOffset")?,
+            count: integer_member(accessor, "count")?,
+            byte_offset: match accessor.get("byteOffset") {
+                Some(_) => integer_member(accessor, "byteOffset")?,
                 None => 0,
             },
-            view: index(accessor, "bufferView"),
+            buffer_view: index_member(accessor, "bufferView"),
         })
     }
 
     /// From one column to the next: columns of matrices begin at multiples of four.
-    pub(super) fn column(&self) -> usize {
-        let column = self.shape.rows * self.component.size();
-        if self.shape.is_matrix() { column.next_multiple_of(4) } else { column }
+    pub(super) fn column_stride(&self) -> usize {
+        let column = self.element_type.rows * self.component_type.byte_size();
+        if self.element_type.is_matrix() { column.next_multiple_of(4) } else { column }
     }
 
     /// The bytes of an element, up to the end of its last number.
-    pub(super) fn size(&self) -> usize {
-        (self.shape.columns - 1) * self.column() + self.shape.rows * self.component.size()
+    pub(super) fn element_size(&self) -> usize {
+        (self.element_type.columns - 1) * self.column_stride()
+            + self.element_type.rows * self.component_type.byte_size()
     }
 
     /// From one element to the next where the buffer view does not say.
-    pub(super) fn tight(&self) -> usize {
-        self.shape.columns * self.column()
+    pub(super) fn packed_stride(&self) -> usize {
+        self.element_type.columns * self.column_stride()
     }
 
     /// The bytes of all elements.
-    pub(super) fn length(&self, stride: usize) -> u64 {
+    pub(super) fn byte_length(&self, stride: usize) -> u64 {
         if self.count == 0 {
             return 0;
         }
         let gaps = self.count.saturating_sub(1).saturating_mul(stride as u64);
-        gaps.saturating_add(self.size() as u64)
+        gaps.saturating_add(self.element_size() as u64)
     }
 
     /// The format in words, such as `VEC3 of FLOAT`.
-    pub(super) fn format(&self) -> String {
+    pub(super) fn format_name(&self) -> String {
         let normalized = if self.normalized { "normalized " } else { "" };
-        format!("{} of {normalized}{}", self.shape.name(), self.component.name())
+        format!("{} of {normalized}{}", self.element_type.name(), self.component_type.name())
     }
 }
 
@@ -201,10 +205,19 @@ mod tests {
             ("MAT4", 5126, 64, 64),
         ] {
             let accessor = json!({"componentType": component, "type": shape, "count": 3});
-            let layout = Layout::of(&accessor).unwrap();
-            assert_eq!((layout.size(), layout.tight()), (size, tight), "{shape} of {component}");
-            assert_eq!(layout.length(tight), (2 * tight + size) as u64);
+            let layout = AccessorLayout::from_accessor(&accessor).unwrap();
+            assert_eq!(
+                (layout.element_size(), layout.packed_stride()),
+                (size, tight),
+                "{shape} of {component}"
+            );
+            assert_eq!(layout.byte_length(tight), (2 * tight + size) as u64);
         }
-        assert_eq!(Layout::of(&json!({"componentType": 5124, "type": "VEC2", "count": 3})), None);
+        assert_eq!(
+            AccessorLayout::from_accessor(
+                &json!({"componentType": 5124, "type": "VEC2", "count": 3})
+            ),
+            None
+        );
     }
 }

@@ -1,92 +1,116 @@
 //! Meshes: their attributes, indices and morph targets (glTF 2.0 §3.7.2).
 
 use super::codes::{self, Code};
-use super::data::{Demand, Demands};
-use super::document::{Document, escaped, index, integer, items, members};
+use super::data::{ElementRule, ElementRules};
+use super::document::{
+    CheckedDocument, array_items, escape_pointer_token, index_member, integer_member,
+    object_members,
+};
 use super::formats::{self, Semantic};
-use super::layout::{Component, Layout};
-use super::materials::{self, Needs};
-use super::usage::{Usage, Use};
+use super::layout::{AccessorLayout, ComponentType};
+use super::materials::{self, MaterialRequirements};
+use super::usage::{AccessorUse, UsageMap};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
 /// Checks all meshes; notes what is demanded of accessors.
-pub(super) fn check(document: &Document<'_>, usage: &Usage<'_>, demands: &mut Demands) {
-    let needs = materials::needs(document);
-    for (at, mesh) in document.all("meshes").iter().enumerate() {
-        let primitives = items(mesh, "primitives");
-        let targets = primitives.first().map_or(0, |first| items(first, "targets").len());
+pub(super) fn check_meshes(
+    document: &CheckedDocument<'_>,
+    usage: &UsageMap<'_>,
+    demands: &mut ElementRules,
+) {
+    let needs = materials::material_requirements(document);
+    for (at, mesh) in document.root_array("meshes").iter().enumerate() {
+        let primitives = array_items(mesh, "primitives");
+        let targets = primitives.first().map_or(0, |first| array_items(first, "targets").len());
         for (part, primitive) in primitives.iter().enumerate() {
             let pointer = format!("/meshes/{at}/primitives/{part}");
-            let count = items(primitive, "targets").len();
+            let count = array_items(primitive, "targets").len();
             if count != targets {
                 let message =
                     format_args!("{count} morph targets, and {targets} in the first primitive");
                 let code = &codes::MESH_PRIMITIVES_UNEQUAL_TARGETS_COUNT;
-                document.findings.add(code, &pointer, message);
+                document.diagnostics.add(code, &pointer, message);
             }
             let (demands, needs) = (&mut *demands, needs.as_slice());
-            Checker { document, usage, demands, needs, primitive, pointer }.check();
+            PrimitiveChecker {
+                document,
+                usage,
+                rules: demands,
+                requirements: needs,
+                primitive,
+                pointer,
+            }
+            .check_primitive();
         }
-        let weights = items(mesh, "weights").len();
+        let weights = array_items(mesh, "weights").len();
         if weights != 0 && !primitives.is_empty() && weights != targets {
             let message = format_args!("{weights} weights for {targets} morph targets");
             let pointer = format_args!("/meshes/{at}/weights");
-            document.findings.add(&codes::MESH_INVALID_WEIGHTS_COUNT, pointer, message);
+            document.diagnostics.add(&codes::MESH_INVALID_WEIGHTS_COUNT, pointer, message);
         }
     }
 }
 
-struct Checker<'a, 'd> {
-    document: &'a Document<'a>,
-    usage: &'a Usage<'a>,
-    demands: &'d mut Demands,
-    needs: &'a [Needs],
+struct PrimitiveChecker<'a, 'd> {
+    document: &'a CheckedDocument<'a>,
+    usage: &'a UsageMap<'a>,
+    rules: &'d mut ElementRules,
+    requirements: &'a [MaterialRequirements],
     primitive: &'a Value,
     pointer: String,
 }
 
 /// The attributes of a primitive by their names, as far as they are accessors that exist.
-type Attributes<'a> = Vec<(&'a str, usize, &'a Value)>;
+type ResolvedAttributes<'a> = Vec<(&'a str, usize, &'a Value)>;
 
 /// How many elements the attributes of a primitive have.
-type Counts<'a> = BTreeMap<&'a str, Option<u64>>;
+type AttributeCounts<'a> = BTreeMap<&'a str, Option<u64>>;
 
-impl<'a> Checker<'a, '_> {
-    fn say(&self, code: &Code, member: &str, message: impl Display) {
+impl<'a> PrimitiveChecker<'a, '_> {
+    fn report(&self, code: &Code, member: &str, message: impl Display) {
         let slash = if member.is_empty() { "" } else { "/" };
         let pointer = format_args!("{}{slash}{member}", self.pointer);
-        self.document.findings.add(code, pointer, message);
+        self.document.diagnostics.add(code, pointer, message);
     }
 
-    fn check(&mut self) {
-        let Some(named) = members(self.primitive, "attributes") else {
+    fn check_primitive(&mut self) {
+        let Some(named) = object_members(self.primitive, "attributes") else {
             self.check_indices(None);
             return;
         };
         let sets = if named.is_empty() { 0 } else { self.check_names(named) };
-        let attributes = self.resolved(named);
+        let attributes = self.resolve_attributes(named);
         let vertices = self.check_attributes(&attributes);
         let indices = self.check_indices(vertices);
         self.check_mode(indices.or(vertices));
-        if let Some(needs) = index(self.primitive, "material").and_then(|at| self.needs.get(at)) {
+        if let Some(needs) =
+            index_member(self.primitive, "material").and_then(|at| self.requirements.get(at))
+        {
             let pointer = format!("{}/material", self.pointer);
-            needs.check(self.document.findings, &pointer, sets, named.contains_key("TANGENT"));
+            needs.check_primitive(
+                self.document.diagnostics,
+                &pointer,
+                sets,
+                named.contains_key("TANGENT"),
+            );
         }
-        let counts =
-            attributes.iter().map(|(name, _, json)| (*name, integer(json, "count"))).collect();
-        for (at, target) in items(self.primitive, "targets").iter().enumerate() {
+        let counts = attributes
+            .iter()
+            .map(|(name, _, json)| (*name, integer_member(json, "count")))
+            .collect();
+        for (at, target) in array_items(self.primitive, "targets").iter().enumerate() {
             if let Some(target) = target.as_object() {
-                self.check_target(at, target, &counts);
+                self.check_morph_target(at, target, &counts);
             }
         }
     }
 
-    fn resolved(&self, named: &'a Map<String, Value>) -> Attributes<'a> {
-        let accessors = self.document.all("accessors");
+    fn resolve_attributes(&self, named: &'a Map<String, Value>) -> ResolvedAttributes<'a> {
+        let accessors = self.document.root_array("accessors");
         let find = |(name, value): (&'a String, &Value)| {
-            let at = usize::try_from(super::document::whole(value)?).ok()?;
+            let at = usize::try_from(super::document::as_whole_number(value)?).ok()?;
             Some((name.as_str(), at, accessors.get(at)?))
         };
         named.iter().filter_map(find).collect()
@@ -94,21 +118,25 @@ impl<'a> Checker<'a, '_> {
 
     /// Names that glTF knows, numbered without gaps, and fitting each other; gives the number of sets of texture coordinates.
     fn check_names(&self, named: &Map<String, Value>) -> u64 {
-        for name in named.keys().filter(|name| Semantic::of(name).is_none()) {
+        for name in named.keys().filter(|name| Semantic::from_name(name).is_none()) {
             let message = format_args!("{name:?} is no attribute of glTF");
-            let member = format!("attributes/{}", escaped(name));
-            self.say(&codes::MESH_PRIMITIVE_INVALID_ATTRIBUTE, &member, message);
+            let member = format!("attributes/{}", escape_pointer_token(name));
+            self.report(&codes::MESH_PRIMITIVE_INVALID_ATTRIBUTE, &member, message);
         }
         if !named.contains_key("POSITION") {
             let message = "there are no positions; nothing is drawn";
-            self.say(&codes::MESH_PRIMITIVE_NO_POSITION, "attributes", message);
+            self.report(&codes::MESH_PRIMITIVE_NO_POSITION, "attributes", message);
         }
         if named.contains_key("TANGENT") && !named.contains_key("NORMAL") {
             let message = "tangents without normals mean nothing";
-            self.say(&codes::MESH_PRIMITIVE_TANGENT_WITHOUT_NORMAL, "attributes/TANGENT", message);
+            self.report(
+                &codes::MESH_PRIMITIVE_TANGENT_WITHOUT_NORMAL,
+                "attributes/TANGENT",
+                message,
+            );
         }
         let counts = ["TEXCOORD", "COLOR", "JOINTS", "WEIGHTS"].map(|kind| {
-            let numbers = named.keys().filter_map(|name| match Semantic::of(name) {
+            let numbers = named.keys().filter_map(|name| match Semantic::from_name(name) {
                 Some(Semantic::Numbered(found, number)) if found == kind => Some(number),
                 _ => None,
             });
@@ -119,38 +147,38 @@ impl<'a> Checker<'a, '_> {
                     "{count} attributes {kind} go up to number {last}: some are missing"
                 );
                 let code = &codes::MESH_PRIMITIVE_INDEXED_SEMANTIC_CONTINUITY;
-                self.say(code, &format!("attributes/{kind}_0"), message);
+                self.report(code, &format!("attributes/{kind}_0"), message);
                 return 0;
             }
             count
         });
         if counts[2] != counts[3] {
             let message = format_args!("{} sets of joints and {} of weights", counts[2], counts[3]);
-            self.say(&codes::MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH, "attributes", message);
+            self.report(&codes::MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH, "attributes", message);
         }
         counts[0]
     }
 
     /// The formats of all attributes; gives the number of vertices.
-    fn check_attributes(&mut self, attributes: &Attributes<'_>) -> Option<u64> {
+    fn check_attributes(&mut self, attributes: &ResolvedAttributes<'_>) -> Option<u64> {
         let mut vertices = None;
         // The number of vertices is that of the positions, wherever they stand.
         let position = attributes.iter().find(|(name, ..)| *name == "POSITION");
         for &(name, at, accessor) in position.into_iter().chain(attributes) {
-            let member = format!("attributes/{}", escaped(name));
+            let member = format!("attributes/{}", escape_pointer_token(name));
             let pointer = format!("{}/{member}", self.pointer);
-            self.usage.accessor(at, Use::Attribute, &pointer);
-            self.usage.vertices(at, &pointer);
+            self.usage.note_accessor(at, AccessorUse::Attribute, &pointer);
+            self.usage.note_vertex_accessor(at, &pointer);
             self.check_format(name, accessor, &member, false);
-            if let Some(layout) = Layout::of(accessor) {
-                self.demand(name, at, layout, &pointer);
+            if let Some(layout) = AccessorLayout::from_accessor(accessor) {
+                self.add_element_rules(name, at, layout, &pointer);
             }
-            let count = integer(accessor, "count");
+            let count = integer_member(accessor, "count");
             match (vertices, count) {
                 (None, count) => vertices = count,
                 (Some(vertices), Some(count)) if count != vertices => {
                     let message = format_args!("{count} values for {vertices} vertices");
-                    self.say(&codes::MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT, &member, message);
+                    self.report(&codes::MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT, &member, message);
                 }
                 _ => {}
             }
@@ -158,81 +186,93 @@ impl<'a> Checker<'a, '_> {
         vertices
     }
 
-    fn demand(&mut self, name: &str, at: usize, layout: Layout, pointer: &str) {
-        let quantized = self.document.uses("KHR_mesh_quantization");
-        let formats = Semantic::of(name).and_then(|semantic| semantic.formats(false, quantized));
-        if !formats.is_some_and(|formats| formats::is_one_of(layout, &formats)) {
+    fn add_element_rules(&mut self, name: &str, at: usize, layout: AccessorLayout, pointer: &str) {
+        let quantized = self.document.uses_extension("KHR_mesh_quantization");
+        let formats = Semantic::from_name(name)
+            .and_then(|semantic| semantic.allowed_formats(false, quantized));
+        if !formats.is_some_and(|formats| formats::is_allowed(layout, &formats)) {
             return;
         }
         match name {
-            "NORMAL" | "TANGENT" => self.demands.add(at, Demand::Unit, pointer),
-            "COLOR_0" if layout.component == Component::F32 => {
-                self.demands.add(at, Demand::Clamped, pointer);
+            "NORMAL" | "TANGENT" => self.rules.add(at, ElementRule::Unit, pointer),
+            "COLOR_0" if layout.component_type == ComponentType::F32 => {
+                self.rules.add(at, ElementRule::Clamped, pointer);
             }
             _ => {}
         }
     }
 
     fn check_format(&self, name: &str, accessor: &Value, member: &str, in_target: bool) {
-        let Some(layout) = Layout::of(accessor) else { return };
+        let Some(layout) = AccessorLayout::from_accessor(accessor) else { return };
         let has_bounds = accessor.get("min").is_some() && accessor.get("max").is_some();
         if name == "POSITION" && !has_bounds {
             let message = "the accessor of positions must have min and max";
-            self.say(&codes::MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS, member, message);
+            self.report(&codes::MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS, member, message);
         }
-        let quantized = self.document.uses("KHR_mesh_quantization");
-        match Semantic::of(name).map(|semantic| semantic.formats(in_target, quantized)) {
-            Some(Some(formats)) if !formats::is_one_of(layout, &formats) => {
-                let message = format_args!("it cannot be {}", layout.format());
-                self.say(
+        let quantized = self.document.uses_extension("KHR_mesh_quantization");
+        match Semantic::from_name(name)
+            .map(|semantic| semantic.allowed_formats(in_target, quantized))
+        {
+            Some(Some(formats)) if !formats::is_allowed(layout, &formats) => {
+                let message = format_args!("it cannot be {}", layout.format_name());
+                self.report(
                     &codes::MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT,
                     member,
                     message,
                 );
             }
-            None | Some(None) if layout.component == Component::U32 => {
+            None | Some(None) if layout.component_type == ComponentType::U32 => {
                 let message = "no attribute can be of UNSIGNED_INT";
-                self.say(&codes::MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_UNSIGNED_INT, member, message);
+                self.report(
+                    &codes::MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_UNSIGNED_INT,
+                    member,
+                    message,
+                );
             }
             _ => {}
         }
-        let view = layout.view.and_then(|view| self.document.all("bufferViews").get(view));
-        let stride = match view.map(|view| integer(view, "byteStride")) {
+        let view =
+            layout.buffer_view.and_then(|view| self.document.root_array("bufferViews").get(view));
+        let stride = match view.map(|view| integer_member(view, "byteStride")) {
             None => 4,
-            Some(stride) => stride.unwrap_or(layout.size() as u64),
+            Some(stride) => stride.unwrap_or(layout.element_size() as u64),
         };
         let is_aligned = stride.is_multiple_of(4);
-        if !layout.offset.is_multiple_of(4) || !is_aligned {
+        if !layout.byte_offset.is_multiple_of(4) || !is_aligned {
             let message = "the data of vertices must begin at multiples of 4 bytes";
-            self.say(&codes::MESH_PRIMITIVE_ACCESSOR_UNALIGNED, member, message);
+            self.report(&codes::MESH_PRIMITIVE_ACCESSOR_UNALIGNED, member, message);
         }
     }
 
     /// The format of the indices; gives how many there are.
     fn check_indices(&mut self, vertices: Option<u64>) -> Option<u64> {
-        let at = index(self.primitive, "indices")?;
-        let accessor = self.document.all("accessors").get(at)?;
+        let at = index_member(self.primitive, "indices")?;
+        let accessor = self.document.root_array("accessors").get(at)?;
         let pointer = format!("{}/indices", self.pointer);
-        self.usage.accessor(at, Use::Indices, &pointer);
+        self.usage.note_accessor(at, AccessorUse::Indices, &pointer);
         if self.usage.has_stride(at) {
             let message = "the view of indices must not have a stride";
-            self.say(&codes::MESH_PRIMITIVE_INDICES_ACCESSOR_WITH_BYTESTRIDE, "indices", message);
+            self.report(
+                &codes::MESH_PRIMITIVE_INDICES_ACCESSOR_WITH_BYTESTRIDE,
+                "indices",
+                message,
+            );
         }
-        let layout = Layout::of(accessor)?;
-        if formats::is_one_of(layout, &formats::INDICES) {
-            let triangles = integer(self.primitive, "mode").unwrap_or(4) == 4;
-            let demand = Demand::Indices { vertices: vertices.unwrap_or(0), triangles };
-            self.demands.add(at, demand, &pointer);
+        let layout = AccessorLayout::from_accessor(accessor)?;
+        if formats::is_allowed(layout, &formats::INDEX_FORMATS) {
+            let triangles = integer_member(self.primitive, "mode").unwrap_or(4) == 4;
+            let demand = ElementRule::Indices { vertices: vertices.unwrap_or(0), triangles };
+            self.rules.add(at, demand, &pointer);
         } else {
-            let message = format_args!("indices cannot be {}", layout.format());
-            self.say(&codes::MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT, "indices", message);
+            let message = format_args!("indices cannot be {}", layout.format_name());
+            self.report(&codes::MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT, "indices", message);
         }
         Some(layout.count)
     }
 
     fn check_mode(&self, count: Option<u64>) {
         let Some(count) = count else { return };
-        let fits = match integer(self.primitive, "mode").unwrap_or(4) {
+        let fits = match integer_member(self.primitive, "mode").unwrap_or(4) {
             1 => count.is_multiple_of(2),
             2 | 3 => count >= 2,
             4 => count.is_multiple_of(3),
@@ -241,38 +281,43 @@ impl<'a> Checker<'a, '_> {
         };
         if !fits {
             let message = format_args!("{count} vertices do not make whole lines or triangles");
-            self.say(&codes::MESH_PRIMITIVE_INCOMPATIBLE_MODE, "", message);
+            self.report(&codes::MESH_PRIMITIVE_INCOMPATIBLE_MODE, "", message);
         }
     }
 
-    fn check_target(&self, at: usize, target: &'a Map<String, Value>, base: &Counts<'_>) {
+    fn check_morph_target(
+        &self,
+        at: usize,
+        target: &'a Map<String, Value>,
+        base: &AttributeCounts<'_>,
+    ) {
         for name in target.keys() {
-            let is_movable = match Semantic::of(name) {
+            let is_movable = match Semantic::from_name(name) {
                 Some(Semantic::Numbered(kind, _)) => kind == "TEXCOORD" || kind == "COLOR",
                 other => other.is_some(),
             };
             if !is_movable {
-                let member = format!("targets/{at}/{}", escaped(name));
+                let member = format!("targets/{at}/{}", escape_pointer_token(name));
                 let message = format_args!("{name:?} is no attribute of a morph target");
-                self.say(&codes::MESH_PRIMITIVE_INVALID_ATTRIBUTE, &member, message);
+                self.report(&codes::MESH_PRIMITIVE_INVALID_ATTRIBUTE, &member, message);
             }
         }
-        for (name, accessor, json) in self.resolved(target) {
-            let member = format!("targets/{at}/{}", escaped(name));
+        for (name, accessor, json) in self.resolve_attributes(target) {
+            let member = format!("targets/{at}/{}", escape_pointer_token(name));
             let pointer = format!("{}/{member}", self.pointer);
-            self.usage.accessor(accessor, Use::Attribute, &pointer);
-            self.usage.vertices(accessor, &pointer);
+            self.usage.note_accessor(accessor, AccessorUse::Attribute, &pointer);
+            self.usage.note_vertex_accessor(accessor, &pointer);
             self.check_format(name, json, &member, true);
             match base.get(name) {
                 None => {
                     let message = format_args!("the mesh itself has no {name}");
                     let code = &codes::MESH_PRIMITIVE_MORPH_TARGET_NO_BASE_ACCESSOR;
-                    self.say(code, &member, message);
+                    self.report(code, &member, message);
                 }
-                Some(count) if *count != integer(json, "count") => {
+                Some(count) if *count != integer_member(json, "count") => {
                     let message = "it has not as many elements as the mesh itself";
                     let code = &codes::MESH_PRIMITIVE_MORPH_TARGET_INVALID_ATTRIBUTE_COUNT;
-                    self.say(code, &member, message);
+                    self.report(code, &member, message);
                 }
                 Some(_) => {}
             }

@@ -1,18 +1,18 @@
 //! What a check has found, for people and for programs.
 
-use crate::import::Fault;
+use crate::import::Diagnostic;
 use std::fmt;
 use std::path::PathBuf;
 
 /// What is wrong with a file, and whether it can be drawn all the same.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
-pub struct Report {
+pub struct CheckReport {
     /// The file that was checked.
     pub file: PathBuf,
     /// The problems, the worst first, and those of one severity in the order of the subjects. Of each severity only the
     /// first few hundred are kept; the counts below count all.
-    pub problems: Vec<Problem>,
+    pub diagnostics: Vec<Problem>,
     /// How many errors there are: rules of the specification that are broken, or data that is not there.
     pub errors: usize,
     /// How many warnings there are: what may look different elsewhere, and what is left out here.
@@ -20,7 +20,7 @@ pub struct Report {
     /// How many notes there are: nothing is wrong, but something could be better.
     pub notes: usize,
     /// Why the file cannot be drawn; `None` if it can, with whatever is left out. Many a file with errors can.
-    pub refusal: Option<Fault>,
+    pub load_error: Option<Diagnostic>,
 }
 
 /// One thing that is wrong with a file.
@@ -77,11 +77,11 @@ impl fmt::Display for Problem {
     }
 }
 
-impl Report {
+impl CheckReport {
     /// How many problems are counted but not listed.
     #[must_use]
-    pub fn left_out(&self) -> usize {
-        (self.errors + self.warnings + self.notes).saturating_sub(self.problems.len())
+    pub fn omitted_count(&self) -> usize {
+        (self.errors + self.warnings + self.notes).saturating_sub(self.diagnostics.len())
     }
 
     /// The counts in words: `2 errors, 1 warning, no notes; it can be drawn`.
@@ -97,10 +97,10 @@ impl Report {
             count(self.warnings, Severity::Warning),
             count(self.notes, Severity::Note),
         ];
-        let outcome = match &self.refusal {
+        let outcome = match &self.load_error {
             None => "it can be drawn".to_owned(),
-            Some(fault) if fault.pointer.is_empty() => "it cannot be drawn".to_owned(),
-            Some(fault) => format!("it cannot be drawn because of {}", fault.pointer),
+            Some(fault) if fault.location.is_empty() => "it cannot be drawn".to_owned(),
+            Some(fault) => format!("it cannot be drawn because of {}", fault.location),
         };
         format!("{}; {outcome}", counts.join(", "))
     }

@@ -11,20 +11,20 @@ pub(super) mod extensions;
 #[derive(Debug)]
 pub(super) struct Object {
     pub(super) name: &'static str,
-    pub(super) members: &'static [Member],
+    pub(super) members: &'static [MemberSchema],
 }
 
 /// A member of an object.
 #[derive(Debug)]
-pub(super) struct Member {
+pub(super) struct MemberSchema {
     pub(super) name: &'static str,
-    pub(super) kind: Kind,
-    pub(super) rule: Rule,
+    pub(super) kind: ValueKind,
+    pub(super) rule: PresenceRule,
 }
 
 /// When a member must be there.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Rule {
+pub(super) enum PresenceRule {
     /// Whenever one likes.
     May,
     /// Always.
@@ -39,7 +39,7 @@ pub(super) enum Rule {
 
 /// What a member must be.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Kind {
+pub(super) enum ValueKind {
     /// Anything at all.
     Any,
     /// true or false.
@@ -55,9 +55,9 @@ pub(super) enum Kind {
     /// One of these whole numbers; another one is only a warning.
     Choice(&'static [u64]),
     /// A number in a range.
-    Number(Range),
+    Number(NumberRange),
     /// So many numbers, each in a range; 0 for any number but none.
-    Numbers(usize, Range),
+    Numbers(usize, NumberRange),
     /// The number of something.
     Index(Collection),
     /// The numbers of several things, all different.
@@ -76,21 +76,22 @@ pub(super) enum Kind {
 
 /// The least and the greatest number that is allowed, and whether the least itself is.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Range {
-    pub(super) least: f64,
-    pub(super) most: f64,
-    pub(super) above: bool,
+pub(super) struct NumberRange {
+    pub(super) min: f64,
+    pub(super) max: f64,
+    pub(super) exclusive_min: bool,
 }
 
-const fn not(name: &'static str, other: &'static str, kind: Kind) -> Member {
-    Member { name, kind, rule: Rule::Not(other) }
+const fn not(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
+    MemberSchema { name, kind, rule: PresenceRule::Not(other) }
 }
 
-const ANY: Range = Range { least: f64::NEG_INFINITY, most: f64::INFINITY, above: false };
-const UNIT: Range = Range { least: 0.0, most: 1.0, above: false };
-const SIGNED_UNIT: Range = Range { least: -1.0, most: 1.0, above: false };
-const NOT_NEGATIVE: Range = Range { least: 0.0, ..ANY };
-const POSITIVE: Range = Range { least: 0.0, above: true, ..ANY };
+const ANY: NumberRange =
+    NumberRange { min: f64::NEG_INFINITY, max: f64::INFINITY, exclusive_min: false };
+const UNIT: NumberRange = NumberRange { min: 0.0, max: 1.0, exclusive_min: false };
+const SIGNED_UNIT: NumberRange = NumberRange { min: -1.0, max: 1.0, exclusive_min: false };
+const NOT_NEGATIVE: NumberRange = NumberRange { min: 0.0, ..ANY };
+const POSITIVE: NumberRange = NumberRange { min: 0.0, exclusive_min: true, ..ANY };
 
 /// What an index counts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -133,18 +134,18 @@ impl Collection {
     ];
 }
 
-const fn may(name: &'static str, kind: Kind) -> Member {
-    Member { name, kind, rule: Rule::May }
+const fn may(name: &'static str, kind: ValueKind) -> MemberSchema {
+    MemberSchema { name, kind, rule: PresenceRule::May }
 }
 
-const fn must(name: &'static str, kind: Kind) -> Member {
-    Member { name, kind, rule: Rule::Must }
+const fn must(name: &'static str, kind: ValueKind) -> MemberSchema {
+    MemberSchema { name, kind, rule: PresenceRule::Must }
 }
 
-const fn with(name: &'static str, other: &'static str, kind: Kind) -> Member {
-    Member { name, kind, rule: Rule::With(other) }
+const fn with(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
+    MemberSchema { name, kind, rule: PresenceRule::With(other) }
 }
 
-const fn either(name: &'static str, other: &'static str, kind: Kind) -> Member {
-    Member { name, kind, rule: Rule::Either(other) }
+const fn either(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
+    MemberSchema { name, kind, rule: PresenceRule::Either(other) }
 }

@@ -1,66 +1,68 @@
 //! The bytes that a document speaks of: buffers are read, each once, and views found in them.
 
 use super::codes;
-use super::document::{Document, extension, index, integer, items, text};
-use super::elements::Elements;
-use super::layout::{Component, Layout};
+use super::document::{
+    CheckedDocument, array_items, extension_object, index_member, integer_member, string_member,
+};
+use super::elements::AccessorElements;
+use super::layout::{AccessorLayout, ComponentType};
 use super::uris;
-use crate::import::budget::Budget;
-use crate::import::meshopt::Packed;
-use crate::import::resolver::Resolver;
+use crate::import::memory_budget::MemoryBudget;
+use crate::import::meshopt::CompressedView;
+use crate::import::uri_resolver::UriResolver;
 use serde_json::Value;
 use std::cell::{Cell, OnceCell};
 
 /// The buffers of a document.
-pub(super) struct Store<'a> {
-    document: &'a Document<'a>,
-    resolver: &'a Resolver<'a>,
-    buffers: Vec<Option<Bytes<'a>>>,
+pub(super) struct BufferStore<'a> {
+    document: &'a CheckedDocument<'a>,
+    resolver: &'a UriResolver<'a>,
+    buffers: Vec<Option<BufferBytes<'a>>>,
     /// The views that have been decompressed.
-    unpacked: Vec<OnceCell<Option<Vec<u8>>>>,
-    budget: Budget<'a>,
-    spent: Cell<bool>,
+    decompressed: Vec<OnceCell<Option<Vec<u8>>>>,
+    budget: MemoryBudget<'a>,
+    exhausted: Cell<bool>,
 }
 
-enum Bytes<'a> {
+enum BufferBytes<'a> {
     Chunk(&'a [u8]),
     Read(Vec<u8>),
 }
 
-impl<'a> Store<'a> {
+impl<'a> BufferStore<'a> {
     /// Reads all buffers. `chunk` is the binary chunk of a file that is binary.
-    pub(super) fn read(
-        document: &'a Document<'a>,
-        resolver: &'a Resolver<'a>,
+    pub(super) fn load_buffers(
+        document: &'a CheckedDocument<'a>,
+        resolver: &'a UriResolver<'a>,
         chunk: Option<&'a [u8]>,
         is_binary: bool,
     ) -> Self {
-        let unpacked = document.all("bufferViews").iter().map(|_| OnceCell::new()).collect();
+        let unpacked = document.root_array("bufferViews").iter().map(|_| OnceCell::new()).collect();
         let mut store = Self {
             document,
             resolver,
             buffers: Vec::new(),
-            unpacked,
-            budget: Budget::new(resolver.limits),
-            spent: Cell::new(false),
+            decompressed: unpacked,
+            budget: MemoryBudget::new(resolver.limits),
+            exhausted: Cell::new(false),
         };
-        for (at, buffer) in document.all("buffers").iter().enumerate() {
-            let bytes = store.buffer(at, buffer, chunk, is_binary);
+        for (at, buffer) in document.root_array("buffers").iter().enumerate() {
+            let bytes = store.load_buffer(at, buffer, chunk, is_binary);
             store.buffers.push(bytes);
         }
         store
     }
 
-    fn buffer(
+    fn load_buffer(
         &self,
         at: usize,
         buffer: &Value,
         chunk: Option<&'a [u8]>,
         is_binary: bool,
-    ) -> Option<Bytes<'a>> {
-        let findings = self.document.findings;
-        let length = integer(buffer, "byteLength");
-        let Some(uri) = text(buffer, "uri") else {
+    ) -> Option<BufferBytes<'a>> {
+        let findings = self.document.diagnostics;
+        let length = integer_member(buffer, "byteLength");
+        let Some(uri) = string_member(buffer, "uri") else {
             let has_no_uri = buffer.is_object() && buffer.get("uri").is_none();
             let chunk = chunk.filter(|_| at == 0 && has_no_uri);
             // A buffer without data is what meshopt has for those who cannot read it.
@@ -84,130 +86,151 @@ impl<'a> Store<'a> {
                     message,
                 );
             }
-            return Some(Bytes::Chunk(chunk));
+            return Some(BufferBytes::Chunk(chunk));
         };
         let pointer = format!("/buffers/{at}/uri");
-        uris::check_buffer(uri, &pointer, is_binary, findings);
-        let bytes = uris::read(self.resolver, uri, &pointer, findings)?;
+        uris::check_buffer_uri(uri, &pointer, is_binary, findings);
+        let bytes = uris::read_uri(self.resolver, uri, &pointer, findings)?;
         if let Some(length) = length {
             self.check_length(at, bytes.len(), length);
         }
-        Some(Bytes::Read(bytes))
+        Some(BufferBytes::Read(bytes))
     }
 
     fn check_length(&self, at: usize, there: usize, length: u64) {
         if (there as u64) < length {
             let message = format_args!("the buffer says {length} bytes, its data has {there}");
             let pointer = format_args!("/buffers/{at}/byteLength");
-            self.document.findings.add(&codes::BUFFER_BYTE_LENGTH_MISMATCH, pointer, message);
+            self.document.diagnostics.add(&codes::BUFFER_BYTE_LENGTH_MISMATCH, pointer, message);
         }
     }
 
     /// Whether so many bytes more may be looked at; the first time they may not is told.
-    pub(super) fn may_spend(&self, pointer: &str, bytes: u64) -> bool {
-        if self.spent.get() {
+    pub(super) fn charge_budget(&self, pointer: &str, bytes: u64) -> bool {
+        if self.exhausted.get() {
             return false;
         }
-        let charged = self.budget.charge(pointer, bytes, self.resolver.total_bytes());
+        let charged = self.budget.charge_bytes(pointer, bytes, self.resolver.total_bytes());
         if let Err(fault) = &charged {
-            self.spent.set(true);
-            let message = format_args!("{}; the data from here on is not checked", fault.problem);
-            let findings = self.document.findings;
-            findings.add_with(&codes::LIMIT_EXCEEDED, pointer, message, &fault.remedy);
+            self.exhausted.set(true);
+            let message = format_args!("{}; the data from here on is not checked", fault.message);
+            let findings = self.document.diagnostics;
+            findings.add_with_help(&codes::LIMIT_EXCEEDED, pointer, message, &fault.help);
         }
         charged.is_ok()
     }
 
-    fn bytes(&self, buffer: usize) -> Option<&[u8]> {
+    fn buffer_bytes(&self, buffer: usize) -> Option<&[u8]> {
         match self.buffers.get(buffer)?.as_ref()? {
-            Bytes::Chunk(bytes) => Some(bytes),
-            Bytes::Read(bytes) => Some(bytes),
+            BufferBytes::Chunk(bytes) => Some(bytes),
+            BufferBytes::Read(bytes) => Some(bytes),
         }
     }
 
     /// The bytes of a view, if they are all there.
-    pub(super) fn view(&self, view: usize) -> Option<&[u8]> {
-        let json = self.document.all("bufferViews").get(view)?;
+    pub(super) fn view_bytes(&self, view: usize) -> Option<&[u8]> {
+        let json = self.document.root_array("bufferViews").get(view)?;
         let packed = ["KHR_meshopt_compression", "EXT_meshopt_compression"];
-        if packed.iter().any(|name| extension(json, name).is_some()) {
-            return self.unpacked.get(view)?.get_or_init(|| self.unpack(view, json)).as_deref();
+        if packed.iter().any(|name| extension_object(json, name).is_some()) {
+            return self
+                .decompressed
+                .get(view)?
+                .get_or_init(|| self.decompress_view(view, json))
+                .as_deref();
         }
         let offset =
-            if json.get("byteOffset").is_some() { integer(json, "byteOffset")? } else { 0 };
-        self.part(index(json, "buffer")?, offset, integer(json, "byteLength")?)
+            if json.get("byteOffset").is_some() { integer_member(json, "byteOffset")? } else { 0 };
+        self.buffer_range(
+            index_member(json, "buffer")?,
+            offset,
+            integer_member(json, "byteLength")?,
+        )
     }
 
-    fn part(&self, buffer: usize, offset: u64, length: u64) -> Option<&[u8]> {
+    fn buffer_range(&self, buffer: usize, offset: u64, length: u64) -> Option<&[u8]> {
         let start = usize::try_from(offset).ok()?;
-        self.bytes(buffer)?.get(start..)?.get(..usize::try_from(length).ok()?)
+        self.buffer_bytes(buffer)?.get(start..)?.get(..usize::try_from(length).ok()?)
     }
 
     /// A compressed view; what is wrong with the stream, the loader tells.
-    fn unpack(&self, view: usize, json: &Value) -> Option<Vec<u8>> {
+    fn decompress_view(&self, view: usize, json: &Value) -> Option<Vec<u8>> {
         let pointer = format!("/bufferViews/{view}");
         let json = serde_json::from_value(json.clone()).ok()?;
-        let packed = Packed::of(&json, &pointer).ok()??;
-        let stream = self.part(packed.buffer, packed.offset, packed.length)?;
-        self.may_spend(&pointer, packed.unpacked_length()).then(|| packed.unpack(stream).ok())?
+        let packed = CompressedView::from_view(&json, &pointer).ok()??;
+        let stream = self.buffer_range(packed.buffer, packed.offset, packed.length)?;
+        self.charge_budget(&pointer, packed.decompressed_length())
+            .then(|| packed.decompress(stream).ok())?
     }
 
     /// The elements of an accessor, if all of their bytes are there.
-    pub(super) fn elements(&self, accessor: &Value, layout: Layout) -> Option<Elements<'_>> {
-        let base = match layout.view {
+    pub(super) fn accessor_elements(
+        &self,
+        accessor: &Value,
+        layout: AccessorLayout,
+    ) -> Option<AccessorElements<'_>> {
+        let base = match layout.buffer_view {
             Some(view) => {
-                let stride = self.stride(view).unwrap_or(layout.tight());
-                let start = usize::try_from(layout.offset).ok()?;
-                let length = usize::try_from(layout.length(stride)).ok()?;
-                let bytes = self.view(view)?.get(start..)?.get(..length)?;
-                Some((bytes, Some(stride).filter(|&stride| stride >= layout.size())?))
+                let stride = self.view_stride(view).unwrap_or(layout.packed_stride());
+                let start = usize::try_from(layout.byte_offset).ok()?;
+                let length = usize::try_from(layout.byte_length(stride)).ok()?;
+                let bytes = self.view_bytes(view)?.get(start..)?.get(..length)?;
+                Some((bytes, Some(stride).filter(|&stride| stride >= layout.element_size())?))
             }
             None if accessor.get("bufferView").is_some() => return None,
             None => None,
         };
         let Some(sparse) = accessor.get("sparse") else {
-            return Some(Elements::new(layout, base, Vec::new(), &[]));
+            return Some(AccessorElements::new(layout, base, Vec::new(), &[]));
         };
         let indices = self.sparse_indices(sparse)?;
         let values = sparse.get("values")?;
-        let offset = usize::try_from(integer(values, "byteOffset").unwrap_or(0)).ok()?;
-        let length = indices.len().checked_mul(layout.tight())?;
-        let length = length.saturating_sub(layout.tight() - layout.size());
-        let values = self.view(index(values, "bufferView")?)?.get(offset..)?.get(..length)?;
-        Some(Elements::new(layout, base, indices, values))
+        let offset = usize::try_from(integer_member(values, "byteOffset").unwrap_or(0)).ok()?;
+        let length = indices.len().checked_mul(layout.packed_stride())?;
+        let length = length.saturating_sub(layout.packed_stride() - layout.element_size());
+        let values =
+            self.view_bytes(index_member(values, "bufferView")?)?.get(offset..)?.get(..length)?;
+        Some(AccessorElements::new(layout, base, indices, values))
     }
 
     /// Which elements a sparse accessor replaces.
     pub(super) fn sparse_indices(&self, sparse: &Value) -> Option<Vec<u32>> {
         let json = sparse.get("indices")?;
-        let component = Component::of(integer(json, "componentType")?)?;
-        let offset = usize::try_from(integer(json, "byteOffset").unwrap_or(0)).ok()?;
-        let count = usize::try_from(integer(sparse, "count")?).ok()?;
-        let length = count.checked_mul(component.size())?;
-        let bytes = self.view(index(json, "bufferView")?)?.get(offset..)?.get(..length)?;
+        let component = ComponentType::from_gl_constant(integer_member(json, "componentType")?)?;
+        let offset = usize::try_from(integer_member(json, "byteOffset").unwrap_or(0)).ok()?;
+        let count = usize::try_from(integer_member(sparse, "count")?).ok()?;
+        let length = count.checked_mul(component.byte_size())?;
+        let bytes =
+            self.view_bytes(index_member(json, "bufferView")?)?.get(offset..)?.get(..length)?;
         let pointer = "/accessors";
-        self.may_spend(pointer, 4 * count as u64).then_some(())?;
-        Some(bytes.chunks_exact(component.size()).map(|c| component.read(c) as u32).collect())
+        self.charge_budget(pointer, 4 * count as u64).then_some(())?;
+        Some(
+            bytes
+                .chunks_exact(component.byte_size())
+                .map(|c| component.read_number(c) as u32)
+                .collect(),
+        )
     }
 
     /// The stride that a view declares.
-    pub(super) fn stride(&self, view: usize) -> Option<usize> {
-        index(self.document.all("bufferViews").get(view)?, "byteStride")
+    pub(super) fn view_stride(&self, view: usize) -> Option<usize> {
+        index_member(self.document.root_array("bufferViews").get(view)?, "byteStride")
     }
 }
 
 /// The rules for buffer views (glTF 2.0 §5.11).
-pub(super) fn check_views(document: &Document<'_>) {
-    for (at, view) in document.all("bufferViews").iter().enumerate() {
-        check_view(document, at, view);
+pub(super) fn check_buffer_views(document: &CheckedDocument<'_>) {
+    for (at, view) in document.root_array("bufferViews").iter().enumerate() {
+        check_buffer_view(document, at, view);
     }
 }
 
-fn check_view(document: &Document<'_>, at: usize, view: &Value) {
-    let findings = document.findings;
-    let offset = integer(view, "byteOffset").unwrap_or(0);
-    let length = integer(view, "byteLength");
-    let buffer = index(view, "buffer").and_then(|at| items(document.root, "buffers").get(at));
-    let there = buffer.and_then(|buffer| integer(buffer, "byteLength"));
+fn check_buffer_view(document: &CheckedDocument<'_>, at: usize, view: &Value) {
+    let findings = document.diagnostics;
+    let offset = integer_member(view, "byteOffset").unwrap_or(0);
+    let length = integer_member(view, "byteLength");
+    let buffer =
+        index_member(view, "buffer").and_then(|at| array_items(document.root, "buffers").get(at));
+    let there = buffer.and_then(|buffer| integer_member(buffer, "byteLength"));
     if let (Some(length), Some(there)) = (length, there)
         && (offset.saturating_add(length) > there || offset >= there && offset > 0)
     {
@@ -218,13 +241,13 @@ fn check_view(document: &Document<'_>, at: usize, view: &Value) {
         let pointer = format_args!("/bufferViews/{at}/{member}");
         findings.add(&codes::BUFFER_VIEW_TOO_LONG, pointer, message);
     }
-    let Some(stride) = integer(view, "byteStride") else { return };
+    let Some(stride) = integer_member(view, "byteStride") else { return };
     let pointer = format!("/bufferViews/{at}/byteStride");
     if !stride.is_multiple_of(4) {
         let message = format_args!("{stride} is no multiple of 4");
         findings.add(&codes::VALUE_MULTIPLE_OF, &pointer, message);
     }
-    if integer(view, "target") == Some(34_963) {
+    if integer_member(view, "target") == Some(34_963) {
         let message = "a view of indices has no stride";
         findings.add(&codes::BUFFER_VIEW_INVALID_BYTE_STRIDE, &pointer, message);
     }

@@ -1,9 +1,9 @@
 //! URIs: what may be wrong with their letters, and with what they name.
 
 use super::codes;
-use super::findings::Findings;
-use crate::import::error::{Fault, FaultKind};
-use crate::import::resolver::Resolver;
+use super::diagnostics::Diagnostics;
+use crate::import::error::{Diagnostic, ImportErrorKind};
+use crate::import::uri_resolver::UriResolver;
 
 /// The media type of a data URI, in lower case; `None` for another URI.
 pub(super) fn media_type(uri: &str) -> Option<String> {
@@ -13,7 +13,7 @@ pub(super) fn media_type(uri: &str) -> Option<String> {
 }
 
 /// What the letters of any URI tell.
-pub(super) fn check(uri: &str, pointer: &str, is_binary: bool, findings: &Findings) {
+pub(super) fn check_uri(uri: &str, pointer: &str, is_binary: bool, findings: &Diagnostics) {
     let is_data = media_type(uri).is_some();
     if is_data && is_binary {
         findings.add(&codes::DATA_URI_GLB, pointer, "a binary file has data in a text");
@@ -32,8 +32,8 @@ pub(super) fn check(uri: &str, pointer: &str, is_binary: bool, findings: &Findin
 }
 
 /// What the letters of a buffer's URI tell.
-pub(super) fn check_buffer(uri: &str, pointer: &str, is_binary: bool, findings: &Findings) {
-    check(uri, pointer, is_binary, findings);
+pub(super) fn check_buffer_uri(uri: &str, pointer: &str, is_binary: bool, findings: &Diagnostics) {
+    check_uri(uri, pointer, is_binary, findings);
     if let Some(kind) = media_type(uri)
         && !["application/octet-stream", "application/gltf-buffer"].contains(&kind.as_str())
     {
@@ -43,25 +43,25 @@ pub(super) fn check_buffer(uri: &str, pointer: &str, is_binary: bool, findings: 
 }
 
 /// The bytes a URI names, or a problem.
-pub(super) fn read(
-    resolver: &Resolver<'_>,
+pub(super) fn read_uri(
+    resolver: &UriResolver<'_>,
     uri: &str,
     pointer: &str,
-    findings: &Findings,
+    findings: &Diagnostics,
 ) -> Option<Vec<u8>> {
     if uri.starts_with(':') {
         let message = format_args!("{uri:?} begins with a colon");
         findings.add(&codes::INVALID_URI, pointer, message);
         return None;
     }
-    resolver.read(uri, pointer).map_err(|fault| tell(&fault, findings)).ok()
+    resolver.read_uri(uri, pointer).map_err(|fault| add_read_error(&fault, findings)).ok()
 }
 
-fn tell(fault: &Fault, findings: &Findings) {
+fn add_read_error(fault: &Diagnostic, findings: &Diagnostics) {
     let code = match fault.kind {
-        FaultKind::Invalid => &codes::INVALID_URI,
-        FaultKind::Limit => &codes::LIMIT_EXCEEDED,
+        ImportErrorKind::Invalid => &codes::INVALID_URI,
+        ImportErrorKind::Limit => &codes::LIMIT_EXCEEDED,
         _ => &codes::IO_ERROR,
     };
-    findings.add_with(code, &fault.pointer, &fault.problem, &fault.remedy);
+    findings.add_with_help(code, &fault.location, &fault.message, &fault.help);
 }

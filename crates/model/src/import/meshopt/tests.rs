@@ -26,31 +26,31 @@ const TRIANGLES: [u8; 29] = [
     0x56, 0x67, 0x78, 0xA9, 0x86, 0x65, 0x89, 0x68, 0x98, 0x01, 0x69, 0x00, 0x00,
 ];
 
-fn packed(extension: &Value, length: usize) -> Result<Option<Packed>, Fault> {
+fn parse_extension(extension: &Value, length: usize) -> Result<Option<CompressedView>, Diagnostic> {
     let extensions = json!({"EXT_meshopt_compression": extension});
     let view = json!({"buffer": 1, "byteLength": length, "extensions": extensions});
     let view: View = serde_json::from_value(view).unwrap();
-    Packed::of(&view, "/bufferViews/7")
+    CompressedView::from_view(&view, "/bufferViews/7")
 }
 
-fn of(mode: &str, count: usize, stride: usize) -> Packed {
+fn compressed_view(mode: &str, count: usize, stride: usize) -> CompressedView {
     let extension =
         json!({"buffer": 0, "byteLength": 9, "count": count, "byteStride": stride, "mode": mode});
-    packed(&extension, count * stride).unwrap().unwrap()
+    parse_extension(&extension, count * stride).unwrap().unwrap()
 }
 
 #[test]
 fn the_box_is_a_box() {
-    let positions = of("ATTRIBUTES", 24, 8).unpack(&POSITIONS).unwrap();
+    let positions = compressed_view("ATTRIBUTES", 24, 8).decompress(&POSITIONS).unwrap();
     let positions: Vec<[u16; 3]> = positions
         .chunks(8)
         .map(|p| [0, 2, 4].map(|at| u16::from_le_bytes([p[at], p[at + 1]])))
         .collect();
     assert!(positions.iter().flatten().all(|x| [0, 16_383].contains(x)), "{positions:?}");
-    let normals = of("ATTRIBUTES", 24, 4).unpack(&NORMALS).unwrap();
+    let normals = compressed_view("ATTRIBUTES", 24, 4).decompress(&NORMALS).unwrap();
     let normals: Vec<[i8; 3]> =
         normals.chunks(4).map(|n| [n[0], n[1], n[2]].map(u8::cast_signed)).collect();
-    let indices = of("TRIANGLES", 36, 2).unpack(&TRIANGLES).unwrap();
+    let indices = compressed_view("TRIANGLES", 36, 2).decompress(&TRIANGLES).unwrap();
     let indices: Vec<usize> =
         indices.chunks(2).map(|i| usize::from(u16::from_le_bytes([i[0], i[1]]))).collect();
     let mut area = 0;
@@ -74,17 +74,17 @@ fn the_box_is_a_box() {
 #[test]
 fn every_cut_is_refused() {
     for (stream, packed) in [
-        (&NORMALS[..], of("ATTRIBUTES", 24, 4)),
-        (&POSITIONS, of("ATTRIBUTES", 24, 8)),
-        (&TRIANGLES, of("TRIANGLES", 36, 2)),
+        (&NORMALS[..], compressed_view("ATTRIBUTES", 24, 4)),
+        (&POSITIONS, compressed_view("ATTRIBUTES", 24, 8)),
+        (&TRIANGLES, compressed_view("TRIANGLES", 36, 2)),
     ] {
-        assert!(packed.unpack(stream).is_ok());
+        assert!(packed.decompress(stream).is_ok());
         for end in 0..stream.len() {
-            let fault = packed.unpack(&stream[..end]).unwrap_err();
-            assert_eq!(fault.pointer, "/bufferViews/7/extensions/EXT_meshopt_compression");
+            let fault = packed.decompress(&stream[..end]).unwrap_err();
+            assert_eq!(fault.location, "/bufferViews/7/extensions/EXT_meshopt_compression");
         }
         let longer = [stream, &[0]].concat();
-        assert!(packed.unpack(&longer).is_err());
+        assert!(packed.decompress(&longer).is_err());
     }
 }
 
@@ -112,7 +112,7 @@ fn changed_bytes_do_no_harm() {
             {
                 changed[0] = first;
                 let stride = if first < 0xD0 { stride.next_multiple_of(4) } else { 2 };
-                if let Ok(bytes) = of(mode, count, stride).unpack(&changed) {
+                if let Ok(bytes) = compressed_view(mode, count, stride).decompress(&changed) {
                     assert_eq!(bytes.len(), count * stride);
                 }
             }
@@ -125,7 +125,7 @@ fn what_the_json_may_say() {
     let good =
         json!({"buffer": 0, "byteLength": 9, "count": 6, "byteStride": 8, "mode": "ATTRIBUTES"});
     let plain: View = serde_json::from_value(json!({"buffer": 1, "byteLength": 48})).unwrap();
-    assert!(Packed::of(&plain, "").unwrap().is_none());
+    assert!(CompressedView::from_view(&plain, "").unwrap().is_none());
     for (changes, length, fault) in [
         (json!({}), 48, None),
         (json!({"filter": "COLOR"}), 48, None),
@@ -163,9 +163,9 @@ fn what_the_json_may_say() {
     ] {
         let mut extension = good.clone();
         extension.as_object_mut().unwrap().extend(changes.as_object().unwrap().clone());
-        let said = packed(&extension, length)
+        let said = parse_extension(&extension, length)
             .err()
-            .map(|fault| format!("{}: {}", fault.pointer, fault.problem));
+            .map(|fault| format!("{}: {}", fault.location, fault.message));
         let ends = |said: &String| fault.is_some_and(|fault| said.ends_with(fault));
         assert!(said.as_ref().map_or(fault.is_none(), ends), "{changes}: {said:?}");
     }

@@ -1,24 +1,32 @@
 //! Each parameter does what the lessons say, and nothing else.
 
 use super::*;
-use crate::demonstration::test_scene::house;
+use crate::demonstration::test_scene::house_scene;
 use homog::{Bounds, Point, World};
 
-fn shots(vary: Vary, from: f64, to: f64, steps: u32) -> Vec<(ViewProjection, String)> {
-    let (_, _, scene) = house();
-    Sweep { vary, from, to, steps, volumes: false }.shots(&scene).expect("shots")
+fn sweep_house(
+    vary: SweepParameter,
+    from: f64,
+    to: f64,
+    steps: u32,
+) -> Vec<(ViewProjection, String)> {
+    let (_, _, scene) = house_scene();
+    Sweep { parameter: vary, from, to, steps, volumes: false }
+        .view_projections(&scene)
+        .expect("shots")
 }
 
-fn base() -> (Scene, ViewProjection, Point<World>) {
-    let (_, _, scene) = house();
-    let middle = Bounds::of(scene.world_points()).expect("points").center();
+fn house_view() -> (Scene, ViewProjection, Point<World>) {
+    let (_, _, scene) = house_scene();
+    let middle = Bounds::from_points(scene.world_points()).expect("points").center();
     let view_projection = scene.view_projection;
     (scene, view_projection, middle)
 }
 
 /// x and y in the picture.
-fn image(view_projection: &ViewProjection, point: Point<World>) -> [f64; 2] {
-    let place = view_projection.world_to_clip().point(point).divide().expect("ahead of the eye");
+fn project_to_ndc(view_projection: &ViewProjection, point: Point<World>) -> [f64; 2] {
+    let place =
+        view_projection.world_to_clip().transform_point(point).divide().expect("ahead of the eye");
     [place.x(), place.y()]
 }
 
@@ -28,16 +36,22 @@ fn assert_near(a: f64, b: f64) {
 }
 
 /// A place off the line of sight, at the depth of the middle.
-fn beside(view_projection: &ViewProjection, middle: Point<World>) -> Point<World> {
+fn point_beside(view_projection: &ViewProjection, middle: Point<World>) -> Point<World> {
     middle + view_projection.camera.u() * 1.5 + view_projection.camera.v()
 }
 
 #[test]
 fn values_are_evenly_spaced_and_end_where_they_are_told() {
-    let sweep = |steps| Sweep { vary: Vary::Fov, from: 20.0, to: 50.1, steps, volumes: false };
-    assert_eq!(sweep(1).values(), [20.0]);
-    assert_eq!(sweep(2).values(), [20.0, 50.1]);
-    let values = sweep(4).values();
+    let sweep = |steps| Sweep {
+        parameter: SweepParameter::Fov,
+        from: 20.0,
+        to: 50.1,
+        steps,
+        volumes: false,
+    };
+    assert_eq!(sweep(1).parameter_values(), [20.0]);
+    assert_eq!(sweep(2).parameter_values(), [20.0, 50.1]);
+    let values = sweep(4).parameter_values();
     assert_eq!((values.len(), values[0], values[3]), (4, 20.0, 50.1));
     assert_near(values[1] - values[0], values[3] - values[2]);
 }
@@ -45,9 +59,10 @@ fn values_are_evenly_spaced_and_end_where_they_are_told() {
 /// C62: sizes in the picture go with 1/tan(θ/2).
 #[test]
 fn a_smaller_angle_enlarges() {
-    let (_, _, middle) = base();
-    let shots = shots(Vary::Fov, 20.0, 60.0, 2);
-    let [narrow, wide] = [0, 1].map(|n| image(&shots[n].0, beside(&shots[n].0, middle)));
+    let (_, _, middle) = house_view();
+    let shots = sweep_house(SweepParameter::Fov, 20.0, 60.0, 2);
+    let [narrow, wide] =
+        [0, 1].map(|n| project_to_ndc(&shots[n].0, point_beside(&shots[n].0, middle)));
     let tan = |degrees: f64| libm::tan((0.5 * degrees).to_radians());
     let ratio = tan(60.0) / tan(20.0);
     assert_near(narrow[0] / wide[0], ratio);
@@ -58,10 +73,11 @@ fn a_smaller_angle_enlarges() {
 /// C62.
 #[test]
 fn a_wrong_aspect_distorts_across_only() {
-    let (_, base, middle) = base();
-    let view_projection = shots(Vary::Aspect, 2.0, 2.0, 1)[0].0;
-    let [before, after] = [base, view_projection]
-        .map(|view_projection| image(&view_projection, beside(&view_projection, middle)));
+    let (_, base, middle) = house_view();
+    let view_projection = sweep_house(SweepParameter::Aspect, 2.0, 2.0, 1)[0].0;
+    let [before, after] = [base, view_projection].map(|view_projection| {
+        project_to_ndc(&view_projection, point_beside(&view_projection, middle))
+    });
     assert_near(after[0] / before[0], (4.0 / 3.0) / 2.0);
     assert_near(after[1], before[1]);
 }
@@ -69,48 +85,53 @@ fn a_wrong_aspect_distorts_across_only() {
 /// C62, C64.
 #[test]
 fn near_and_far_move_nothing_in_the_picture() {
-    let (scene, base, _) = base();
-    for (vary, value) in [(Vary::Near, 1.0), (Vary::Far, 1e4)] {
-        let view_projection = shots(vary, value, value, 1)[0].0;
+    let (scene, base, _) = house_view();
+    for (vary, value) in [(SweepParameter::Near, 1.0), (SweepParameter::Far, 1e4)] {
+        let view_projection = sweep_house(vary, value, value, 1)[0].0;
         for point in scene.world_points() {
-            let [a, b] = [image(&base, point), image(&view_projection, point)];
+            let [a, b] = [project_to_ndc(&base, point), project_to_ndc(&view_projection, point)];
             assert_near(a[0], b[0]);
             assert_near(a[1], b[1]);
         }
         let depth = |view_projection: &ViewProjection, distance: f64| {
             let place = view_projection.camera.eye() + view_projection.camera.gaze() * distance;
-            view_projection.world_to_clip().point(place).divide().expect("ahead").z()
+            view_projection.world_to_clip().transform_point(place).divide().expect("ahead").z()
         };
         // The canonical volume has the near plane at 1, the far plane at −1.
-        assert_near(depth(&view_projection, value), if vary == Vary::Near { 1.0 } else { -1.0 });
+        assert_near(
+            depth(&view_projection, value),
+            if vary == SweepParameter::Near { 1.0 } else { -1.0 },
+        );
     }
 }
 
 /// C64: with the window as it is, half the distance is twice the tangent.
 #[test]
 fn the_distance_of_a_fixed_window_is_a_lens() {
-    let (_, base, middle) = base();
+    let (_, base, middle) = house_view();
     let near = |view_projection: &ViewProjection| {
         let clip_to_view = view_projection.view_to_clip.inverse().expect("an inverse");
-        let corner = clip_to_view.hpoint(HPoint::new(1.0, 1.0, 1.0, 1.0)).divide();
+        let corner = clip_to_view.transform_hpoint(HPoint::new(1.0, 1.0, 1.0, 1.0)).divide();
         corner.expect("finite")
     };
     let half = -near(&base).z() * 0.5;
-    let view_projection = shots(Vary::Lens, half, half, 1)[0].0;
+    let view_projection = sweep_house(SweepParameter::Lens, half, half, 1)[0].0;
     assert_near(near(&view_projection).x(), near(&base).x());
     assert_near(near(&view_projection).y(), near(&base).y());
-    let [before, after] = [base, view_projection]
-        .map(|view_projection| image(&view_projection, beside(&view_projection, middle)));
+    let [before, after] = [base, view_projection].map(|view_projection| {
+        project_to_ndc(&view_projection, point_beside(&view_projection, middle))
+    });
     assert_near(after[0] / before[0], 0.5);
 }
 
 /// C64.
 #[test]
 fn a_shift_moves_the_picture_as_it_is() {
-    let (scene, base, _) = base();
-    let view_projection = shots(Vary::Shift, 0.25, 0.25, 1)[0].0;
+    let (scene, base, _) = house_view();
+    let view_projection = sweep_house(SweepParameter::Shift, 0.25, 0.25, 1)[0].0;
     for point in scene.world_points() {
-        let [before, after] = [image(&base, point), image(&view_projection, point)];
+        let [before, after] =
+            [project_to_ndc(&base, point), project_to_ndc(&view_projection, point)];
         assert_near(after[0], before[0] - 0.25);
         assert_near(after[1], before[1]);
     }
@@ -119,8 +140,8 @@ fn a_shift_moves_the_picture_as_it_is() {
 /// C94: what is at the depth of the middle keeps its size, what is before it does not.
 #[test]
 fn a_dolly_zoom_keeps_the_middle() {
-    let (_, base, middle) = base();
-    let shots = shots(Vary::Dolly, 20.0, 80.0, 3);
+    let (_, base, middle) = house_view();
+    let shots = sweep_house(SweepParameter::Dolly, 20.0, 80.0, 3);
     let distances = [20.0, 50.0, 80.0];
     for ((view_projection, note), distance) in shots.iter().zip(distances) {
         assert_near(
@@ -128,8 +149,8 @@ fn a_dolly_zoom_keeps_the_middle() {
             distance,
         );
         let [before, after] = [
-            image(&base, beside(&base, middle)),
-            image(view_projection, beside(view_projection, middle)),
+            project_to_ndc(&base, point_beside(&base, middle)),
+            project_to_ndc(view_projection, point_beside(view_projection, middle)),
         ];
         assert_near(before[0], after[0]);
         assert_near(before[1], after[1]);
@@ -137,15 +158,18 @@ fn a_dolly_zoom_keeps_the_middle() {
     }
     let before = |n: usize| {
         let view_projection: &ViewProjection = &shots[n].0;
-        image(view_projection, beside(view_projection, middle) + view_projection.camera.w())
+        project_to_ndc(
+            view_projection,
+            point_beside(view_projection, middle) + view_projection.camera.w(),
+        )
     };
     assert!(before(0)[0] > before(1)[0] && before(1)[0] > before(2)[0]);
 }
 
 #[test]
 fn the_camera_is_turned_about_the_middle() {
-    let (_, base, middle) = base();
-    let view_projection = shots(Vary::Angle, 90.0, 90.0, 1)[0].0;
+    let (_, base, middle) = house_view();
+    let view_projection = sweep_house(SweepParameter::Angle, 90.0, 90.0, 1)[0].0;
     let [before, after] =
         [base, view_projection].map(|view_projection| view_projection.camera.eye() - middle);
     assert_near(before.length(), after.length());
@@ -157,41 +181,46 @@ fn the_camera_is_turned_about_the_middle() {
 
 #[test]
 fn what_makes_no_sense_is_told() {
-    let (_, _, mut scene) = house();
+    let (_, _, mut scene) = house_scene();
     let told = |vary, value: f64, scene: &Scene| {
-        let sweep = Sweep { vary, from: value, to: value, steps: 1, volumes: false };
-        sweep.shots(scene).map(|_| ()).expect_err("an error").to_string()
+        let sweep = Sweep { parameter: vary, from: value, to: value, steps: 1, volumes: false };
+        sweep.view_projections(scene).map(|_| ()).expect_err("an error").to_string()
     };
-    assert!(told(Vary::Fov, 180.0, &scene).contains("`fov` cannot be 180: it must lie between"));
-    assert!(told(Vary::Near, -1.0, &scene).contains("greater than 0"));
-    assert!(told(Vary::Near, 1e6, &scene).starts_with("`near` cannot be 1e6: "));
-    assert!(told(Vary::Height, 4.0, &scene).contains("a perspective"));
+    assert!(
+        told(SweepParameter::Fov, 180.0, &scene)
+            .contains("`fov` cannot be 180: it must lie between")
+    );
+    assert!(told(SweepParameter::Near, -1.0, &scene).contains("greater than 0"));
+    assert!(told(SweepParameter::Near, 1e6, &scene).starts_with("`near` cannot be 1e6: "));
+    assert!(told(SweepParameter::Height, 4.0, &scene).contains("a perspective"));
     let volume = Orthographic::new(-1.0, 1.0, -1.0, 1.0, 1.0, 9.0).expect("a volume");
     scene.view_projection.view_to_clip = volume.view_to_clip(Convention::CHAPTER);
-    assert!(told(Vary::Fov, 40.0, &scene).contains("take a perspective"));
+    assert!(told(SweepParameter::Fov, 40.0, &scene).contains("take a perspective"));
 }
 
 /// C94: borders and planes of a parallel view volume, each by itself.
 #[test]
 fn a_parallel_window_is_varied_too() {
-    let (_, _, mut scene) = house();
+    let (_, _, mut scene) = house_scene();
     let volume = Orthographic::new(-6.0, 6.0, -4.5, 4.5, 1.0, 30.0).expect("a volume");
     scene.view_projection.view_to_clip = volume.view_to_clip(Convention::CHAPTER);
     let at = |vary, value| {
-        let sweep = Sweep { vary, from: value, to: value, steps: 1, volumes: false };
-        let (view_projection, note) = sweep.shots(&scene).expect("a shot").remove(0);
-        let place = view_projection.camera.view_to_world().point(Point::new(1.5, 0.9, -10.0));
-        let image = view_projection.world_to_clip().point(place).divide().expect("an image");
+        let sweep = Sweep { parameter: vary, from: value, to: value, steps: 1, volumes: false };
+        let (view_projection, note) = sweep.view_projections(&scene).expect("a shot").remove(0);
+        let place =
+            view_projection.camera.view_to_world().transform_point(Point::new(1.5, 0.9, -10.0));
+        let image =
+            view_projection.world_to_clip().transform_point(place).divide().expect("an image");
         ([image.x(), image.y(), image.z()], note)
     };
     // The canonical volume has near at 1 and far at −1.
     let depth = |near: f64, far: f64| 1.0 - 2.0 * (10.0 - near) / (far - near);
     for (vary, value, due) in [
-        (Vary::Height, 4.5, [0.5, 0.4, depth(1.0, 30.0)]),
-        (Vary::Aspect, 2.0 / 3.0, [0.5, 0.2, depth(1.0, 30.0)]),
-        (Vary::Shift, 0.25, [0.0, 0.2, depth(1.0, 30.0)]),
-        (Vary::Near, -5.0, [0.25, 0.2, depth(-5.0, 30.0)]),
-        (Vary::Far, 20.0, [0.25, 0.2, depth(1.0, 20.0)]),
+        (SweepParameter::Height, 4.5, [0.5, 0.4, depth(1.0, 30.0)]),
+        (SweepParameter::Aspect, 2.0 / 3.0, [0.5, 0.2, depth(1.0, 30.0)]),
+        (SweepParameter::Shift, 0.25, [0.0, 0.2, depth(1.0, 30.0)]),
+        (SweepParameter::Near, -5.0, [0.25, 0.2, depth(-5.0, 30.0)]),
+        (SweepParameter::Far, 20.0, [0.25, 0.2, depth(1.0, 20.0)]),
     ] {
         let (image, note) = at(vary, value);
         image.iter().zip(due).for_each(|(found, due)| assert_near(*found, due));

@@ -1,14 +1,14 @@
 //! From a triangle and a pixel to numbers: the exact weights, and what they make of what the corners carry.
 
-use super::kind::Pass;
+use super::pass::Pass;
 use crate::render::RenderError;
-use crate::render::region::Sheet;
-use crate::render::stage::{Stage, to_point};
-use crate::render::vertices::{normal_map, turned};
+use crate::render::image_tiles::ImageTile;
+use crate::render::screen_transform::{ScreenTransform, model_point};
+use crate::render::vertex_processing::{normal_matrix, transform_normal};
 use crate::scene::{Scene, Style};
 use glam::{DMat3, DVec3};
 use homog::{Affine, Clip, HPoint, Model, Normal, Point, Projective, Screen, View, World};
-use model::{Posed, Primitive, Topology};
+use model::{Primitive, SkinnedPrimitive, Topology};
 use std::borrow::Cow;
 
 /// What is nearest in a pixel, as the rasteriser tells it.
@@ -20,12 +20,12 @@ pub(super) struct Hit {
 }
 
 impl Hit {
-    pub(super) const NOTHING: Self = Self { id: u32::MAX, weights: [0.0; 3] };
+    pub(super) const MISS: Self = Self { id: u32::MAX, weights: [0.0; 3] };
 }
 
 /// All primitives of a scene, in the order of their numbers.
-pub(super) struct Geometry<'a> {
-    parts: Vec<Part<'a>>,
+pub(super) struct SceneGeometry<'a> {
+    draws: Vec<DrawGeometry<'a>>,
     world_to_view: Affine<World, View>,
     viewer: HPoint<World>,
     screen_to_ndc: Affine<Screen, homog::Ndc>,
@@ -33,49 +33,49 @@ pub(super) struct Geometry<'a> {
 }
 
 /// A primitive of a mesh at one of its places.
-struct Part<'a> {
+struct DrawGeometry<'a> {
     first_id: u32,
     /// The numbers of model, node, mesh and material; 0 for none, else the index and one.
-    owners: [u32; 4],
+    owner_ids: [u32; 4],
     primitive: &'a Primitive,
-    posed: Posed<'a>,
+    posed: SkinnedPrimitive<'a>,
     uvs: Option<Cow<'a, [[f32; 2]]>>,
     model_to_world: Affine<Model, World>,
     model_to_clip: Projective<Model, Clip>,
     /// The way of normals to the world.
-    turn: DMat3,
+    normal_to_world: DMat3,
 }
 
-impl<'a> Geometry<'a> {
-    pub(super) fn of(scene: &'a Scene, sheet: Sheet) -> Result<Self, RenderError> {
-        let stage = Stage::of(scene, sheet)?;
-        let mut parts = Vec::new();
+impl<'a> SceneGeometry<'a> {
+    pub(super) fn new(scene: &'a Scene, sheet: ImageTile) -> Result<Self, RenderError> {
+        let stage = ScreenTransform::for_tile(scene, sheet)?;
+        let mut draws = Vec::new();
         let mut first_id = 0;
         for (number, placed) in (1..).zip(&scene.models) {
             let model = &placed.model;
-            for (instance, primitive) in model.shown_primitives() {
-                let posed = model.posed(instance, primitive);
+            for (instance, primitive) in model.scene_primitives() {
+                let posed = model.skin_primitive(instance, primitive);
                 let model_to_world = posed.to_model.then(placed.model_to_world);
                 let index = |at: Option<usize>| at.map_or(0, |at| at as u32 + 1);
                 let mesh = index(model.nodes[instance.node].mesh);
                 let owners = [number, index(Some(instance.node)), mesh, index(primitive.material)];
-                parts.push(Part {
+                draws.push(DrawGeometry {
                     first_id,
-                    owners,
+                    owner_ids: owners,
                     primitive,
-                    uvs: model.posed_uvs(instance, primitive, 0),
+                    uvs: model.morph_uvs(instance, primitive, 0),
                     model_to_world,
                     model_to_clip: stage.model_to_clip(model_to_world),
-                    turn: normal_map(model_to_world),
+                    normal_to_world: normal_matrix(model_to_world),
                     posed,
                 });
-                let count = u32::try_from(primitive.count()).ok();
+                let count = u32::try_from(primitive.item_count()).ok();
                 let next = count.and_then(|count| first_id.checked_add(count));
                 first_id = next.ok_or(RenderError::TooManyPrimitives)?;
             }
         }
         Ok(Self {
-            parts,
+            draws,
             world_to_view: scene.view_projection.camera.world_to_view(),
             viewer: scene.view_projection.viewer(),
             screen_to_ndc: stage.screen_to_ndc(),
@@ -83,18 +83,18 @@ impl<'a> Geometry<'a> {
         })
     }
 
-    fn part(&self, hit: &Hit) -> Option<&Part<'a>> {
+    fn draw_of_hit(&self, hit: &Hit) -> Option<&DrawGeometry<'a>> {
         if hit.id == u32::MAX {
             return None;
         }
-        let after = self.parts.partition_point(|part| part.first_id <= hit.id);
-        self.parts.get(after.checked_sub(1)?)
+        let after = self.draws.partition_point(|part| part.first_id <= hit.id);
+        self.draws.get(after.checked_sub(1)?)
     }
 
     /// The whole number that a pass has for a pixel.
-    pub(super) fn number(&self, pass: Pass, hit: &Hit) -> u32 {
-        let Some(part) = self.part(hit) else { return 0 };
-        let [model, node, mesh, material] = part.owners;
+    pub(super) fn id_value(&self, pass: Pass, hit: &Hit) -> u32 {
+        let Some(part) = self.draw_of_hit(hit) else { return 0 };
+        let [model, node, mesh, material] = part.owner_ids;
         match pass {
             Pass::Model => model,
             Pass::Node => node,
@@ -105,22 +105,22 @@ impl<'a> Geometry<'a> {
     }
 
     /// The measures that a pass has for the pixel at `place` of the sheet.
-    pub(super) fn measure(&self, pass: Pass, hit: &Hit, place: [u32; 2], values: &mut [f32]) {
-        let Some(part) = self.part(hit) else { return };
-        let Some(spot) = self.spot(part, hit, place) else { return };
-        let to_view = |place: Point<World>| self.world_to_view.point(place);
+    pub(super) fn write_value(&self, pass: Pass, hit: &Hit, place: [u32; 2], values: &mut [f32]) {
+        let Some(part) = self.draw_of_hit(hit) else { return };
+        let Some(point) = self.surface_point(part, hit, place) else { return };
+        let to_view = |place: Point<World>| self.world_to_view.transform_point(place);
         let measured = match pass {
-            Pass::Depth => [-to_view(spot.place).z(), 0.0, 0.0],
-            Pass::Distance => [to_view(spot.place).raw().length(), 0.0, 0.0],
-            Pass::Position => spot.place.into(),
-            Pass::Normal => self.normal(part, &spot).to_array(),
+            Pass::Depth => [-to_view(point.position).z(), 0.0, 0.0],
+            Pass::Distance => [to_view(point.position).raw().length(), 0.0, 0.0],
+            Pass::Position => point.position.into(),
+            Pass::Normal => self.visible_normal(part, &point).to_array(),
             Pass::ViewNormal => {
-                let normal = Normal::from_raw(self.normal(part, &spot));
-                let turned = self.world_to_view.normal(normal).raw();
+                let normal = Normal::from_raw(self.visible_normal(part, &point));
+                let turned = self.world_to_view.transform_normal(normal).raw();
                 turned.normalize_or_zero().to_array()
             }
-            Pass::Uv => part.uv(&spot),
-            _ => spot.weights,
+            Pass::Uv => part.uv(&point),
+            _ => point.weights,
         };
         for (value, measured) in values.iter_mut().zip(measured) {
             *value = measured as f32;
@@ -128,93 +128,101 @@ impl<'a> Geometry<'a> {
     }
 
     /// What is seen at the pixel's centre.
-    fn spot(&self, part: &Part<'_>, hit: &Hit, [x, y]: [u32; 2]) -> Option<Spot> {
-        let vertices = part.vertices((hit.id - part.first_id) as usize)?;
-        let positions = &part.posed.positions;
-        let mut places = [Point::<Model>::ORIGIN; 3];
-        for (place, vertex) in places.iter_mut().zip(vertices) {
-            *place = to_point(*positions.get(vertex)?);
+    fn surface_point(
+        &self,
+        part: &DrawGeometry<'_>,
+        hit: &Hit,
+        [x, y]: [u32; 2],
+    ) -> Option<SurfacePoint> {
+        let vertices = part.vertex_indices((hit.id - part.first_id) as usize)?;
+        let model_positions = &part.posed.positions;
+        let mut positions = [Point::<Model>::ORIGIN; 3];
+        for (place, vertex) in positions.iter_mut().zip(vertices) {
+            *place = model_point(*model_positions.get(vertex)?);
         }
         let weights = if part.primitive.topology == Topology::Triangles {
-            let centre = Point::new(f64::from(x) + 0.5, f64::from(y) + 0.5, 0.0);
-            let centre = self.screen_to_ndc.point(centre).raw().with_z(1.0);
-            exact_weights(places.map(|place| part.model_to_clip.point(place)), centre)
+            let center = Point::new(f64::from(x) + 0.5, f64::from(y) + 0.5, 0.0);
+            let center = self.screen_to_ndc.transform_point(center).raw().with_z(1.0);
+            perspective_weights(
+                positions.map(|place| part.model_to_clip.transform_point(place)),
+                center,
+            )
         } else {
             None
         };
         let weights = weights.unwrap_or(hit.weights.map(f64::from));
-        let corners = places.map(|place| part.model_to_world.point(place));
-        let place = Point::from_raw(blend(corners.map(Point::raw), weights));
-        Some(Spot { vertices, corners, weights, place })
+        let corners = positions.map(|place| part.model_to_world.transform_point(place));
+        let place = Point::from_raw(interpolate(corners.map(Point::raw), weights));
+        Some(SurfacePoint { vertices, corners, weights, position: place })
     }
 
     /// The unit normal on the side that is seen.
-    fn normal(&self, part: &Part<'_>, spot: &Spot) -> DVec3 {
+    fn visible_normal(&self, part: &DrawGeometry<'_>, spot: &SurfacePoint) -> DVec3 {
         if part.primitive.topology != Topology::Triangles {
             return DVec3::ZERO;
         }
         let [a, b, c] = spot.corners.map(Point::raw);
-        let mirror = part.model_to_world.determinant() < 0.0;
-        let face = (b - a).cross(c - a).normalize_or_zero() * if mirror { -1.0 } else { 1.0 };
-        let smooth = part.smooth_normal(spot).filter(|_| !self.is_flat);
+        let is_mirrored = part.model_to_world.determinant() < 0.0;
+        let face = (b - a).cross(c - a).normalize_or_zero() * if is_mirrored { -1.0 } else { 1.0 };
+        let smooth_normal = part.smooth_normal(spot).filter(|_| !self.is_flat);
         let viewer = self.viewer.raw();
-        let to_viewer = viewer.truncate() - spot.place.raw() * viewer.w;
-        let side = if face.dot(to_viewer) < 0.0 { -1.0 } else { 1.0 };
-        smooth.unwrap_or(face) * side
+        let to_viewer = viewer.truncate() - spot.position.raw() * viewer.w;
+        let sign = if face.dot(to_viewer) < 0.0 { -1.0 } else { 1.0 };
+        smooth_normal.unwrap_or(face) * sign
     }
 }
 
-impl Part<'_> {
+impl DrawGeometry<'_> {
     /// The vertices of a point, line or triangle; corners that it lacks repeat the last.
-    fn vertices(&self, item: usize) -> Option<[usize; 3]> {
-        let count = self.primitive.topology.corners();
+    fn vertex_indices(&self, item: usize) -> Option<[usize; 3]> {
+        let count = self.primitive.topology.vertices_per_item();
         let indices = self.primitive.indices.get(item * count..(item + 1) * count)?;
         Some([0, 1, 2].map(|k: usize| indices[k.min(count - 1)] as usize))
     }
 
-    fn smooth_normal(&self, spot: &Spot) -> Option<DVec3> {
+    fn smooth_normal(&self, spot: &SurfacePoint) -> Option<DVec3> {
         let normals = self.posed.normals.as_deref()?;
-        let mut carried = [DVec3::ZERO; 3];
-        for (carried, vertex) in carried.iter_mut().zip(spot.vertices) {
-            let normal = turned(self.turn, *normals.get(vertex)?);
+        let mut vertex_normals = [DVec3::ZERO; 3];
+        for (carried, vertex) in vertex_normals.iter_mut().zip(spot.vertices) {
+            let normal = transform_normal(self.normal_to_world, *normals.get(vertex)?);
             *carried = DVec3::from_array(normal.map(f64::from));
         }
-        blend(carried, spot.weights).try_normalize()
+        interpolate(vertex_normals, spot.weights).try_normalize()
     }
 
-    fn uv(&self, spot: &Spot) -> [f64; 3] {
+    fn uv(&self, spot: &SurfacePoint) -> [f64; 3] {
         let Some(uvs) = self.uvs.as_deref() else { return [0.0; 3] };
         let uv = spot.vertices.map(|vertex| {
             let [u, v] = uvs.get(vertex).copied().unwrap_or_default();
             DVec3::new(u.into(), v.into(), 0.0)
         });
-        blend(uv, spot.weights).to_array()
+        interpolate(uv, spot.weights).to_array()
     }
 }
 
 /// A place on a primitive.
-struct Spot {
+struct SurfacePoint {
     vertices: [usize; 3],
     corners: [Point<World>; 3],
     weights: [f64; 3],
-    place: Point<World>,
+    position: Point<World>,
 }
 
-fn blend([a, b, c]: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
+fn interpolate([a, b, c]: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     a * weights[0] + b * weights[1] + c * weights[2]
 }
 
 /// The shares of a triangle's corners at a place of the picture, given as (x, y, 1) after the divide: the place is the sum of
 /// (x, y, w) of the corners times their shares, but for a factor. No share is negative; `None` if the triangle is seen edge-on.
-fn exact_weights(corners: [HPoint<Clip>; 3], place: DVec3) -> Option<[f64; 3]> {
+fn perspective_weights(corners: [HPoint<Clip>; 3], place: DVec3) -> Option<[f64; 3]> {
     let [p, q, r] = corners.map(|corner| DVec3::new(corner.x(), corner.y(), corner.w()));
-    let parts = [q.cross(r), r.cross(p), p.cross(q)].map(|normal| normal.dot(place));
-    let all = parts[0] + parts[1] + parts[2];
+    let edge_values = [q.cross(r), r.cross(p), p.cross(q)].map(|normal| normal.dot(place));
+    let total = edge_values[0] + edge_values[1] + edge_values[2];
     // Whichever way the corners run, the sum has the sign of the shares.
-    let shares = parts.map(|part| (part / all).max(0.0));
-    let sum = shares[0] + shares[1] + shares[2];
-    let shares = shares.map(|share| share / sum);
-    shares.iter().all(|share| share.is_finite()).then_some(shares)
+    let weights = edge_values.map(|part| (part / total).max(0.0));
+    let sum = weights[0] + weights[1] + weights[2];
+    let weights = weights.map(|share| share / sum);
+    weights.iter().all(|share| share.is_finite()).then_some(weights)
 }
 
 #[cfg(test)]
@@ -232,12 +240,13 @@ mod tests {
             let w = at(HPoint::w);
             let place = DVec3::new(at(HPoint::x) / w, at(HPoint::y) / w, 1.0);
             for turned in [[0, 1, 2], [0, 2, 1]] {
-                let found = exact_weights(turned.map(|k| corners[k]), place).expect("shares");
-                for (share, k) in found.into_iter().zip(turned) {
-                    assert!((share - due[k]).abs() < 1e-14, "{found:?} {due:?}");
+                let actual =
+                    perspective_weights(turned.map(|k| corners[k]), place).expect("shares");
+                for (share, k) in actual.into_iter().zip(turned) {
+                    assert!((share - due[k]).abs() < 1e-14, "{actual:?} {due:?}");
                 }
             }
         }
-        assert_eq!(exact_weights([corners[0]; 3], DVec3::Z), None, "no area");
+        assert_eq!(perspective_weights([corners[0]; 3], DVec3::Z), None, "no area");
     }
 }

@@ -3,21 +3,21 @@
 //! The format is NumPy's NPY 1.0 (numpy.lib.format): a magic word, the length of a Python literal that describes the array, the
 //! literal, padded so that the numbers begin at a multiple of 64 bytes, and the numbers themselves, the lowest byte first.
 
-use super::buffer::{PassBuffer, Values};
+use super::buffer::{PassBuffer, PassValues};
 use std::fmt::Write;
 
 impl PassBuffer {
     /// The pass as an NPY file: an array of rows × columns, or rows × columns × numbers, of f32 or u32.
     #[must_use]
     pub fn to_npy(&self) -> Vec<u8> {
-        let kind = if self.pass.is_whole() { "<u4" } else { "<f4" };
+        let type_code = if self.pass.is_integer() { "<u4" } else { "<f4" };
         let mut shape = format!("{}, {}", self.height, self.width);
         if self.pass.channels() > 1 {
             // Writing to a text does not fail.
             let _ = write!(shape, ", {}", self.pass.channels());
         }
         let mut header =
-            format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({shape}), }}");
+            format!("{{'descr': '{type_code}', 'fortran_order': False, 'shape': ({shape}), }}");
         // Ten bytes before it and a line break after it.
         let padding = (64 - (10 + header.len() + 1) % 64) % 64;
         header.extend(std::iter::repeat_n(' ', padding));
@@ -26,8 +26,10 @@ impl PassBuffer {
         bytes.extend((header.len() as u16).to_le_bytes());
         bytes.extend(header.as_bytes());
         match &self.values {
-            Values::Floats(values) => bytes.extend(values.iter().flat_map(|v| v.to_le_bytes())),
-            Values::Numbers(values) => bytes.extend(values.iter().flat_map(|v| v.to_le_bytes())),
+            PassValues::Floats(values) => bytes.extend(values.iter().flat_map(|v| v.to_le_bytes())),
+            PassValues::Integers(values) => {
+                bytes.extend(values.iter().flat_map(|v| v.to_le_bytes()))
+            }
         }
         bytes
     }
@@ -35,11 +37,11 @@ impl PassBuffer {
 
 #[cfg(test)]
 mod tests {
-    use super::super::kind::Pass;
+    use super::super::pass::Pass;
     use super::*;
 
     /// As numpy.lib.format reads a header of version 1.0.
-    fn read(bytes: &[u8]) -> (&str, &[u8]) {
+    fn parse_npy(bytes: &[u8]) -> (&str, &[u8]) {
         assert_eq!(&bytes[..8], b"\x93NUMPY\x01\x00");
         let length = usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
         let header = std::str::from_utf8(&bytes[10..10 + length]).expect("ASCII");
@@ -49,16 +51,16 @@ mod tests {
 
     #[test]
     fn headers_are_as_numpy_has_them() {
-        let values = Values::Floats((0..30).map(|n| n as f32 * 0.5).collect());
+        let values = PassValues::Floats((0..30).map(|n| n as f32 * 0.5).collect());
         let normal = PassBuffer { pass: Pass::Normal, width: 5, height: 2, values };
         let bytes = normal.to_npy();
-        let (header, data) = read(&bytes);
+        let (header, data) = parse_npy(&bytes);
         assert_eq!(header, "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 5, 3), }");
         assert_eq!(data.len(), 120);
         assert_eq!(data[4..8], 0.5_f32.to_le_bytes());
-        let values = Values::Numbers(vec![1, 70_000]);
+        let values = PassValues::Integers(vec![1, 70_000]);
         let bytes = PassBuffer { pass: Pass::Id, width: 2, height: 1, values }.to_npy();
-        let (header, data) = read(&bytes);
+        let (header, data) = parse_npy(&bytes);
         assert_eq!(header, "{'descr': '<u4', 'fortran_order': False, 'shape': (1, 2), }");
         assert_eq!(data[4..], 70_000_u32.to_le_bytes());
     }

@@ -10,80 +10,89 @@
 //!
 //! Least and greatest are those of the file. They stand in its text chunk `Description`, with the pass and its unit.
 
-use super::buffer::{PassBuffer, Values};
-use super::kind::Pass;
+use super::buffer::{PassBuffer, PassValues};
+use super::pass::Pass;
 use png::{BitDepth, ColorType, Compression, Encoder};
 use std::fmt::Write;
 
 /// The greatest code.
-const MOST: f64 = 65_535.0;
+const MAX_CODE: f64 = 65_535.0;
 
 impl PassBuffer {
     /// The pass as a PNG file of 16 bits: grey for one number, else red, green and blue.
     #[must_use]
     pub fn to_png(&self) -> Vec<u8> {
         match &self.values {
-            Values::Floats(values) => self.png_of_floats(values),
-            Values::Numbers(values) => self.png_of_numbers(values),
+            PassValues::Floats(values) => self.floats_to_png(values),
+            PassValues::Integers(values) => self.integers_to_png(values),
         }
     }
 
-    fn png_of_floats(&self, values: &[f32]) -> Vec<u8> {
+    fn floats_to_png(&self, values: &[f32]) -> Vec<u8> {
         let count = self.pass.channels();
-        let mut text = format!("{}: {}", self.pass.name(), unit(self.pass));
-        let ranges: Vec<Range> = (0..count).map(|k| self.range(values, k, &mut text)).collect();
+        let mut text = format!("{}: {}", self.pass.name(), unit_description(self.pass));
+        let ranges: Vec<CodeRange> =
+            (0..count).map(|k| self.code_range(values, k, &mut text)).collect();
         let mut codes = Vec::with_capacity(values.len() / count * 3);
         for pixel in values.chunks_exact(count) {
-            let nothing = pixel.iter().all(|value| *value == self.pass.nothing());
-            let code = |(value, range): (&f32, &Range)| {
-                if nothing { 0 } else { range.code(f64::from(*value)) }
+            let is_empty = pixel.iter().all(|value| *value == self.pass.empty_value());
+            let code = |(value, range): (&f32, &CodeRange)| {
+                if is_empty { 0 } else { range.encode_value(f64::from(*value)) }
             };
             codes.extend(pixel.iter().zip(&ranges).map(code));
             codes.extend((count == 2).then_some(0));
         }
-        self.png(&codes, if count == 1 { ColorType::Grayscale } else { ColorType::Rgb }, &text)
+        self.write_png16(
+            &codes,
+            if count == 1 { ColorType::Grayscale } else { ColorType::Rgb },
+            &text,
+        )
     }
 
     /// What the codes of a channel mean, and adds it to the text.
-    fn range(&self, values: &[f32], channel: usize, text: &mut String) -> Range {
+    fn code_range(&self, values: &[f32], channel: usize, text: &mut String) -> CodeRange {
         match self.pass {
-            Pass::Normal | Pass::ViewNormal => return Range { from: -1.0, to: 1.0, first: 0.0 },
-            Pass::Barycentric | Pass::Coverage => return Range { from: 0.0, to: 1.0, first: 0.0 },
+            Pass::Normal | Pass::ViewNormal => {
+                return CodeRange { min: -1.0, max: 1.0, first_code: 0.0 };
+            }
+            Pass::Barycentric | Pass::Coverage => {
+                return CodeRange { min: 0.0, max: 1.0, first_code: 0.0 };
+            }
             _ => {}
         }
         let count = self.pass.channels();
         let pixels = values.chunks_exact(count);
-        let seen = pixels.filter(|pixel| pixel.iter().any(|v| *v != self.pass.nothing()));
+        let covered = pixels.filter(|pixel| pixel.iter().any(|v| *v != self.pass.empty_value()));
         let empty = (f32::INFINITY, f32::NEG_INFINITY);
-        let (from, to) = seen
+        let (from, to) = covered
             .map(|pixel| pixel[channel])
             .fold(empty, |(least, most), value| (least.min(value), most.max(value)));
         let (from, to) = if from <= to { (from, to) } else { (0.0, 0.0) };
         // Writing to a text does not fail.
         let _ = write!(text, "; channel {}: 1 is {from}, 65535 is {to}", channel + 1);
-        Range { from: from.into(), to: to.into(), first: 1.0 }
+        CodeRange { min: from.into(), max: to.into(), first_code: 1.0 }
     }
 
-    fn png_of_numbers(&self, values: &[u32]) -> Vec<u8> {
-        let text = format!("{}: {}", self.pass.name(), unit(self.pass));
+    fn integers_to_png(&self, values: &[u32]) -> Vec<u8> {
+        let text = format!("{}: {}", self.pass.name(), unit_description(self.pass));
         if values.iter().all(|value| *value <= 65_535) {
             let codes: Vec<u16> = values.iter().map(|value| *value as u16).collect();
-            return self.png(&codes, ColorType::Grayscale, &text);
+            return self.write_png16(&codes, ColorType::Grayscale, &text);
         }
         let codes = values.iter().flat_map(|value| [(value >> 16) as u16, *value as u16, 0]);
         let text = format!("{text}; red times 65536 and green");
-        self.png(&codes.collect::<Vec<_>>(), ColorType::Rgb, &text)
+        self.write_png16(&codes.collect::<Vec<_>>(), ColorType::Rgb, &text)
     }
 
-    fn png(&self, codes: &[u16], color: ColorType, text: &str) -> Vec<u8> {
+    fn write_png16(&self, codes: &[u16], color: ColorType, text: &str) -> Vec<u8> {
         let mut bytes = Vec::new();
         let mut encoder = Encoder::new(&mut bytes, self.width, self.height);
         encoder.set_color(color);
         encoder.set_depth(BitDepth::Sixteen);
         encoder.set_compression(Compression::Fast);
-        let said = encoder.add_text_chunk("Description".to_owned(), text.to_owned());
+        let text_result = encoder.add_text_chunk("Description".to_owned(), text.to_owned());
         let data: Vec<u8> = codes.iter().flat_map(|code| code.to_be_bytes()).collect();
-        let written = said
+        let written = text_result
             .and_then(|()| encoder.write_header())
             .and_then(|mut writer| writer.write_image_data(&data));
         debug_assert!(written.is_ok(), "a pass has width x height pixels: {written:?}");
@@ -92,23 +101,23 @@ impl PassBuffer {
 }
 
 /// The numbers that the first and the last code stand for.
-struct Range {
-    from: f64,
-    to: f64,
+struct CodeRange {
+    min: f64,
+    max: f64,
     /// The first code that stands for a number: 0, or 1 if 0 is nothing.
-    first: f64,
+    first_code: f64,
 }
 
-impl Range {
-    fn code(&self, value: f64) -> u16 {
-        let width = self.to - self.from;
-        let share = if width > 0.0 { (value - self.from) / width } else { 0.0 };
-        (self.first + share.clamp(0.0, 1.0) * (MOST - self.first) + 0.5) as u16
+impl CodeRange {
+    fn encode_value(&self, value: f64) -> u16 {
+        let width = self.max - self.min;
+        let fraction = if width > 0.0 { (value - self.min) / width } else { 0.0 };
+        (self.first_code + fraction.clamp(0.0, 1.0) * (MAX_CODE - self.first_code) + 0.5) as u16
     }
 }
 
 /// What the numbers of a pass are, for people.
-const fn unit(pass: Pass) -> &'static str {
+const fn unit_description(pass: Pass) -> &'static str {
     match pass {
         Pass::Depth => "scene units ahead of the eye along the view axis; 0 is nothing",
         Pass::Distance => "scene units from the eye; 0 is nothing",
@@ -131,7 +140,7 @@ const fn unit(pass: Pass) -> &'static str {
 mod tests {
     use super::*;
 
-    fn decoded(bytes: &[u8]) -> (Vec<u16>, ColorType, String) {
+    fn decode_png(bytes: &[u8]) -> (Vec<u16>, ColorType, String) {
         let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().expect("a PNG");
         let mut data = vec![0; reader.output_buffer_size().expect("a small file")];
         reader.next_frame(&mut data).expect("pixels");
@@ -142,9 +151,9 @@ mod tests {
 
     #[test]
     fn depths_run_from_one_to_the_last_code_and_nothing_is_zero() {
-        let values = Values::Floats(vec![f32::INFINITY, 2.0, 6.0, 3.0]);
+        let values = PassValues::Floats(vec![f32::INFINITY, 2.0, 6.0, 3.0]);
         let buffer = PassBuffer { pass: Pass::Depth, width: 2, height: 2, values };
-        let (codes, color, text) = decoded(&buffer.to_png());
+        let (codes, color, text) = decode_png(&buffer.to_png());
         assert_eq!(codes, [0, 1, 65_535, 1 + 65_534 / 4 + 1]);
         assert_eq!(color, ColorType::Grayscale);
         assert!(text.ends_with("channel 1: 1 is 2, 65535 is 6"), "{text}");
@@ -152,11 +161,11 @@ mod tests {
 
     #[test]
     fn normals_and_large_numbers_take_three_channels() {
-        let values = Values::Floats(vec![-1.0, 0.0, 1.0]);
+        let values = PassValues::Floats(vec![-1.0, 0.0, 1.0]);
         let buffer = PassBuffer { pass: Pass::Normal, width: 1, height: 1, values };
-        assert_eq!(decoded(&buffer.to_png()).0, [0, 32_768, 65_535]);
-        let values = Values::Numbers(vec![65_536 * 3 + 7]);
+        assert_eq!(decode_png(&buffer.to_png()).0, [0, 32_768, 65_535]);
+        let values = PassValues::Integers(vec![65_536 * 3 + 7]);
         let buffer = PassBuffer { pass: Pass::Id, width: 1, height: 1, values };
-        assert_eq!(decoded(&buffer.to_png()).0, [3, 7, 0]);
+        assert_eq!(decode_png(&buffer.to_png()).0, [3, 7, 0]);
     }
 }

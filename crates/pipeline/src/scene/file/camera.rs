@@ -44,7 +44,7 @@ pub enum ViewFile {
         /// Where from. Default: `ThreeQuarter`, and `Front` for classical projections.
         from: Option<FromFile>,
         /// The margin on each side, in per cent of the picture's side. Default: 5.
-        #[serde(default = "usual_padding")]
+        #[serde(default = "default_padding")]
         padding_percent: NonNegative,
     },
     /// A camera of the first model that has cameras.
@@ -53,15 +53,15 @@ pub enum ViewFile {
 
 impl Default for ViewFile {
     fn default() -> Self {
-        Self::Frame { from: None, padding_percent: USUAL_PADDING }
+        Self::Frame { from: None, padding_percent: DEFAULT_PADDING }
     }
 }
 
 /// The margin, in per cent, of framed pictures that name none.
-pub const USUAL_PADDING: NonNegative = NonNegative::FIVE;
+pub const DEFAULT_PADDING: NonNegative = NonNegative::FIVE;
 
-fn usual_padding() -> NonNegative {
-    USUAL_PADDING
+fn default_padding() -> NonNegative {
+    DEFAULT_PADDING
 }
 
 /// The direction a picture is framed from.

@@ -56,7 +56,7 @@ impl EnvironmentFile {
 
     /// The picture in a file, as it is.
     #[must_use]
-    pub const fn of_file(path: String) -> Self {
+    pub const fn from_path(path: String) -> Self {
         Self::File { path, strength: NonNegative::ONE, rotate_degrees: None }
     }
 }

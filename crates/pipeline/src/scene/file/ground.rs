@@ -18,5 +18,5 @@ pub enum GroundFile {
 
 impl GroundFile {
     /// The ground with every default.
-    pub const USUAL: Self = Self::Shadow { height: None };
+    pub const DEFAULT: Self = Self::Shadow { height: None };
 }

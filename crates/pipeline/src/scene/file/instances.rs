@@ -28,7 +28,7 @@ pub enum InstancesFile {
         #[serde(default)]
         start_degrees: Finite,
         /// The angle that the copies divide: of a whole turn the last is one step before the first, else it is at the end. Default: 360.
-        #[serde(default = "whole_turn")]
+        #[serde(default = "full_circle")]
         sweep_degrees: Finite,
         /// Whether each copy turns with its place, so that all show the same side to the middle. Default: true.
         #[serde(default = "yes")]
@@ -50,7 +50,7 @@ pub struct InstanceFile {
     pub scale: Scale,
 }
 
-fn whole_turn() -> Finite {
+fn full_circle() -> Finite {
     Finite::known(360.0)
 }
 

@@ -8,7 +8,7 @@ use serde::Deserialize;
 #[serde(rename = "Lines", deny_unknown_fields, default)]
 pub struct LinesFile {
     /// Which lines are drawn. Default: `Features`.
-    pub shown: ShownFile,
+    pub shown: EdgeSelectionFile,
     /// What becomes of hidden lines. Default: `Removed`.
     pub hidden: HiddenFile,
     /// Faces that meet at more than this angle have an edge between them. Default: 30.
@@ -27,13 +27,13 @@ pub struct LinesFile {
     /// `sections`, and the closest on faces with `tone: Hatching`. Default: 2.
     pub hatch_mm: Spacing,
     /// What is on the faces under the lines. Default: `Blank`.
-    pub tone: ToneFile,
+    pub tone: FaceFillFile,
 }
 
 impl Default for LinesFile {
     fn default() -> Self {
         Self {
-            shown: ShownFile::Features,
+            shown: EdgeSelectionFile::Features,
             hidden: HiddenFile::Removed,
             crease_degrees: Crease::USUAL,
             depth_cue_percent: Percent::ZERO,
@@ -42,7 +42,7 @@ impl Default for LinesFile {
             cap: CapFile::Round,
             join: JoinFile::Round,
             hatch_mm: Spacing::USUAL,
-            tone: ToneFile::Blank,
+            tone: FaceFillFile::Blank,
         }
     }
 }
@@ -50,7 +50,7 @@ impl Default for LinesFile {
 /// Which lines are drawn.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
 #[serde(rename = "Shown")]
-pub enum ShownFile {
+pub enum EdgeSelectionFile {
     /// The sides of all triangles.
     Facets,
     /// Outlines, borders, creases, and where bodies cross.
@@ -88,13 +88,13 @@ pub enum WidthFile {
 
 impl WidthFile {
     /// 0.5 mm and 0.25 mm.
-    pub const USUAL_ISO: Self = Self::Iso(Positive::known(0.5));
+    pub const DEFAULT_ISO: Self = Self::Iso(Positive::known(0.5));
 }
 
 /// What is on the faces under the lines.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Deserialize)]
 #[serde(rename = "Tone")]
-pub enum ToneFile {
+pub enum FaceFillFile {
     /// Nothing: the paper.
     #[default]
     Blank,

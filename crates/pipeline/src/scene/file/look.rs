@@ -1,7 +1,7 @@
 //! How a scene file wants its picture: the style, the size, the background.
 
 use super::background::BackgroundFile;
-use super::lines::{HiddenFile, LinesFile, ShownFile, WidthFile};
+use super::lines::{EdgeSelectionFile, HiddenFile, LinesFile, WidthFile};
 use crate::scene::number::{Finite, Percent};
 use serde::Deserialize;
 
@@ -41,35 +41,35 @@ pub enum StyleFile {
 impl StyleFile {
     /// Hidden lines removed.
     #[must_use]
-    pub fn removed() -> Self {
+    pub fn lines_hidden_removed() -> Self {
         Self::Lines(LinesFile::default())
     }
 
     /// Hidden lines dashed.
     #[must_use]
-    pub fn dashed() -> Self {
+    pub fn lines_hidden_dashed() -> Self {
         Self::Lines(LinesFile { hidden: HiddenFile::Dashed, ..LinesFile::default() })
     }
 
     /// The outline alone.
     #[must_use]
-    pub fn silhouette() -> Self {
-        Self::Lines(LinesFile { shown: ShownFile::Silhouette, ..LinesFile::default() })
+    pub fn lines_silhouette() -> Self {
+        Self::Lines(LinesFile { shown: EdgeSelectionFile::Silhouette, ..LinesFile::default() })
     }
 
     /// A wireframe that is paler the farther away it is.
     #[must_use]
-    pub fn depth_cued() -> Self {
-        let (shown, hidden) = (ShownFile::Facets, HiddenFile::Drawn);
+    pub fn lines_depth_cued() -> Self {
+        let (shown, hidden) = (EdgeSelectionFile::Facets, HiddenFile::Drawn);
         let depth_cue_percent = Percent::EIGHTY;
         Self::Lines(LinesFile { shown, hidden, depth_cue_percent, ..LinesFile::default() })
     }
 
     /// Visible, hidden and tangent edges with the line types and widths of ISO 128.
     #[must_use]
-    pub fn technical() -> Self {
+    pub fn lines_technical() -> Self {
         let (shown, hidden, width) =
-            (ShownFile::Tangents, HiddenFile::Dashed, WidthFile::USUAL_ISO);
+            (EdgeSelectionFile::Tangents, HiddenFile::Dashed, WidthFile::DEFAULT_ISO);
         Self::Lines(LinesFile { shown, hidden, width, ..LinesFile::default() })
     }
 }

@@ -24,5 +24,5 @@ pub enum ShadowsFile {
 
 impl ShadowsFile {
     /// Shadows with every default.
-    pub const USUAL: Self = Self::On { size: None, softness_degrees: None };
+    pub const DEFAULT: Self = Self::On { size: None, softness_degrees: None };
 }

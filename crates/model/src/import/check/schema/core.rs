@@ -4,21 +4,21 @@ use super::Collection::{
     Accessors, AnimationSamplers, BufferViews, Buffers, Cameras, Images, Materials, Meshes, Nodes,
     Samplers, Scenes, Skins, Textures,
 };
-use super::Kind::{
+use super::ValueKind::{
     Any, Attributes, Choice, Flag, Index, Indices, Integer, Number, Numbers, Objects, Targets,
     Text, Texts, Version, Word,
 };
 use super::{ANY, NOT_NEGATIVE, Object, POSITIVE, SIGNED_UNIT, UNIT, either, may, must, not, with};
 
 const MOST: u64 = u64::MAX;
-const NAME: super::Member = may("name", Text);
+const NAME: super::MemberSchema = may("name", Text);
 
-const fn object(name: &'static str, members: &'static [super::Member]) -> Object {
+const fn object(name: &'static str, members: &'static [super::MemberSchema]) -> Object {
     Object { name, members }
 }
 
-const fn one(object: &'static Object) -> super::Kind {
-    super::Kind::Object(object)
+const fn one(object: &'static Object) -> super::ValueKind {
+    super::ValueKind::Object(object)
 }
 
 pub(in super::super) static ROOT: Object = object(
@@ -277,4 +277,4 @@ static TEXTURE: Object =
     object("texture", &[may("sampler", Index(Samplers)), may("source", Index(Images)), NAME]);
 
 /// What is not described further.
-pub(super) const UNKNOWN: super::Kind = Any;
+pub(super) const UNKNOWN: super::ValueKind = Any;

@@ -4,15 +4,16 @@
 //! such as KHR_mesh_quantization, has none here either and may be in nothing.
 
 use super::Collection::{Accessors, BufferViews, Buffers, Images, Lights, Materials, Variants};
-use super::Kind::{
+use super::ValueKind::{
     Flag, Index, Indices, Integer, Number, Numbers, Object as One, Objects, Text, Word,
 };
 use super::core::{NORMAL_TEXTURE, TEXTURE_INFO, UNKNOWN};
-use super::{ANY, NOT_NEGATIVE, Object, POSITIVE, Range, UNIT, may, must};
+use super::{ANY, NOT_NEGATIVE, NumberRange, Object, POSITIVE, UNIT, may, must};
 
 const MOST: u64 = u64::MAX;
-const ABOVE_ONE: Range = Range { least: 1.0, ..ANY };
-const QUARTER_TURN: Range = Range { least: 0.0, most: std::f64::consts::FRAC_PI_2, above: false };
+const ABOVE_ONE: NumberRange = NumberRange { min: 1.0, ..ANY };
+const QUARTER_TURN: NumberRange =
+    NumberRange { min: 0.0, max: std::f64::consts::FRAC_PI_2, exclusive_min: false };
 
 /// An extension's object: the extension's name, the object it is in, and its members.
 pub(in super::super) struct Place {
@@ -33,7 +34,7 @@ macro_rules! places {
 
 places! {
     CESIUM_primitive_outline in "primitive": [may("indices", Index(Accessors))];
-    EXT_mesh_gpu_instancing in "node": [must("attributes", super::Kind::Attributes)];
+    EXT_mesh_gpu_instancing in "node": [must("attributes", super::ValueKind::Attributes)];
     EXT_mesh_primitive_edge_visibility in "primitive": [
         may("visibility", Index(Accessors)),
         may("material", Index(Materials)),
@@ -142,7 +143,7 @@ places! {
 }
 
 /// An index of refraction is 0, for "as for metals", or at least 1; what is between is found with the materials.
-const IOR: Range = NOT_NEGATIVE;
+const IOR: NumberRange = NOT_NEGATIVE;
 
 static LIGHT: Object = Object {
     name: "light",
@@ -160,7 +161,7 @@ static SPOT: Object = Object {
     name: "spot",
     members: &[
         may("innerConeAngle", Number(QUARTER_TURN)),
-        may("outerConeAngle", Number(Range { above: true, ..QUARTER_TURN })),
+        may("outerConeAngle", Number(NumberRange { exclusive_min: true, ..QUARTER_TURN })),
     ],
 };
 

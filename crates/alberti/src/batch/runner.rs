@@ -1,0 +1,114 @@
+//! Doing the jobs: several at a time, each with one thread, none of which can stop the others.
+
+use super::jobs::BatchJob;
+use super::report::{BatchReport, DONE, DONE_BEFORE, FAILED, JobRecord};
+use super::{BatchArgs, key::content_key};
+use crate::CliError;
+use crate::progress::ProgressCounter;
+use crate::render::open_input;
+use pipeline::scene::ResolveOptions;
+use pipeline::{Scene, Timings, render_reported};
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+/// How the jobs are to be done.
+pub(super) struct BatchRun<'a> {
+    pub(super) args: &'a BatchArgs,
+    pub(super) settings: &'a str,
+    /// What earlier runs did.
+    pub(super) earlier: &'a [JobRecord],
+    pub(super) threads: usize,
+}
+
+impl BatchRun<'_> {
+    /// Does the jobs that are not done, and tells of all in their order.
+    pub(super) fn run_jobs(&self, jobs: &[&BatchJob], report: &BatchReport) -> Vec<JobRecord> {
+        let before: BTreeMap<&str, &JobRecord> = self
+            .earlier
+            .iter()
+            .filter(|record| record.status != FAILED)
+            .map(|record| (record.output.as_str(), record))
+            .collect();
+        let counter = ProgressCounter::start(jobs.len());
+        let (next, results) = (AtomicUsize::new(0), Mutex::new(BTreeMap::new()));
+        let work = || {
+            loop {
+                let at = next.fetch_add(1, Ordering::Relaxed);
+                let Some(job) = jobs.get(at) else { break };
+                let record = self.run_job(job, before.get(job.output.as_str()).copied());
+                report.append_record(&record);
+                counter.increment();
+                if let Ok(mut results) = results.lock() {
+                    results.insert(at, record);
+                }
+            }
+        };
+        std::thread::scope(|scope| {
+            for _ in 1..self.threads.min(jobs.len()) {
+                scope.spawn(work);
+            }
+            work();
+        });
+        results.into_inner().map(|all| all.into_values().collect()).unwrap_or_default()
+    }
+
+    fn run_job(&self, job: &BatchJob, before: Option<&JobRecord>) -> JobRecord {
+        let key = content_key(
+            &job.input,
+            self.settings,
+            &self.args.load_options.import_options().allow_outside,
+        );
+        let output = self.args.out.join(&job.output);
+        if let Some(before) = before.filter(|before| before.key == key && output.is_file()) {
+            return JobRecord { status: DONE_BEFORE.to_owned(), ..before.clone() };
+        }
+        let begin = Instant::now();
+        let work = AssertUnwindSafe(|| self.render_picture(&job.input, &output));
+        let result = catch_unwind(work).unwrap_or_else(|_| {
+            Err(CliError::Usage(
+                "the program failed; this is a fault of its own, please report it".to_owned(),
+            ))
+        });
+        let (status, warnings, message) = match result {
+            Ok(warnings) => (DONE, warnings.len(), warnings.into_iter().next().unwrap_or_default()),
+            Err(failure) => (FAILED, 0, failure.to_string()),
+        };
+        JobRecord {
+            input: job.input.to_string_lossy().into_owned(),
+            output: job.output.clone(),
+            status: status.to_owned(),
+            key,
+            seconds: begin.elapsed().as_secs_f64(),
+            warnings,
+            message,
+        }
+    }
+
+    /// Makes one picture; gives the warnings.
+    fn render_picture(&self, input: &Path, output: &Path) -> Result<Vec<String>, CliError> {
+        let (origin, mut file) =
+            open_input(input, &self.args.overrides.import_options(&self.args.load_options))?;
+        self.args.overrides.apply_to(&mut file);
+        let scene = Scene::resolve(
+            &origin,
+            &file,
+            &ResolveOptions { import: self.args.overrides.import_options(&self.args.load_options) },
+        )?;
+        let (picture, drawing) = render_reported(&scene, 1, &Timings::default())?;
+        let png = picture.to_png();
+        if let Some(folder) = output.parent() {
+            let fault = |cause| {
+                CliError::Usage(format!("cannot make the folder {}: {cause}", folder.display()))
+            };
+            std::fs::create_dir_all(folder).map_err(fault)?;
+        }
+        pipeline::write_file(output, &png)?;
+        let warnings = scene.models.iter().flat_map(|placed| &placed.model.warnings);
+        let warnings = warnings.map(|warning| format!("{}: {}", warning.pointer, warning.message));
+        Ok(warnings.chain(drawing.iter().map(ToString::to_string)).collect())
+    }
+}

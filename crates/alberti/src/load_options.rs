@@ -1,0 +1,144 @@
+//! Flags about how models are loaded: how large they may be, where their files may lie, what is done with broken ones.
+
+use model::import::{ImportOptions, Limits};
+use std::path::PathBuf;
+
+/// How models are loaded.
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Loading")]
+pub(crate) struct LoadArgs {
+    /// Load what can be loaded: leave out what is broken, missing or unknown, and say so
+    #[arg(long)]
+    lenient: bool,
+    /// Let files lie below this folder too, besides the scene's and the model's own; may be given several times
+    #[arg(long, value_name = "DIR")]
+    allow_outside: Vec<PathBuf>,
+    #[command(flatten)]
+    limits: LimitArgs,
+}
+
+/// The largest sizes that are accepted: a flag for each field of [`Limits`], with the same name.
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Limits (numbers may end in k, M, G, Ki, Mi, Gi, and B for bytes)")]
+struct LimitArgs {
+    /// Bytes of any one file [default: 512MiB]
+    #[arg(long, value_name = "SIZE", value_parser = parse_size)]
+    max_file_bytes: Option<u64>,
+    /// Bytes of all files of a model [default: 2GiB]
+    #[arg(long, value_name = "SIZE", value_parser = parse_size)]
+    max_total_bytes: Option<u64>,
+    /// Levels of brackets in the JSON, up to 127 [default: 120]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=127))]
+    max_json_depth: Option<u64>,
+    /// Values in the JSON, an object counted as ten [default: 16M]
+    #[arg(long, value_name = "N", value_parser = parse_size)]
+    max_json_values: Option<u64>,
+    /// Bytes of all arrays made of a model [default: 4GiB]
+    #[arg(long, value_name = "SIZE", value_parser = parse_size)]
+    max_array_bytes: Option<u64>,
+    /// How many times larger than the files these arrays may be [default: 64]
+    #[arg(long, value_name = "N", value_parser = parse_size)]
+    max_array_growth: Option<u64>,
+    /// Width and height of an image [default: 16384]
+    #[arg(long, value_name = "N", value_parser = parse_size)]
+    max_image_side: Option<u64>,
+    /// Texels of all images of a model [default: 256Mi]
+    #[arg(long, value_name = "N", value_parser = parse_size)]
+    max_image_texels: Option<u64>,
+    /// Nodes [default: 1M]
+    #[arg(long, value_name = "N", value_parser = parse_size)]
+    max_nodes: Option<u64>,
+    /// Levels of the node tree [default: 1024]
+    #[arg(long, value_name = "N", value_parser = parse_size)]
+    max_node_depth: Option<u64>,
+    /// Points, lines and triangles of a model, each as often as it is shown [default: 200M]
+    #[arg(long, value_name = "N", value_parser = parse_size)]
+    max_scene_items: Option<u64>,
+}
+
+impl LoadArgs {
+    /// What the flags say, in the library's words.
+    pub(crate) fn import_options(&self) -> ImportOptions {
+        ImportOptions {
+            limits: self.limits.to_limits(),
+            allow_outside: self.allow_outside.clone(),
+            lenient: self.lenient,
+            ..ImportOptions::default()
+        }
+    }
+}
+
+impl LimitArgs {
+    fn to_limits(&self) -> Limits {
+        let defaults = Limits::default();
+        let size = |flag: Option<u64>, usual: usize| {
+            flag.map_or(usual, |number| usize::try_from(number).unwrap_or(usize::MAX))
+        };
+        let side = |number: u64| u32::try_from(number).unwrap_or(u32::MAX);
+        Limits {
+            file_bytes: self.max_file_bytes.unwrap_or(defaults.file_bytes),
+            total_bytes: self.max_total_bytes.unwrap_or(defaults.total_bytes),
+            json_depth: size(self.max_json_depth, defaults.json_depth),
+            json_values: size(self.max_json_values, defaults.json_values),
+            array_bytes: self.max_array_bytes.unwrap_or(defaults.array_bytes),
+            array_growth: self.max_array_growth.unwrap_or(defaults.array_growth),
+            image_side: self.max_image_side.map_or(defaults.image_side, side),
+            image_texels: self.max_image_texels.unwrap_or(defaults.image_texels),
+            nodes: size(self.max_nodes, defaults.nodes),
+            node_depth: size(self.max_node_depth, defaults.node_depth),
+            scene_items: self.max_scene_items.unwrap_or(defaults.scene_items),
+        }
+    }
+}
+
+/// A whole number with a unit, such as `512MiB`, `200M` or `1_000`.
+fn parse_size(text: &str) -> Result<u64, String> {
+    let fault = || "expected a whole number such as 4096, 64k, 200M, 512MiB or 1GiB".to_owned();
+    let start = text.find(|c: char| !c.is_ascii_digit() && c != '_').unwrap_or(text.len());
+    let (digits, unit) = text.split_at(start);
+    let number: u64 = digits.replace('_', "").parse().map_err(|_| fault())?;
+    let unit = unit.trim_start().trim_end_matches(['B', 'b']).to_ascii_lowercase();
+    let factor = match unit.as_str() {
+        "" => 1,
+        "k" => 1_000,
+        "m" => 1_000_000,
+        "g" => 1_000_000_000,
+        "ki" => 1 << 10,
+        "mi" => 1 << 20,
+        "gi" => 1 << 30,
+        _ => return Err(fault()),
+    };
+    number.checked_mul(factor).ok_or_else(|| format!("{text} is too large a number"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_with_units() {
+        for (text, number) in [
+            ("0", 0),
+            ("1_000", 1_000),
+            ("64k", 64_000),
+            ("5 MB", 5_000_000),
+            ("512MiB", 512 << 20),
+            ("1GiB", 1 << 30),
+            ("2Ki", 2_048),
+        ] {
+            assert_eq!(parse_size(text), Ok(number), "{text}");
+        }
+        for wrong in [
+            "",
+            "k",
+            "1.5G",
+            "-1",
+            "3 apples",
+            "1TiB",
+            "99999999999999999999",
+            "18446744073709551615k",
+        ] {
+            assert!(parse_size(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! Which pictures a call of `render` makes, and where each goes. All of it is known before work starts.
+
+use crate::CliError;
+use crate::args::RenderArgs;
+use crate::format::OutputFormat;
+use crate::scene_overrides::SceneOverrideArgs;
+use crate::template::NameTemplate;
+use clap::ValueEnum;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// The words and the numbers that the name of an output may have.
+const WORD_FIELDS: [&str; 6] = ["stem", "camera", "view", "style", "projection", "variant"];
+const NUMBER_FIELDS: [&str; 2] = ["frame", "index"];
+
+/// A picture to make.
+#[derive(Debug)]
+pub(crate) struct RenderTask {
+    /// The scene or the model; `-` for the standard input.
+    pub(crate) input: PathBuf,
+    pub(crate) overrides: SceneOverrideArgs,
+    pub(crate) format: OutputFormat,
+    /// The file; `None` for the standard output.
+    pub(crate) output: Option<PathBuf>,
+}
+
+/// Every picture, in the order of the inputs and of the views.
+///
+/// # Errors
+/// If a name is no template, or two pictures have the same one.
+pub(super) fn plan_tasks(args: &RenderArgs) -> Result<Vec<RenderTask>, CliError> {
+    let looks = overrides_per_view(args);
+    let count = args.inputs.len() * looks.len();
+    let to_stdout = args.output.as_deref() == Some(Path::new("-"));
+    if to_stdout && count > 1 {
+        return Err(CliError::Usage(format!(
+            "{count} pictures do not go to the standard output together\n  = help: write a template such as -o '{{stem}}.png'"
+        )));
+    }
+    let template = output_template(args)?;
+    let mut jobs = Vec::new();
+    for input in &args.inputs {
+        for (frame, look) in looks.iter().enumerate() {
+            let output = template.expand_fields(
+                |name| template_word(name, input, look),
+                |name| {
+                    if name == "frame" { frame } else { jobs.len() }
+                },
+            );
+            let format = match (args.format, to_stdout) {
+                (Some(format), _) => format,
+                (None, true) => OutputFormat::Png,
+                (None, false) => OutputFormat::from_path(&output)?,
+            };
+            let output = (!to_stdout).then_some(output);
+            jobs.push(RenderTask { input: input.clone(), overrides: look.clone(), format, output });
+        }
+    }
+    check_distinct_outputs(&jobs)?;
+    Ok(jobs)
+}
+
+/// A look for each view that is asked for.
+fn overrides_per_view(args: &RenderArgs) -> Vec<SceneOverrideArgs> {
+    if args.views.is_empty() {
+        return vec![args.overrides.clone()];
+    }
+    let from = |&view| {
+        let mut look = args.overrides.clone();
+        look.view = Some(view);
+        look
+    };
+    args.views.iter().map(from).collect()
+}
+
+/// The output that is asked for, or the usual one.
+fn output_template(args: &RenderArgs) -> Result<NameTemplate, CliError> {
+    let ending = args.format.unwrap_or(OutputFormat::Png).extension();
+    let usual = if args.views.len() > 1 {
+        format!("{{stem}}_{{view}}.{ending}")
+    } else {
+        format!("{{stem}}.{ending}")
+    };
+    let given = args.output.as_ref().map(|output| output.to_string_lossy().into_owned());
+    NameTemplate::parse(&given.unwrap_or(usual), &WORD_FIELDS, &NUMBER_FIELDS)
+        .map_err(CliError::Usage)
+}
+
+/// What stands for a field of a template.
+fn template_word(name: &str, input: &Path, look: &SceneOverrideArgs) -> String {
+    let choice = |choice: &Option<pipeline::scene::file::Choice>| {
+        choice.as_ref().map(|choice| match choice {
+            pipeline::scene::file::Choice::Index(at) => at.to_string(),
+            pipeline::scene::file::Choice::Name(name) => name.clone(),
+        })
+    };
+    let flag = |value: Option<clap::builder::PossibleValue>| {
+        value.map(|value| value.get_name().to_owned())
+    };
+    let word = match name {
+        "stem" if input.as_os_str() == "-" => Some("stdin".to_owned()),
+        "stem" => input.file_stem().map(|stem| stem.to_string_lossy().into_owned()),
+        "camera" => look.camera.clone(),
+        "view" => look.view.map(|view| view.name().to_owned()),
+        "style" => flag(look.style.and_then(|style| style.to_possible_value())),
+        "projection" => flag(look.projection.and_then(|projection| projection.to_possible_value())),
+        "variant" => choice(&look.model_state.variant),
+        _ => None,
+    };
+    word.unwrap_or_else(|| "default".to_owned())
+}
+
+/// No two pictures may go to one file.
+fn check_distinct_outputs(jobs: &[RenderTask]) -> Result<(), CliError> {
+    let mut taken: BTreeMap<&Path, &RenderTask> = BTreeMap::new();
+    for job in jobs {
+        let Some(output) = job.output.as_deref() else { continue };
+        if let Some(first) = taken.insert(output, job) {
+            let [first, second] = [first, job].map(|job| job.input.display());
+            let output = output.display();
+            return Err(CliError::Usage(format!(
+                "the pictures of {first} and {second} would both be {output}\n  = help: tell them apart in the name: -o '{{stem}}_{{index}}.png'"
+            )));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,106 @@
+//! `alberti render --json`: what was rendered, on the standard output. New members may come in any release; [`VERSION`] rises when one
+//! changes its meaning or goes.
+
+use super::CliError;
+use super::render_job::{RenderJob, RenderOutput};
+use homog::PixelRect;
+use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+use std::io::{Read, Write};
+use std::path::Path;
+
+/// The version of the schema.
+const VERSION: u32 = 1;
+
+pub(super) fn print_report(
+    painting: &RenderJob<'_>,
+    painted: &RenderOutput,
+) -> Result<(), CliError> {
+    let PixelRect { x, y, width, height } = painted.region;
+    let scene = painting.scene;
+    let files: Result<Vec<Value>, CliError> = painted.files.iter().map(|path| file(path)).collect();
+    let comparison = painted.comparison.map(|found| {
+        json!({
+            "agrees": found.agrees(),
+            "greatest_difference": found.max_difference,
+            "share_beyond": found.differing_fraction(),
+            "tolerance": found.tolerance,
+        })
+    });
+    let milliseconds = |(stage, took): (&'static str, std::time::Duration)| {
+        (stage, json!(1e3 * took.as_secs_f64()))
+    };
+    let timings: BTreeMap<&str, Value> =
+        painting.timings.stages().into_iter().map(milliseconds).collect();
+    let report = json!({
+        "schema": {"name": "alberti-render", "version": VERSION},
+        "input": painting.task.input.to_string_lossy(),
+        "image": {
+            "size": [scene.image.width, scene.image.height],
+            "region": [x, y, width, height],
+            "samples": scene.image.samples.count(),
+            "bits": if painting.outputs.sixteen_bit { 16 } else { 8 },
+        },
+        "camera": camera(painting),
+        "models": models(painting),
+        "warnings": painted.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "comparison": comparison,
+        "milliseconds": timings,
+        "files": files?,
+    });
+    writeln!(std::io::stdout(), "{report:#}")?;
+    Ok(())
+}
+
+/// The eye, the axes of the view in the world, and the projection as rows of its matrix.
+fn camera(painting: &RenderJob<'_>) -> Value {
+    let view_projection = painting.scene.view_projection;
+    let camera = view_projection.camera;
+    let rows = [0, 1, 2, 3].map(|n| view_projection.view_to_clip.raw().row(n).to_array());
+    json!({
+        "eye": <[f64; 3]>::from(camera.eye()),
+        "right": camera.u().raw().to_array(),
+        "up": camera.v().raw().to_array(),
+        "back": camera.w().raw().to_array(),
+        "view_to_clip": rows,
+    })
+}
+
+fn models(painting: &RenderJob<'_>) -> Vec<Value> {
+    let model = |placed: &model::ModelInstance| {
+        let model = &placed.model;
+        let count = |topology| -> usize {
+            let shown = model.scene_primitives().map(|(_, primitive)| primitive);
+            shown.filter(|p| p.topology == topology).map(model::Primitive::item_count).sum()
+        };
+        let warnings = model.warnings.iter().map(|warning| {
+            json!({"pointer": warning.pointer.to_string(), "message": warning.message.to_string()})
+        });
+        json!({
+            "name": model.name,
+            "triangles": count(model::Topology::Triangles),
+            "lines": count(model::Topology::Lines),
+            "points": count(model::Topology::Points),
+            "warnings": warnings.collect::<Vec<_>>(),
+        })
+    };
+    painting.scene.models.iter().map(model).collect()
+}
+
+/// A file by its content.
+fn file(path: &Path) -> Result<Value, CliError> {
+    let mut file = std::fs::File::open(path)?;
+    let (mut hash, mut bytes) = (Sha256::new(), 0);
+    let mut block = vec![0; 1 << 16];
+    loop {
+        let count = file.read(&mut block)?;
+        if count == 0 {
+            break;
+        }
+        hash.update(&block[..count]);
+        bytes += count;
+    }
+    let sha256: String = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+    Ok(json!({"path": path.to_string_lossy(), "bytes": bytes, "sha256": sha256}))
+}

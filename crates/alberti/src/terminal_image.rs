@@ -1,0 +1,166 @@
+//! `--show`: the picture in the terminal.
+//!
+//! Terminals that speak kitty's graphics protocol get the picture as a PNG; others get half blocks, two pixels in a cell, in 24-bit
+//! colour; where NO_COLOR is set, one of ten characters for each cell, by lightness.
+
+use super::CliError;
+use super::render_job::RenderOutput;
+use base64::Engine as _;
+use pipeline::Picture;
+use std::fmt::Write as _;
+use std::io::Write as _;
+
+/// The columns of a terminal that does not tell.
+const DEFAULT_COLUMNS: u32 = 80;
+/// The widest picture that is handed over by kitty's protocol, in pixels.
+const MAX_KITTY_WIDTH: u32 = 1280;
+/// The most characters of one of its commands.
+const KITTY_CHUNK_LENGTH: usize = 4096;
+/// From dark to light.
+const ASCII_RAMP: &[u8; 10] = b" .:-=+*#%@";
+
+pub(super) fn print_image(painted: &RenderOutput) -> Result<(), CliError> {
+    let Some(picture) = &painted.picture else { return Ok(()) };
+    let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    let columns =
+        terminal_size::terminal_size().map_or(DEFAULT_COLUMNS, |(width, _)| width.0.into());
+    let kitty = is_set("KITTY_WINDOW_ID")
+        || std::env::var("TERM")
+            .is_ok_and(|term| term.contains("kitty") || term.contains("ghostty"));
+    let text = if is_set("NO_COLOR") {
+        ascii_art(picture, columns)
+    } else if kitty {
+        kitty_graphics(picture, columns)
+    } else {
+        half_blocks(picture, columns)
+    };
+    std::io::stdout().write_all(text.as_bytes())?;
+    Ok(())
+}
+
+/// A picture of so many columns and rows, each pixel the mean of what it covers, over black: in light as the eye adds it up, roughly, by
+/// squares of the codes.
+fn downsample(picture: &Picture, columns: u32, rows: u32) -> Vec<[u8; 3]> {
+    let range = |at: u32, of: u32, side: u32| {
+        let bound = |at: u32| (u64::from(at) * u64::from(side) / u64::from(of)) as u32;
+        bound(at)..bound(at + 1).max(bound(at) + 1).min(side.max(1))
+    };
+    let mut shrunk = Vec::with_capacity((columns * rows) as usize);
+    for row in 0..rows {
+        for column in 0..columns {
+            let (mut sums, mut count) = ([0_u64; 3], 0_u64);
+            for y in range(row, rows, picture.height) {
+                for x in range(column, columns, picture.width) {
+                    let Some([r, g, b, alpha]) = picture.pixel(x, y) else { continue };
+                    for (sum, code) in sums.iter_mut().zip([r, g, b]) {
+                        *sum += u64::from(code) * u64::from(code) * u64::from(alpha) / 255;
+                    }
+                    count += 1;
+                }
+            }
+            shrunk.push(sums.map(|sum| (sum / count.max(1)).isqrt() as u8));
+        }
+    }
+    shrunk
+}
+
+/// As many columns as fit, and the rows that go with them; `cells` is how many rows a column is wide.
+fn fit_columns(picture: &Picture, columns: u32, cells: f64) -> (u32, u32) {
+    let columns = columns.clamp(1, 400).min(picture.width.max(1));
+    let ratio = f64::from(picture.height) / f64::from(picture.width.max(1));
+    (columns, ((f64::from(columns) * ratio * cells + 0.5) as u32).clamp(1, 400))
+}
+
+fn half_blocks(picture: &Picture, columns: u32) -> String {
+    let (columns, rows) = fit_columns(picture, columns, 1.0);
+    let rows = rows.next_multiple_of(2);
+    let pixels = downsample(picture, columns, rows);
+    let mut text = String::new();
+    for pair in pixels.chunks_exact(2 * columns as usize) {
+        let (upper, lower) = pair.split_at(columns as usize);
+        for ([r, g, b], [s, h, c]) in upper.iter().zip(lower) {
+            // Writing to a text does not fail.
+            let _ = write!(text, "\x1b[38;2;{r};{g};{b};48;2;{s};{h};{c}m▀");
+        }
+        text.push_str("\x1b[0m\n");
+    }
+    text
+}
+
+fn ascii_art(picture: &Picture, columns: u32) -> String {
+    let (columns, rows) = fit_columns(picture, columns, 0.5);
+    let mut text = String::new();
+    for row in downsample(picture, columns, rows).chunks_exact(columns as usize) {
+        text.extend(row.iter().map(|[r, g, b]| {
+            // The luma of Rec. 709, in whole numbers.
+            let luma =
+                (13_933 * u32::from(*r) + 46_871 * u32::from(*g) + 4732 * u32::from(*b)) >> 16;
+            char::from(ASCII_RAMP[(luma as usize * ASCII_RAMP.len() / 256).min(9)])
+        }));
+        text.push('\n');
+    }
+    text
+}
+
+/// Commands of kitty's protocol that transmit a PNG and show it.
+fn kitty_graphics(picture: &Picture, columns: u32) -> String {
+    let (cells, _) = fit_columns(picture, columns, 0.5);
+    let small;
+    let picture = if picture.width > MAX_KITTY_WIDTH {
+        let (width, height) = fit_columns(picture, 400, 1.0);
+        let pixels = downsample(picture, width, height);
+        let pixels = pixels.into_iter().map(|[r, g, b]| [r, g, b, 255]).collect();
+        small = Picture { width, height, pixels };
+        &small
+    } else {
+        picture
+    };
+    let data = base64::engine::general_purpose::STANDARD.encode(picture.to_png());
+    let mut text = String::new();
+    let chunks = data.as_bytes().chunks(KITTY_CHUNK_LENGTH);
+    let last = chunks.len().saturating_sub(1);
+    for (number, chunk) in chunks.enumerate() {
+        let head = if number == 0 { format!("a=T,f=100,c={cells},") } else { String::new() };
+        let more = u8::from(number != last);
+        let chunk = String::from_utf8_lossy(chunk);
+        // Writing to a text does not fail.
+        let _ = write!(text, "\x1b_G{head}m={more};{chunk}\x1b\\");
+    }
+    text.push('\n');
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// White above, black below.
+    fn two_tone_picture() -> Picture {
+        let pixels = (0..64).map(|at| [if at < 32 { 255 } else { 0 }; 3]);
+        let pixels = pixels.map(|[r, g, b]| [r, g, b, 255]).collect();
+        Picture { width: 8, height: 8, pixels }
+    }
+
+    #[test]
+    fn halves_of_cells_have_the_colours_of_their_pixels() {
+        let text = half_blocks(&two_tone_picture(), 2);
+        let cell = "\x1b[38;2;255;255;255;48;2;0;0;0m▀";
+        assert_eq!(text, format!("{cell}{cell}\x1b[0m\n"));
+        assert_eq!(ascii_art(&two_tone_picture(), 4), "@@@@\n    \n");
+    }
+
+    #[test]
+    fn graphics_are_a_png_in_commands_of_4096_characters() {
+        let text = kitty_graphics(&two_tone_picture(), 80);
+        let data: String = text
+            .split("\x1b_G")
+            .skip(1)
+            .map(|command| {
+                command.split(';').nth(1).unwrap_or_default().trim_end().trim_end_matches("\x1b\\")
+            })
+            .collect();
+        let bytes = base64::engine::general_purpose::STANDARD.decode(data).expect("base64");
+        assert_eq!(bytes, two_tone_picture().to_png());
+        assert!(text.starts_with("\x1b_Ga=T,f=100,c=8,m=0;"));
+    }
+}

@@ -1,0 +1,206 @@
+//! The camera: an eye and an orientation, and the rigid map M_cam between world and view space
+//! (CA-2).
+//!
+//! ```text
+//!         [ xu yu zu 0 ] [ 1 0 0 -xe ]
+//! M_cam = [ xv yv zv 0 ] [ 0 1 0 -ye ]     first the eye moves to the origin,
+//!         [ xw yw zw 0 ] [ 0 0 1 -ze ]     then u, v, w turn into x, y, z
+//!         [ 0  0  0  1 ] [ 0 0 0  1  ]
+//! ```
+//!
+//! Source: chapter §8.1.3, formula CA-2. (One set of notes prints the third row of the translation
+//! as 0 0 0 −ze, misprint M11: that matrix is singular and puts every point at one depth.)
+
+use crate::{Basis, CameraError};
+use homog::{Affine, Point, Space, Vector, View, World};
+
+/// The greatest coordinate of an eye: with it u · e still is a finite number.
+const EYE_LIMIT: f64 = f64::MAX / 4.0;
+
+/// Where a camera stands and how it is turned. It knows nothing of lenses: that is a projection's
+/// business.
+///
+/// A `Camera` is always usable: every constructor refuses what would give NaN.
+///
+/// ```
+/// use camera::Camera;
+/// use homog::{Point, Vector};
+/// let camera = Camera::look_at(Point::new(0.0, 2.0, 5.0), Point::new(0.0, 2.0, 0.0), Vector::Y)?;
+/// let seen = camera.world_to_view().point(Point::new(1.0, 2.0, 0.0));
+/// assert_eq!(seen, Point::new(1.0, 0.0, -5.0)); // one to the right, five ahead
+/// # Ok::<(), camera::CameraError>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Camera {
+    eye: Point<World>,
+    basis: Basis,
+}
+
+impl Camera {
+    /// The camera at `eye` with the given orientation.
+    ///
+    /// # Errors
+    /// An eye that is not finite, or with a coordinate beyond a quarter of the largest f64.
+    pub fn new(eye: Point<World>, basis: Basis) -> Result<Self, CameraError> {
+        check_position(eye, "eye")?;
+        if eye.raw().abs().max_element() > EYE_LIMIT {
+            return Err(CameraError::EyeTooFar { eye, limit: EYE_LIMIT });
+        }
+        Ok(Self { eye, basis })
+    }
+
+    /// The camera at `eye` that has `target` in the middle of the picture and the side of `up`
+    /// upwards.
+    ///
+    /// # Errors
+    /// Eye and target the same; `up` zero or parallel to the gaze; any coordinate not finite.
+    pub fn look_at(
+        eye: Point<World>,
+        target: Point<World>,
+        up: Vector<World>,
+    ) -> Result<Self, CameraError> {
+        Self::new(eye, Basis::from_gaze(gaze_between(eye, target)?, up)?)
+    }
+
+    /// The camera at `eye` that looks along `gaze` with the side of `up` upwards. Lengths do not
+    /// matter.
+    ///
+    /// # Errors
+    /// Gaze or `up` zero, or parallel to each other; any coordinate not finite.
+    pub fn look_to(
+        eye: Point<World>,
+        gaze: Vector<World>,
+        up: Vector<World>,
+    ) -> Result<Self, CameraError> {
+        Self::new(eye, Basis::from_gaze(gaze, up)?)
+    }
+
+    /// As [`look_at`](Self::look_at), with [`Basis::fallback_up`] in place of an `up` that is zero
+    /// or parallel to the gaze: −z looking down, +z looking up, +y otherwise.
+    ///
+    /// # Errors
+    /// Eye and target the same, or any coordinate not finite.
+    pub fn look_at_or_fallback(
+        eye: Point<World>,
+        target: Point<World>,
+        up: Vector<World>,
+    ) -> Result<Self, CameraError> {
+        Self::new(eye, Basis::from_gaze_or_fallback(gaze_between(eye, target)?, up)?)
+    }
+
+    /// As [`look_to`](Self::look_to), with [`Basis::fallback_up`] in place of an `up` that is zero
+    /// or parallel to the gaze: −z looking down, +z looking up, +y otherwise.
+    ///
+    /// # Errors
+    /// A gaze that is zero, or any coordinate not finite.
+    pub fn look_to_or_fallback(
+        eye: Point<World>,
+        gaze: Vector<World>,
+        up: Vector<World>,
+    ) -> Result<Self, CameraError> {
+        Self::new(eye, Basis::from_gaze_or_fallback(gaze, up)?)
+    }
+
+    /// The camera at the origin of a frame, looking along its −z with its +y up, as the camera
+    /// nodes of glTF do. The frame may be scaled, sheared or mirrored; the camera is not.
+    ///
+    /// # Errors
+    /// A frame whose z axis is zero or parallel to its y axis, or that is not finite.
+    pub fn from_frame<L: Space>(local_to_world: Affine<L, World>) -> Result<Self, CameraError> {
+        let gaze = local_to_world.transform_vector(-Vector::Z);
+        let up = local_to_world.transform_vector(Vector::Y);
+        Self::look_to(local_to_world.transform_point(Point::ORIGIN), gaze, up)
+    }
+
+    /// Where the camera stands; the centre of projection if the projection is a perspective.
+    #[must_use]
+    pub const fn eye(self) -> Point<World> {
+        self.eye
+    }
+
+    /// The orientation.
+    #[must_use]
+    pub const fn basis(self) -> Basis {
+        self.basis
+    }
+
+    /// To the right in the picture: the unit vector u of CA-1.
+    #[must_use]
+    pub const fn u(self) -> Vector<World> {
+        self.basis.u()
+    }
+
+    /// To the right in the picture, the same as [`u`](Self::u).
+    #[must_use]
+    pub const fn right(self) -> Vector<World> {
+        self.basis.u()
+    }
+
+    /// Upwards in the picture: the unit vector v of CA-1, perpendicular to the gaze.
+    #[must_use]
+    pub const fn v(self) -> Vector<World> {
+        self.basis.v()
+    }
+
+    /// Against the gaze, towards the viewer: the unit vector w of CA-1.
+    #[must_use]
+    pub const fn w(self) -> Vector<World> {
+        self.basis.w()
+    }
+
+    /// Where the camera looks: −w, a unit vector.
+    #[must_use]
+    pub fn gaze(self) -> Vector<World> {
+        self.basis.gaze()
+    }
+
+    /// M_cam (CA-2): the eye goes to the origin, what is ahead gets a negative z.
+    #[must_use]
+    pub fn world_to_view(self) -> Affine<World, View> {
+        self.translation().then(self.rotation())
+    }
+
+    /// The inverse of M_cam, without any elimination: its columns are u, v, w and the eye.
+    #[must_use]
+    pub fn view_to_world(self) -> Affine<View, World> {
+        Affine::from_frame(self.u(), self.v(), self.w(), self.eye)
+    }
+
+    /// The right factor of M_cam, applied first: it moves the eye to the origin.
+    #[must_use]
+    pub fn translation(self) -> Affine<World, World> {
+        Affine::translation(Point::ORIGIN - self.eye)
+    }
+
+    /// The left factor of M_cam, applied second: it turns u, v, w into the axes of view space.
+    #[must_use]
+    pub fn rotation(self) -> Affine<World, View> {
+        self.basis.world_to_view_rotation()
+    }
+
+    /// The same camera moved by `by`.
+    ///
+    /// # Errors
+    /// As [`Camera::new`] for the new eye.
+    pub fn moved(self, by: Vector<World>) -> Result<Self, CameraError> {
+        Self::new(self.eye + by, self.basis)
+    }
+}
+
+fn gaze_between(eye: Point<World>, target: Point<World>) -> Result<Vector<World>, CameraError> {
+    check_position(eye, "eye")?;
+    check_position(target, "target")?;
+    let gaze = target - eye;
+    if gaze == Vector::ZERO {
+        return Err(CameraError::TargetIsEye { eye });
+    }
+    // Two points at opposite ends of the numbers are farther apart than a number can say; half of
+    // it can.
+    let half = || Vector::from_raw(target.raw() * 0.5 - eye.raw() * 0.5);
+    Ok(if gaze.is_finite() { gaze } else { half() })
+}
+
+fn check_position(place: Point<World>, name: &'static str) -> Result<(), CameraError> {
+    let value = place - Point::ORIGIN;
+    if place.is_finite() { Ok(()) } else { Err(CameraError::NotFinite { name, value }) }
+}

@@ -1,0 +1,176 @@
+//! Framing in parallel projection: the smallest window that holds the image of some points.
+//!
+//! ```text
+//!        window
+//!    top ┌────────┐
+//!        │ ●    ● │ ◄── d      The box around the images of the points,
+//!        │    ●   │            in the wanted aspect.
+//! bottom └────────┘
+//!       left    right
+//! ```
+//!
+//! The projectors run along the gaze (orthographic) or along any direction d that leads away from the
+//! viewer (oblique). A point (x, y, z) of view space has its image in the plane of the eye, z = 0, at
+//! (x − z dx/dz, y − z dy/dz). Sources: OB-1, VV-1.
+
+use crate::framing::{check_aspect, check_padding};
+use crate::point_coordinates::PointCoordinates;
+use crate::{Basis, Camera, FramingConstraint, FramingError};
+use glam::DVec3;
+use homog::{Point, Vector, View, World};
+
+/// A camera, a window and a depth range for a parallel projection.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ParallelFraming {
+    /// The camera. Its eye lies on the projector through the middle of the picture, before the
+    /// nearest point by one diagonal of the points.
+    pub camera: Camera,
+    /// Left side of the window in view space, in the plane z = 0 of the eye: −`right`.
+    pub left: f64,
+    /// Right side.
+    pub right: f64,
+    /// Lower side: −`top`.
+    pub bottom: f64,
+    /// Upper side.
+    pub top: f64,
+    /// Distance of the nearest point along the gaze, greater than 0. Not padded.
+    pub near: f64,
+    /// Distance of the farthest point along the gaze. Not padded: equal to `near` if the points lie
+    /// in one plane.
+    pub far: f64,
+    /// Which dimension of the picture the size was decided by.
+    pub constraint: FramingConstraint,
+}
+
+/// Chooses camera and window of an orthographic projection so that the image of `points` just fills
+/// the frame.
+///
+/// The image touches two opposite sides of the padded frame and is centred between the other two.
+/// `aspect` is width/height of the frame; `padding` the part of it to be left free on every side:
+/// 0.05 is 5 per cent. Points whose images are all one, on a line along the projectors, get a frame
+/// of the height of their diagonal. A single point is framed as a cube of side 1 around it (or of a
+/// millionth of its distance from the origin, if that is more).
+///
+/// # Errors
+/// No points; a point that is not finite; an aspect that is not positive and finite; a padding
+/// outside [0, ½); points so far out, or an aspect or projectors so extreme, that f64 has no place
+/// for the eye.
+///
+/// ```
+/// use camera::{NamedView, frame_parallel};
+/// use homog::{Bounds, Point};
+/// let slab = Bounds::of([[0.0; 3], [8.0, 2.0, 1.0]].map(Point::from)).expect("a slab");
+/// let front = frame_parallel(slab.corners(), NamedView::Front.basis(), 2.0, 0.0)?;
+/// assert_eq!((front.left, front.right), (-4.0, 4.0));
+/// assert_eq!((front.bottom, front.top), (-2.0, 2.0));
+/// assert_eq!((front.camera.eye().x(), front.camera.eye().y()), (4.0, 1.0));
+/// # Ok::<(), camera::FramingError>(())
+/// ```
+pub fn frame_parallel<I>(
+    points: I,
+    orientation: Basis,
+    aspect: f64,
+    padding: f64,
+) -> Result<ParallelFraming, FramingError>
+where
+    I: IntoIterator<Item = Point<World>>,
+    I::IntoIter: Clone,
+{
+    frame_oblique(points, orientation, -Vector::Z, aspect, padding)
+}
+
+/// As [`frame_parallel`], with projectors along `projectors`: a direction in view space that leads
+/// away from the viewer, that is with z < 0. Its length does not matter; (0, 0, −1) is the
+/// orthographic projection.
+///
+/// The window lies in the plane of the eye, z = 0: a point (x, y, z) of view space has its image at
+/// (x − z a/c, y − z b/c) for projectors (a, b, c).
+///
+/// # Errors
+/// As [`frame_parallel`]; also projectors that are not finite, or with z ≥ 0.
+pub fn frame_oblique<I>(
+    points: I,
+    orientation: Basis,
+    projectors: Vector<View>,
+    aspect: f64,
+    padding: f64,
+) -> Result<ParallelFraming, FramingError>
+where
+    I: IntoIterator<Item = Point<World>>,
+    I::IntoIter: Clone,
+{
+    check_padding(padding)?;
+    check_aspect(aspect)?;
+    let shear = projector_shear(projectors)?;
+    let points = PointCoordinates::new(points.into_iter(), orientation)?;
+    let image = ImageBounds::from_points(&points, shear);
+    let (half_width, half_height, fit) = image.padded_window(&points, aspect, padding);
+
+    // From the middle of the image, in the plane z = 0 of the points' middle, along the projector
+    // to the eye.
+    let near = points.extent.diagonal();
+    let z = points.extent.max.z + near;
+    let middle = image.center();
+    let eye = Vector::new(middle.x + z * shear.x, middle.y + z * shear.y, z);
+    let far = z - points.extent.min.z;
+    points.check_range(half_width.is_finite() && half_height.is_finite() && far.is_finite())?;
+    let camera = points.camera_at(eye, near.min(half_width).min(half_height))?;
+    let (left, right, bottom, top) = (-half_width, half_width, -half_height, half_height);
+    Ok(ParallelFraming { camera, left, right, bottom, top, near, far, constraint: fit })
+}
+
+/// How far x and y move per unit of z along a projector.
+fn projector_shear(projectors: Vector<View>) -> Result<DVec3, FramingError> {
+    let shear = projectors.raw() / projectors.z();
+    let usable = projectors.is_finite() && projectors.z() < 0.0 && shear.is_finite();
+    usable.then_some(shear).ok_or(FramingError::Projectors { direction: projectors })
+}
+
+/// The box around the images, in the plane through the points' middle.
+struct ImageBounds {
+    min: DVec3,
+    max: DVec3,
+}
+
+impl ImageBounds {
+    fn from_points<I: Iterator<Item = Point<World>> + Clone>(
+        points: &PointCoordinates<I>,
+        shear: DVec3,
+    ) -> Self {
+        let nothing = DVec3::splat(f64::INFINITY);
+        let mut image = Self { min: nothing, max: -nothing };
+        points.for_each(|p| {
+            let foot = p - shear * p.z;
+            image.min = image.min.min(foot);
+            image.max = image.max.max(foot);
+        });
+        image
+    }
+
+    fn center(&self) -> DVec3 {
+        self.min * 0.5 + self.max * 0.5
+    }
+
+    /// Half the width and height of the padded window.
+    fn padded_window<I: Iterator<Item = Point<World>> + Clone>(
+        &self,
+        points: &PointCoordinates<I>,
+        aspect: f64,
+        padding: f64,
+    ) -> (f64, f64, FramingConstraint) {
+        let size = self.max - self.min;
+        let inner = 1.0 - 2.0 * padding;
+        let height = match size.y.max(size.x / aspect) {
+            0.0 => points.extent.diagonal(),
+            height => height,
+        };
+        let fit = match height {
+            _ if points.is_single_point() => FramingConstraint::Loose,
+            h if h == size.y => FramingConstraint::Height,
+            h if h == size.x / aspect => FramingConstraint::Width,
+            _ => FramingConstraint::Loose,
+        };
+        let half = height / inner / 2.0;
+        (half * aspect, half, fit)
+    }
+}

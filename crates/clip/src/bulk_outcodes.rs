@@ -1,0 +1,177 @@
+//! Arrays of points: projected and given outcodes in one pass.
+//!
+//! Most meshes are wholly visible or wholly hidden. [`Extent`] tells in two comparisons, and the triangles of the
+//! rest are sorted by the outcodes of their corners before any of them is cut:
+//!
+//! ```
+//! use clip::{Extent, Outcode, Volume};
+//! use homog::{Clip, HPoint, Model, Projective};
+//! let model_to_clip = Projective::<Model, Clip>::from_raw(glam::DMat4::IDENTITY);
+//! let positions = [[0.0_f32, 0.0, 0.0], [0.5, 0.5, 0.5], [3.0, 0.0, 0.0]];
+//! let mut points = [HPoint::<Clip>::new(0.0, 0.0, 0.0, 1.0); 3];
+//! let mut outcodes = [Outcode::INSIDE; 3];
+//! let extent = Volume::CHAPTER.project(model_to_clip, &positions, &mut points, &mut outcodes);
+//! assert!(!extent.is_inside() && !extent.is_outside()); // look at single triangles
+//! assert_eq!(extent.count, 3);
+//! ```
+
+use crate::{Outcode, Volume};
+use glam::{DVec4, Mat4, Vec4};
+use homog::{Clip, HPoint, Point, Projective, Space};
+
+/// Where the points of an array are, taken together.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct OutcodeSummary {
+    /// How many points were looked at: the length of the shortest slice.
+    pub count: usize,
+    /// The planes that at least one point is outside of.
+    pub any_outside: Outcode,
+    /// The planes that all points are outside of. It is empty for no points.
+    pub all_outside: Outcode,
+}
+
+impl OutcodeSummary {
+    const EMPTY: Self = Self { count: 0, any_outside: Outcode::INSIDE, all_outside: Outcode::ALL };
+
+    /// True if every point is inside, and with them all that lies between them.
+    #[must_use]
+    pub fn is_inside(&self) -> bool {
+        self.any_outside.is_inside()
+    }
+
+    /// True if all points are on the outer side of one plane, and with them all that lies between them.
+    #[must_use]
+    pub fn is_outside(&self) -> bool {
+        !self.all_outside.is_inside()
+    }
+
+    fn add_outcode(&mut self, code: Outcode) {
+        self.count += 1;
+        self.any_outside |= code;
+        self.all_outside = self.all_outside & code;
+    }
+
+    fn finish(self) -> Self {
+        if self.count == 0 { Self { all_outside: Outcode::INSIDE, ..self } } else { self }
+    }
+}
+
+impl Volume {
+    /// The outcodes of many points. It goes as far as the shorter of the two slices.
+    pub fn compute_outcodes(
+        &self,
+        points: &[HPoint<Clip>],
+        outcodes: &mut [Outcode],
+    ) -> OutcodeSummary {
+        let mut extent = OutcodeSummary::EMPTY;
+        for (point, code) in points.iter().zip(outcodes) {
+            *code = self.outcode(*point);
+            extent.add_outcode(*code);
+        }
+        extent.finish()
+    }
+
+    /// Projects many positions in f64 and gives them outcodes. It goes as far as the shortest of the slices.
+    pub fn project_positions<S: Space>(
+        &self,
+        source_to_clip: Projective<S, Clip>,
+        positions: &[[f32; 3]],
+        points: &mut [HPoint<Clip>],
+        outcodes: &mut [Outcode],
+    ) -> OutcodeSummary {
+        let mut extent = OutcodeSummary::EMPTY;
+        for ((position, point), code) in positions.iter().zip(points).zip(outcodes) {
+            *point = source_to_clip.transform_point(Point::from(position.map(f64::from)));
+            *code = self.outcode(*point);
+            extent.add_outcode(*code);
+        }
+        extent.finish()
+    }
+
+    /// Projects many positions in f32: half the memory, about seven digits. For previews and bounds; what decides about
+    /// pixels goes by [`Self::project`].
+    ///
+    /// Every coordinate is ((x·m₀ + y·m₁) + z·m₂) + m₃ in this order, so that the bits are the same everywhere.
+    pub fn project_positions_f32<S: Space>(
+        &self,
+        source_to_clip: Projective<S, Clip>,
+        positions: &[[f32; 3]],
+        points: &mut [[f32; 4]],
+        outcodes: &mut [Outcode],
+    ) -> OutcodeSummary {
+        let [a, b, c, d] = matrix_columns_f32(source_to_clip);
+        let mut extent = OutcodeSummary::EMPTY;
+        for ((&[x, y, z], point), code) in positions.iter().zip(points).zip(outcodes) {
+            for i in 0..4 {
+                point[i] = ((x * a[i] + y * b[i]) + z * c[i]) + d[i];
+            }
+            *code = self.outcode(HPoint::from(point.map(f64::from)));
+            extent.add_outcode(*code);
+        }
+        extent.finish()
+    }
+}
+
+fn matrix_columns_f32<S: Space>(map: Projective<S, Clip>) -> [[f32; 4]; 4] {
+    let column = |c: DVec4| -> Vec4 { c.as_vec4() };
+    let m = map.raw();
+    Mat4::from_cols(column(m.x_axis), column(m.y_axis), column(m.z_axis), column(m.w_axis))
+        .to_cols_array_2d()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DMat4;
+    use homog::Model;
+
+    fn wide() -> Projective<Model, Clip> {
+        let rows = [
+            [1.5, 0.1, 0.0, 0.2],
+            [0.0, 2.0, 0.3, 0.0],
+            [0.1, 0.0, 1.0, -0.5],
+            [0.0, 0.2, -1.0, 0.7],
+        ];
+        Projective::from_raw(DMat4::from_cols_array_2d(&rows).transpose())
+    }
+
+    #[test]
+    fn arrays_agree_with_single_points() {
+        let positions: [[f32; 3]; 64] = core::array::from_fn(|i| {
+            [i as f32 * 0.11 - 3.0, (i % 7) as f32 * 0.4 - 1.0, (i % 5) as f32 - 2.0]
+        });
+        let (mut points, mut narrow) = ([HPoint::new(0.0, 0.0, 0.0, 0.0); 64], [[0.0_f32; 4]; 64]);
+        let (mut codes, mut again, mut rough) =
+            ([Outcode::INSIDE; 64], [Outcode::INSIDE; 64], [Outcode::INSIDE; 64]);
+        let volume = Volume::CHAPTER.with_guard_band(2.0, 1.5).expect("allowed").without_far();
+        let extent = volume.project_positions(wide(), &positions, &mut points, &mut codes);
+        assert_eq!(volume.compute_outcodes(&points, &mut again), extent);
+        volume.project_positions_f32(wide(), &positions, &mut narrow, &mut rough);
+        for i in 0..64 {
+            let expected = wide().transform_point(Point::from(positions[i].map(f64::from)));
+            assert_eq!(points[i], expected);
+            assert_eq!([codes[i], again[i]], [volume.outcode(expected); 2]);
+            let off = (HPoint::<Clip>::from(narrow[i].map(f64::from)).raw() - expected.raw()).abs();
+            assert!(off.max_element() < 1e-5, "{i}: off by {off}");
+        }
+        let some = codes.iter().fold(Outcode::INSIDE, |all, &code| all | code);
+        assert_eq!(
+            (extent.count, extent.any_outside, extent.all_outside),
+            (64, some, Outcode::trivially_rejects(&codes))
+        );
+    }
+
+    #[test]
+    fn slices_of_different_lengths_go_as_far_as_the_shortest() {
+        let mut points = [HPoint::new(0.0, 0.0, 0.0, 0.0); 2];
+        let extent = Volume::OPENGL.project_positions(
+            wide(),
+            &[[0.0; 3]; 5],
+            &mut points,
+            &mut [Outcode::INSIDE; 1],
+        );
+        assert_eq!(extent.count, 1);
+        let nothing = Volume::OPENGL.compute_outcodes(&[], &mut [Outcode::INSIDE; 1]);
+        assert!(nothing.is_inside() && !nothing.is_outside());
+    }
+}

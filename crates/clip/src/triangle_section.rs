@@ -1,0 +1,132 @@
+//! Section cuts: a solid cut open by a plane, and the outline of the cut face.
+//!
+//! ```text
+//!          ╱╲                   plane ──────────────      what is left        the cap
+//!         ╱  ╲                          ╱──────╲          of the sides      ┌──────────┐
+//!        ╱    ╲        ──►             ╱        ╲                           │  ┌────┐  │   outline
+//!       ╱──────╲                      ╱──────────╲                          │  └────┘  │   and hole
+//!                                                                           └──────────┘
+//! ```
+//!
+//! Cutting the triangles of a closed surface leaves it open. Every triangle that the plane crosses contributes one
+//! directed edge to the outline of the opening. Neighbours cut the edge they share at the same bits, so the edges
+//! join end to start without a tolerance, and the outline of a closed surface always closes.
+//!
+//! A corner on the plane counts as inside. So a face that lies in the plane is kept whole, and a solid that only
+//! touches the plane from inside gets no cap.
+
+use crate::sutherland_hodgman::{EdgeFraction, RingStep, clip_ring, crossing_fraction};
+use homog::{Plane, Point, Space};
+
+/// A vertex of what is left of a triangle behind a plane.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct SectionVertex<S: Space> {
+    /// Where it is.
+    pub point: Point<S>,
+    /// How much of each corner of the triangle is in it; they sum to 1.
+    pub weights: [f64; 3],
+}
+
+/// What is left of a triangle on the positive side of a plane, and its edge on the plane.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct CutTriangle<S: Space> {
+    vertices: [SectionVertex<S>; 4],
+    count: usize,
+    edge: Option<[Point<S>; 2]>,
+}
+
+impl<S: Space> CutTriangle<S> {
+    /// The vertices of what is left, in the triangle's order: none, three or four.
+    #[must_use]
+    pub fn vertices(&self) -> &[SectionVertex<S>] {
+        &self.vertices[..self.count]
+    }
+
+    /// What is left as a fan of triangles.
+    pub fn triangles(&self) -> impl Iterator<Item = [SectionVertex<S>; 3]> {
+        let vertices = self.vertices();
+        vertices.windows(2).skip(1).map(|edge| [vertices[0], edge[0], edge[1]])
+    }
+
+    /// The edge that the plane cut into the triangle, directed so that it continues the border of what is left.
+    /// `None` if the plane did not cut it.
+    #[must_use]
+    pub const fn edge(&self) -> Option<[Point<S>; 2]> {
+        self.edge
+    }
+}
+
+/// Cuts a triangle with a plane and keeps the positive side, the one the plane's normal points to.
+///
+/// A triangle with a corner that is not finite, or too far away for its distance from the plane to be a number, gives
+/// nothing.
+///
+/// ```
+/// use clip::cut_triangle;
+/// use homog::{Normal, Plane, Point, World};
+/// let floor = Plane::<World>::through(Point::ORIGIN, Normal::new(0.0, 1.0, 0.0));
+/// let corners = [Point::new(0.0, -1.0, 0.0), Point::new(1.0, 1.0, 0.0), Point::new(-1.0, 1.0, 0.0)];
+/// let left = cut_triangle(corners, floor);
+/// assert_eq!(left.vertices().len(), 4);
+/// assert_eq!(left.edge(), Some([Point::new(-0.5, 0.0, 0.0), Point::new(0.5, 0.0, 0.0)]));
+/// ```
+#[must_use]
+pub fn cut_triangle<S: Space>(triangle: [Point<S>; 3], plane: Plane<S>) -> CutTriangle<S> {
+    let corner = |i: usize| {
+        let mut weights = [0.0; 3];
+        weights[i] = 1.0;
+        SectionVertex { point: triangle[i], weights }
+    };
+    let corners = [corner(0), corner(1), corner(2)];
+    let distances = triangle.map(|point| plane.evaluate(point));
+    let mut left = CutTriangle { vertices: [corners[0]; 4], count: 0, edge: None };
+    if !distances.iter().all(|distance| distance.is_finite()) {
+        return left;
+    }
+    clip_ring(&distances, |step| {
+        left.vertices[left.count] = match step {
+            RingStep::Keep(i) => corners[i],
+            RingStep::Cross { from, to, t } => lerp_vertices(&corners[from], &corners[to], t),
+        };
+        left.count += 1;
+    });
+    // Between the far ends of the number range even a blend can overflow.
+    let finite = left.vertices().iter().all(|vertex| vertex.point.is_finite());
+    if !finite || left.count < 3 {
+        left.count = 0;
+    }
+    left.edge = if finite { cut_edge(triangle, distances) } else { None };
+    left
+}
+
+fn lerp_vertices<S: Space>(a: &SectionVertex<S>, b: &SectionVertex<S>, t: f64) -> SectionVertex<S> {
+    let weights = core::array::from_fn(|i| a.weights[i] + (b.weights[i] - a.weights[i]) * t);
+    SectionVertex { point: a.point.lerp(b.point, t), weights }
+}
+
+/// From where the border of the triangle leaves the inside to where it comes back.
+fn cut_edge<S: Space>(corners: [Point<S>; 3], distances: [f64; 3]) -> Option<[Point<S>; 2]> {
+    let (mut leaves, mut returns) = (None, None);
+    for i in 0..3 {
+        let j = (i + 1) % 3;
+        let (start, end) = ((corners[i], distances[i]), (corners[j], distances[j]));
+        match (start.1 >= 0.0, end.1 >= 0.0) {
+            (true, false) => leaves = Some(edge_crossing(start, end)),
+            (false, true) => returns = Some(edge_crossing(end, start)),
+            _ => {}
+        }
+    }
+    let edge = leaves.zip(returns).map(|(from, to)| [from, to]);
+    edge.filter(|[from, to]| from != to && from.is_finite() && to.is_finite())
+}
+
+/// The same bits as the vertex of what is left. An inner end on the plane is the crossing itself.
+fn edge_crossing<S: Space>(inner: (Point<S>, f64), outer: (Point<S>, f64)) -> Point<S> {
+    if inner.1 == 0.0 {
+        return inner.0; // The way to the outer end may be too long to be a number.
+    }
+    match crossing_fraction(inner.1, outer.1) {
+        EdgeFraction::FromInner(t) => inner.0.lerp(outer.0, t),
+        EdgeFraction::FromOuter(t) => outer.0.lerp(inner.0, t),
+    }
+}

@@ -1,0 +1,167 @@
+//! Where surfaces cross: the lines that two triangles have in common (Möller, *A fast triangle-triangle intersection
+//! test*, 1997).
+//!
+//! Each triangle cuts the plane of the other in a segment; both segments lie on the line where the planes meet, and what
+//! they share is the crossing. Triangles in one plane, or that only touch, do not cross, and nor do those so nearly in one
+//! plane that their crossing is made by rounding: decals, and copies of a surface.
+
+use super::seams::{BorderEdge, WeldRadii, half_surface_area};
+use super::world_mesh::{Face, WorldMesh};
+use crate::hidden_line::{Aabb, Bvh};
+use crate::parallel::map_in_order;
+use glam::DVec3;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Triangles nowhere farther than this from each other's planes are in one plane: in the distances that only touch.
+const COPLANAR_FACTOR: f64 = 512.0;
+
+/// The least sine of the angle between planes that cross: about one degree.
+const MIN_PLANE_SINE: f64 = 1.0 / 64.0;
+
+/// A crossing: its ends, and the lesser number of the faces' objects.
+pub(super) type IntersectionSegment = ([DVec3; 2], u32);
+
+/// The crossings that were found.
+pub(super) struct Intersections {
+    pub(super) segments: Vec<IntersectionSegment>,
+    /// Whether there were so many that the search was cut off.
+    pub(super) is_cut_off: bool,
+}
+
+/// About as many crossings are found at most.
+const MAX_INTERSECTIONS: usize = 1 << 22;
+
+/// All crossings of a shape's faces, in the order of the faces. What is nearer than `touching` only touches. Crossings along
+/// borders of both, nearer than twice what may be welded, are left out: the borders are drawn.
+pub(super) fn intersect_faces(
+    shape: &WorldMesh,
+    (borders, reach): (&[BorderEdge], &WeldRadii),
+    touching: f64,
+    threads: usize,
+) -> Intersections {
+    let mut triangles: Vec<IntersectionTriangle> =
+        shape.faces.iter().map(|face| IntersectionTriangle::from_face(shape, face)).collect();
+    for (ends, side) in borders {
+        let triangle = &mut triangles[side.face as usize];
+        triangle.borders[usize::from(side.side)] = true;
+        triangle.border_distance = 2.0 * reach.edge_radius(*ends);
+    }
+    let boxes: Vec<Aabb> = triangles.iter().map(|t| Aabb::from_points(t.vertices)).collect();
+    let tree = Bvh::new(&boxes, half_surface_area);
+    // The lesser of two asks for the greater, of which there are few where it is.
+    let size = |at: usize| (half_surface_area(boxes[at].max - boxes[at].min), at);
+    let count = shape.faces.len();
+    let (most, most_crossed) =
+        (Bvh::query_budget(count), (MAX_INTERSECTIONS / count.max(1)).max(16));
+    let is_cut_off = AtomicBool::new(false);
+    let crossings = map_in_order(count, threads, |range, open: &mut Vec<u32>, found| {
+        for one in range {
+            let before = found.len();
+            let visited = tree.for_each_overlapping(&boxes[one], most, open, |other| {
+                let other = other as usize;
+                let faces = [&shape.faces[one], &shape.faces[other]];
+                let is_asked = size(one) < size(other) && found.len() - before < most_crossed;
+                if !is_asked || shares_edge(faces) {
+                    return;
+                }
+                let crossing = triangles[one].intersect_triangle(&triangles[other], touching);
+                found.extend(crossing.map(|ends| (ends, faces[0].object.min(faces[1].object))));
+            });
+            if !visited || found.len() - before >= most_crossed {
+                is_cut_off.store(true, Ordering::Relaxed);
+            }
+        }
+    });
+    Intersections { segments: crossings, is_cut_off: is_cut_off.into_inner() }
+}
+
+fn shares_edge([one, other]: [&Face; 2]) -> bool {
+    one.vertices.iter().filter(|corner| other.vertices.contains(corner)).count() > 1
+}
+
+#[derive(Clone, Copy, Debug)]
+struct IntersectionTriangle {
+    vertices: [DVec3; 3],
+    normal: DVec3,
+    /// Which sides are borders.
+    borders: [bool; 3],
+    /// What is nearer than this to a border is on it.
+    border_distance: f64,
+}
+
+impl IntersectionTriangle {
+    fn from_face(shape: &WorldMesh, face: &Face) -> Self {
+        let vertices = face.vertices.map(|corner| shape.points[corner as usize]);
+        let [a, b, c] = vertices;
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        Self { vertices, normal, borders: [false; 3], border_distance: 0.0 }
+    }
+
+    fn intersect_triangle(&self, other: &Self, touching: f64) -> Option<[DVec3; 2]> {
+        let heights =
+            [self.distances_to_plane(other, touching), other.distances_to_plane(self, touching)];
+        let (ours, theirs) = (self.cut_at_zero(heights[0])?, other.cut_at_zero(heights[1])?);
+        let line = self.normal.cross(other.normal);
+        let is_flat =
+            heights.as_flattened().iter().all(|height| height.abs() < COPLANAR_FACTOR * touching);
+        if is_flat || line.length() < MIN_PLANE_SINE {
+            return None;
+        }
+        let along = |[a, b]: [DVec3; 2]| {
+            let [s, t] = [line.dot(a), line.dot(b)];
+            if s <= t { [(s, a), (t, b)] } else { [(t, b), (s, a)] }
+        };
+        let ([a, b], [c, d]) = (along(ours), along(theirs));
+        let from = if a.0 >= c.0 { a } else { c };
+        let to = if b.0 <= d.0 { b } else { d };
+        let is_long = to.0 > from.0 && (to.1 - from.1).length() > touching;
+        let ends = [from.1, to.1];
+        let is_seam = || self.runs_along_border(ends) && other.runs_along_border(ends);
+        (is_long && !is_seam()).then_some(ends)
+    }
+
+    /// Whether a segment runs along a border.
+    fn runs_along_border(&self, ends: [DVec3; 2]) -> bool {
+        let is_on = |k: usize| {
+            let (from, to) = (self.vertices[k], self.vertices[(k + 1) % 3]);
+            let along = (to - from).normalize_or_zero();
+            ends.iter().all(|&end| {
+                (end - from).reject_from_normalized(along).length() < self.border_distance
+            })
+        };
+        (0..3).any(|k| self.borders[k] && is_on(k))
+    }
+
+    /// How far the corners are above another triangle's plane.
+    fn distances_to_plane(&self, other: &Self, touching: f64) -> [f64; 3] {
+        self.vertices.map(|corner| {
+            let height = other.normal.dot(corner - other.vertices[0]);
+            if height.abs() <= touching { 0.0 } else { height }
+        })
+    }
+
+    /// Where the triangle cuts the plane that its corners are so high above; `None` if it is on one side of it.
+    fn cut_at_zero(&self, heights: [f64; 3]) -> Option<[DVec3; 2]> {
+        let lowest = heights.into_iter().fold(f64::INFINITY, f64::min);
+        let highest = heights.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        if lowest >= 0.0 || highest <= 0.0 {
+            return None;
+        }
+        let mut ends = [DVec3::ZERO; 2];
+        let mut count = 0;
+        for k in 0..3 {
+            let (p, q) = (heights[k], heights[(k + 1) % 3]);
+            let [a, b] = [self.vertices[k], self.vertices[(k + 1) % 3]];
+            let end = if p == 0.0 {
+                a
+            } else if p * q < 0.0 {
+                a + (b - a) * (p / (p - q))
+            } else {
+                continue;
+            };
+            *ends.get_mut(count)? = end;
+            count += 1;
+        }
+        (count == 2).then_some(ends)
+    }
+}

@@ -1,0 +1,314 @@
+//! Section cuts: what a plane leaves of the surfaces, and the caps that close them again.
+//!
+//! ```text
+//!    ╱──╲        ╱──╲             Each triangle is cut by itself; the edges that the plane leaves in it join to loops without a
+//!   ╱    ╲  ─►  ┌────┐ caps,      tolerance, for neighbours are cut at the same bits. Loops are capped: what is behind a cap is
+//!  ╱──────╲     └────┘ hatched    hidden like anything behind a face.
+//! ```
+//! The triangles that fill the gaps beside T-junctions are cut like faces, so that borders which only almost meet give closed
+//! loops too. What does not close belongs to a surface that is open itself; its curve is drawn without a cap.
+
+use super::section_caps::{SectionLoop, triangulate_caps};
+use super::world_mesh::{Face, LineEdge, WorldMesh};
+use crate::Warning;
+use clip::{CutTriangle, Outline, cut_triangle};
+use glam::DVec3;
+use homog::{Plane, Point, World};
+use model::EdgeVisibility;
+use std::collections::BTreeMap;
+
+/// An edge that the plane leaves in a face, and the object of the face.
+type CutEdge = ([Point<World>; 2], u32);
+
+/// Cuts a shape by a plane, the positive side of which stays, and caps what it opens. `fillings` are cut with the faces, but
+/// nothing of them is kept. Points are not welded anew.
+pub(super) fn cut_mesh(
+    shape: &mut WorldMesh,
+    fillings: &[Face],
+    plane: Plane<World>,
+    number: u16,
+    warnings: &mut Vec<Warning>,
+) {
+    let mut openings = Vec::new();
+    let mut retained = Vec::with_capacity(shape.faces.len());
+    for face in std::mem::take(&mut shape.faces) {
+        cut_face(shape, &face, plane, &mut retained, &mut openings);
+    }
+    let mut none = Vec::new();
+    for face in fillings {
+        none.clear();
+        cut_face(shape, face, plane, &mut none, &mut openings);
+    }
+    shape.faces = retained;
+    cut_line_edges(shape, plane);
+    openings.sort_by_key(|(_, object)| *object);
+    for &(ends, _) in &openings {
+        let cut = ends.map(|end| add_point(shape, end));
+        shape.section_edges.push(cut);
+    }
+    for (object, loops) in close_loops(shape, &openings, warnings) {
+        let Some(triangles) = triangulate_caps(loops, plane) else {
+            let object = shape.objects[object as usize].clone();
+            warnings.push(Warning::SectionTooComplex { object });
+            continue;
+        };
+        for triangle in triangles {
+            let corners = triangle.map(|corner| add_point(shape, corner));
+            let material = u32::MAX - u32::from(number);
+            let face = Face {
+                vertices: corners,
+                object,
+                material,
+                edge_visibility: None,
+                cap_section: Some(number),
+            };
+            shape.faces.push(face);
+        }
+    }
+}
+
+fn add_point(shape: &mut WorldMesh, point: Point<World>) -> u32 {
+    shape.points.push(point.raw());
+    shape.points.len() as u32 - 1
+}
+
+/// Keeps what a plane leaves of a face, and notes the edge it leaves on the plane.
+fn cut_face(
+    shape: &mut WorldMesh,
+    face: &Face,
+    plane: Plane<World>,
+    kept: &mut Vec<Face>,
+    openings: &mut Vec<CutEdge>,
+) {
+    let corners = face.vertices.map(|corner| Point::from_raw(shape.points[corner as usize]));
+    let remaining = cut_triangle(corners, plane);
+    openings.extend(remaining.edge().map(|ends| (ends, face.object)));
+    let numbers: Vec<u32> = remaining
+        .vertices()
+        .iter()
+        .map(|vertex| match corners.iter().position(|corner| *corner == vertex.point) {
+            Some(corner) => face.vertices[corner],
+            None => add_point(shape, vertex.point),
+        })
+        .collect();
+    for k in 2..numbers.len() {
+        let corners = [numbers[0], numbers[k - 1], numbers[k]];
+        let marks = face.edge_visibility.map(|marks| {
+            [[0, k - 1], [k - 1, k], [k, 0]]
+                .map(|side| part_edge_visibility(side, &remaining, marks))
+        });
+        kept.push(Face { vertices: corners, edge_visibility: marks, ..*face });
+    }
+}
+
+/// What the file says of the side that a part's side lies on; sides that the cut made are not its edges.
+fn part_edge_visibility(
+    ends: [usize; 2],
+    left: &CutTriangle<World>,
+    marks: [EdgeVisibility; 3],
+) -> EdgeVisibility {
+    let weights = ends.map(|end| left.vertices()[end].weights);
+    let side = (0..3).find(|k| weights.iter().all(|weights| weights[(k + 2) % 3] == 0.0));
+    side.map_or(EdgeVisibility::Hidden, |k| marks[k])
+}
+
+/// What is left of lines that are edges by themselves.
+fn cut_line_edges(shape: &mut WorldMesh, plane: Plane<World>) {
+    let strokes = std::mem::take(&mut shape.line_edges);
+    for stroke in strokes {
+        let ends = stroke.ends.map(|end| shape.points[end as usize]);
+        let heights = ends.map(|end| plane.evaluate(Point::from_raw(end)));
+        let retained = match heights.map(|height| height >= 0.0) {
+            [true, true] => stroke.ends,
+            [false, false] => continue,
+            [first, _] => {
+                let t = heights[0] / (heights[0] - heights[1]);
+                let cut = add_point(shape, Point::from_raw(ends[0] + (ends[1] - ends[0]) * t));
+                if first { [stroke.ends[0], cut] } else { [cut, stroke.ends[1]] }
+            }
+        };
+        shape.line_edges.push(LineEdge { ends: retained, ..stroke });
+    }
+}
+
+/// The loops of each object; what does not close within an object may do so together with what others leave open.
+fn close_loops(
+    shape: &WorldMesh,
+    openings: &[CutEdge],
+    warnings: &mut Vec<Warning>,
+) -> Vec<(u32, Vec<SectionLoop>)> {
+    let mut closed = Vec::new();
+    let mut open: Vec<CutEdge> = Vec::new();
+    for of_object in openings.chunk_by(|(_, a), (_, b)| a == b) {
+        let object = of_object[0].1;
+        let edges: Vec<_> = of_object.iter().map(|(ends, _)| *ends).collect();
+        let outline = Outline::from_edges(&edges);
+        open.extend(chain_segments(&outline.open).map(|ends| (ends, object)));
+        closed.push((object, outline.loops));
+    }
+    let edges: Vec<_> = open.iter().map(|(ends, _)| *ends).collect();
+    let together = Outline::from_edges(&edges);
+    let key = |point: Point<World>| point.raw().to_array().map(|x| (x + 0.0).to_bits());
+    let mut owners = BTreeMap::new();
+    for ([start, _], object) in open {
+        owners.entry(key(start)).or_insert(object);
+    }
+    let owner = |points: &[Point<World>]| {
+        points.iter().find_map(|point| owners.get(&key(*point))).copied().unwrap_or(0)
+    };
+    for points in together.loops {
+        closed.push((owner(&points), vec![points]));
+    }
+    let mut objects: Vec<u32> = together.open.iter().map(|points| owner(points)).collect();
+    objects.sort_unstable();
+    objects.dedup();
+    warnings.extend(objects.into_iter().map(|object| {
+        let object = shape.objects[object as usize].clone();
+        Warning::SectionOpen { object }
+    }));
+    closed
+}
+
+/// The segments of chains.
+fn chain_segments(chains: &[Vec<Point<World>>]) -> impl Iterator<Item = [Point<World>; 2]> {
+    chains.iter().flat_map(|chain| chain.windows(2).map(|pair| [pair[0], pair[1]]))
+}
+
+impl WorldMesh {
+    /// The caps by object and plane: their triangles.
+    pub(crate) fn section_caps(&self) -> Vec<(u32, Vec<[DVec3; 3]>)> {
+        let mut capping: Vec<&Face> =
+            self.faces.iter().filter(|face| face.cap_section.is_some()).collect();
+        capping.sort_by_key(|face| (face.object, face.cap_section));
+        let alike = capping.chunk_by(|a, b| (a.object, a.cap_section) == (b.object, b.cap_section));
+        let corners = |face: &&Face| face.vertices.map(|corner| self.points[corner as usize]);
+        alike.map(|faces| (faces[0].object, faces.iter().map(corners).collect())).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::weld::weld_equal_vertices;
+    use super::*;
+    use homog::Normal;
+    use std::f64::consts::TAU;
+
+    /// A body by rings of points, from one pole to the other; both are left out if they are `None`.
+    fn solid_of_revolution(rings: &[(f64, f64)], sides: u32) -> WorldMesh {
+        let mut shape = WorldMesh { objects: vec!["body".to_owned()], ..WorldMesh::default() };
+        for (radius, height) in rings {
+            shape.points.extend((0..sides).map(|side| {
+                let (sine, cosine) = libm::sincos(TAU * f64::from(side) / f64::from(sides));
+                DVec3::new(radius * cosine, *height, -radius * sine)
+            }));
+        }
+        for ring in 0..rings.len() as u32 - 1 {
+            for side in 0..sides {
+                let (a, b) = (ring * sides + side, ring * sides + (side + 1) % sides);
+                for corners in [[a, b, b + sides], [a, b + sides, a + sides]] {
+                    let (material, marks, cap) = (0, None, None);
+                    shape.faces.push(Face {
+                        vertices: corners,
+                        object: 0,
+                        material,
+                        edge_visibility: marks,
+                        cap_section: cap,
+                    });
+                }
+            }
+        }
+        weld_equal_vertices(&mut shape);
+        shape
+    }
+
+    /// The area of the cap that a plane leaves, which must close.
+    fn closed_cap_area(mut shape: WorldMesh, point: [f64; 3], normal: [f64; 3]) -> f64 {
+        let [x, y, z] = normal;
+        let normal = Normal::new(x, y, z).normalized().expect("a direction");
+        let mut warnings = Vec::new();
+        cut_mesh(&mut shape, &[], Plane::through(point.into(), normal), 0, &mut warnings);
+        weld_equal_vertices(&mut shape);
+        assert!(warnings.is_empty(), "{warnings:?}");
+        let caps = shape.section_caps();
+        let triangles = caps.iter().flat_map(|(_, triangles)| triangles);
+        triangles.map(|[a, b, c]| (*b - *a).cross(*c - *a).length() / 2.0).sum()
+    }
+
+    const CYLINDER: [(f64, f64); 4] = [(0.0, 0.0), (2.0, 0.0), (2.0, 3.0), (0.0, 3.0)];
+
+    /// The area of a regular polygon.
+    fn regular_polygon_area(radius: f64, sides: u32) -> f64 {
+        0.5 * f64::from(sides) * radius * radius * libm::sin(TAU / f64::from(sides))
+    }
+
+    #[test]
+    fn caps_of_a_cylinder_have_the_areas_of_its_sections() {
+        let cylinder = || solid_of_revolution(&CYLINDER, 60);
+        let round = closed_cap_area(cylinder(), [0.0, 1.3, 0.0], [0.0, -1.0, 0.0]);
+        assert!((round - regular_polygon_area(2.0, 60)).abs() < 1e-12, "{round}");
+        // Along the axis through two edges, and beside it: the chord of the polygon there.
+        let along = closed_cap_area(cylinder(), [0.0; 3], [0.0, 0.0, 1.0]);
+        assert!((along - 12.0).abs() < 1e-12, "{along}");
+        let (sine, cosine) = libm::sincos(TAU / 60.0 * 5.0);
+        let beside = closed_cap_area(cylinder(), [0.0, 0.0, 2.0 * sine], [0.0, 0.0, -1.0]);
+        assert!((beside - 3.0 * 4.0 * cosine).abs() < 1e-9, "{beside}");
+        // Tilted by 45° and within both ends, it is √2 times as large as from above.
+        let tilted = solid_of_revolution(&[(0.0, -9.0), (2.0, -9.0), (2.0, 9.0), (0.0, 9.0)], 60);
+        let tilted = closed_cap_area(tilted, [0.1, 0.2, 0.3], [1.0, 1.0, 0.0]);
+        let expected = regular_polygon_area(2.0, 60) * std::f64::consts::SQRT_2;
+        assert!((tilted - expected).abs() < 1e-9, "{tilted}");
+    }
+
+    #[test]
+    fn caps_of_a_ball_come_near_those_of_a_sphere() {
+        let ring = |k: u32| {
+            let (sine, cosine) = libm::sincos(TAU / 2.0 * (f64::from(k) / 90.0 - 0.5));
+            (if k == 0 || k == 90 { 0.0 } else { cosine }, sine)
+        };
+        let rings: Vec<(f64, f64)> = (0..=90).map(ring).collect();
+        for (height, normal) in
+            [(0.0, [0.0, 1.0, 0.0]), (0.4, [0.3, 0.5, 0.7]), (-0.9, [1.0, 0.0, 0.0])]
+        {
+            let unit = DVec3::from(normal).normalize();
+            let area =
+                closed_cap_area(solid_of_revolution(&rings, 180), (unit * height).into(), normal);
+            let expected = TAU / 2.0 * (1.0 - height * height);
+            assert!((area / expected - 1.0).abs() < 0.01, "{area} instead of {expected}");
+        }
+    }
+
+    #[test]
+    fn a_plane_beside_the_body_takes_nothing_or_all() {
+        let cut = |height: f64| {
+            let mut shape = solid_of_revolution(&CYLINDER, 8);
+            let plane = Plane::through(Point::new(0.0, height, 0.0), Normal::new(0.0, -1.0, 0.0));
+            cut_mesh(&mut shape, &[], plane, 0, &mut Vec::new());
+            (shape.faces.len(), shape.section_edges.len())
+        };
+        let whole = solid_of_revolution(&CYLINDER, 8).faces.len();
+        assert_eq!(cut(4.0), (whole, 0));
+        assert_eq!(cut(3.0), (whole, 0));
+        assert_eq!(cut(-1.0), (0, 0));
+    }
+
+    #[test]
+    fn marks_stay_with_the_sides_they_were_made_for() {
+        let mut shape = solid_of_revolution(&CYLINDER, 8);
+        let hard = EdgeVisibility::Hard;
+        shape.faces.iter_mut().for_each(|face| face.edge_visibility = Some([hard; 3]));
+        let plane = Plane::through(Point::new(0.0, 1.0, 0.0), Normal::new(0.0, -1.0, 0.0));
+        cut_mesh(&mut shape, &[], plane, 0, &mut Vec::new());
+        let sides = shape.faces.iter().filter(|face| face.cap_section.is_none());
+        for face in sides {
+            let marks = face.edge_visibility.expect("marks");
+            for (k, mark) in marks.into_iter().enumerate() {
+                let ends = [face.vertices[k], face.vertices[(k + 1) % 3]];
+                let heights = ends.map(|end| shape.points[end as usize].y);
+                if heights == [1.0, 1.0] {
+                    assert_eq!(mark, EdgeVisibility::Hidden);
+                }
+            }
+            assert!(marks.contains(&hard));
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! From the primitives of a scene to one list of points and faces in the world.
+
+use crate::Subject;
+use glam::DVec3;
+use homog::{Affine, Model as ModelSpace, World};
+use model::{EdgeVisibility, MeshInstance, Model, Primitive, SkinnedPrimitive, Topology};
+
+/// A triangle of some object.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Face {
+    /// Places in [`Shape::points`].
+    pub(crate) vertices: [u32; 3],
+    /// The object it belongs to.
+    pub(crate) object: u32,
+    /// A number that faces of the same material share.
+    pub(crate) material: u32,
+    /// The section it closes, if it is a part of a cap.
+    pub(crate) cap_section: Option<u16>,
+    /// What the file says of its sides, from the first corner to the second and so on; `None` if it says nothing.
+    pub(crate) edge_visibility: Option<[EdgeVisibility; 3]>,
+}
+
+/// An edge that is a line by itself.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct LineEdge {
+    pub(crate) ends: [u32; 2],
+    pub(crate) object: u32,
+    /// Whether the file marks it as an edge of a surface; else it is a line of its own.
+    pub(crate) is_marked: bool,
+}
+
+/// Everything of a scene that has edges or hides them, in the world.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct WorldMesh {
+    pub(crate) points: Vec<DVec3>,
+    pub(crate) faces: Vec<Face>,
+    pub(crate) line_edges: Vec<LineEdge>,
+    /// The edges that sections made, each from the lesser number to the greater once they are welded.
+    pub(crate) section_edges: Vec<[u32; 2]>,
+    /// The colours of the materials that faces name, in linear light.
+    pub(crate) colors: Vec<[f32; 3]>,
+    /// Whether faces of several objects may be the same: until cuts are made, for each body must be closed by itself.
+    pub(crate) keeps_duplicates: bool,
+    /// The names of the objects.
+    pub(crate) objects: Vec<String>,
+}
+
+impl WorldMesh {
+    /// All shown primitives as they are posed.
+    pub(crate) fn from_subject(subject: &Subject<'_>) -> Self {
+        let mut shape = Self::default();
+        let mut first_material = 0;
+        for placed in subject.models {
+            let model = &*placed.model;
+            for instance in model.mesh_instances() {
+                let object = shape.objects.len() as u32;
+                shape.objects.push(object_name(model, instance));
+                let mesh = model.nodes[instance.node].mesh.map(|mesh| &model.meshes[mesh]);
+                for primitive in mesh.into_iter().flat_map(|mesh| &mesh.primitives) {
+                    let SkinnedPrimitive { positions, to_model, .. } =
+                        model.skin_primitive(instance, primitive);
+                    let to_world = to_model.then(placed.model_to_world);
+                    let material = first_material + primitive.material.map_or(0, |m| m as u32 + 1);
+                    shape.add_primitive(primitive, &positions, to_world, (object, material));
+                }
+            }
+            let colors = model.materials.iter().map(|material| material.base_color);
+            shape.colors.push([1.0; 3]);
+            shape.colors.extend(colors.map(|[r, g, b, _]| [r, g, b]));
+            first_material += model.materials.len() as u32 + 1;
+        }
+        shape
+    }
+
+    fn add_primitive(
+        &mut self,
+        primitive: &Primitive,
+        positions: &[[f32; 3]],
+        to_world: Affine<ModelSpace, World>,
+        (object, material): (u32, u32),
+    ) {
+        let first = self.points.len() as u32;
+        let place =
+            |position: &[f32; 3]| to_world.transform_point(position.map(f64::from).into()).raw();
+        self.points.extend(positions.iter().map(place));
+        let points = &self.points;
+        let is_here = |corners: &[u32]| corners.iter().all(|&at| points[at as usize].is_finite());
+        match primitive.topology {
+            Topology::Points => {}
+            Topology::Lines => {
+                let ends =
+                    primitive.indices.as_chunks::<2>().0.iter().map(|e| e.map(|v| v + first));
+                let strokes = ends.filter(|ends| is_here(ends));
+                self.line_edges.extend(strokes.map(|ends| LineEdge {
+                    ends,
+                    object,
+                    is_marked: false,
+                }));
+            }
+            Topology::Triangles => {
+                let edges = primitive.edges.as_deref();
+                let marks = |at: usize| Some(*edges?.visibility.as_ref()?.get(at)?);
+                // Who names the lines to be seen wants no others.
+                let rest = edges.map(|_| [EdgeVisibility::Silhouette; 3]);
+                let corners = primitive.indices.as_chunks::<3>().0.iter();
+                let faces = corners.enumerate().map(|(at, corners)| {
+                    let corners = corners.map(|corner| corner + first);
+                    Face {
+                        vertices: corners,
+                        object,
+                        material,
+                        edge_visibility: marks(at).or(rest),
+                        cap_section: None,
+                    }
+                });
+                self.faces.extend(faces.filter(|face| is_here(&face.vertices)));
+                let lines = edges.into_iter().flat_map(|edges| &edges.lines);
+                let ends =
+                    lines.flat_map(|lines| &lines.vertex_pairs).map(|ends| ends.map(|v| v + first));
+                let strokes = ends.filter(|ends| is_here(ends));
+                self.line_edges.extend(strokes.map(|ends| LineEdge {
+                    ends,
+                    object,
+                    is_marked: true,
+                }));
+            }
+        }
+    }
+
+    /// The length of the diagonal of the box around all points.
+    pub(crate) fn bounds_diagonal(&self) -> f64 {
+        let finite = self.points.iter().filter(|point| point.is_finite());
+        let (min, max) = finite.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), &p| {
+            (min.min(p), max.max(p))
+        });
+        let diagonal = (max - min).length();
+        if diagonal.is_finite() { diagonal } else { 0.0 }
+    }
+}
+
+/// The name of the node, else of its mesh, else its number.
+fn object_name(model: &Model, instance: MeshInstance) -> String {
+    let node = &model.nodes[instance.node];
+    let mesh = || node.mesh.and_then(|mesh| model.meshes[mesh].name.clone());
+    node.name.clone().or_else(mesh).unwrap_or_else(|| format!("node {}", instance.node))
+}

@@ -1,0 +1,53 @@
+//! Numbers in files: decimal, with three places at most, the shortest way to write them.
+//!
+//! They are written from whole thousandths, so there is nothing to round and no locale to ask.
+
+/// Writes a number of thousandths: 12500 as `12.5`, −250 as `-.25`.
+pub(super) fn write_thousandths(out: &mut Vec<u8>, number: i64) {
+    if number < 0 {
+        out.push(b'-');
+    }
+    let (whole, part) = (number.unsigned_abs() / 1000, number.unsigned_abs() % 1000);
+    if whole > 0 || part == 0 {
+        out.extend_from_slice(whole.to_string().as_bytes());
+    }
+    if part > 0 {
+        let digits = format!(".{part:03}");
+        out.extend_from_slice(digits.trim_end_matches('0').as_bytes());
+    }
+}
+
+/// The number of thousandths as a text.
+pub(super) fn format_thousandths(number: i64) -> String {
+    let mut out = Vec::new();
+    write_thousandths(&mut out, number);
+    String::from_utf8_lossy(&out).into_owned()
+}
+
+/// A length in millimetres to the micrometre, as a text.
+pub(super) fn format_millimeters(millimetres: f64) -> String {
+    format_thousandths(libm::round(millimetres * 1000.0) as i64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_exact() {
+        for (number, written) in [
+            (0, "0"),
+            (7, ".007"),
+            (-250, "-.25"),
+            (1000, "1"),
+            (-12_500, "-12.5"),
+            (100_000, "100"),
+            (1_234_567, "1234.567"),
+            (i64::from(i32::MIN), "-2147483.648"),
+        ] {
+            assert_eq!(format_thousandths(number), written);
+            assert_eq!(written.parse::<f64>().map(|x| libm::round(x * 1e3) as i64), Ok(number));
+        }
+        assert_eq!(format_millimeters(297.0), "297");
+    }
+}

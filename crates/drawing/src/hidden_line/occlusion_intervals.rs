@@ -1,0 +1,143 @@
+//! Sets of parameters along an edge: disjoint closed intervals in rising order.
+
+/// Disjoint closed intervals in rising order; intervals that touch have become one.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub(crate) struct OcclusionIntervals(Vec<[f64; 2]>);
+
+impl OcclusionIntervals {
+    pub(crate) fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    #[cfg(test)]
+    pub(crate) fn as_slice(&self) -> &[[f64; 2]] {
+        &self.0
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Adds an interval.
+    pub(crate) fn insert_interval(&mut self, [start, end]: [f64; 2]) {
+        let first = self.0.partition_point(|span| span[1] < start);
+        let after = self.0[first..].partition_point(|span| span[0] <= end) + first;
+        if first == after {
+            self.0.insert(first, [start, end]);
+            return;
+        }
+        let merged = [start.min(self.0[first][0]), end.max(self.0[after - 1][1])];
+        self.0[first] = merged;
+        self.0.drain(first + 1..after);
+    }
+
+    /// Whether an interval lies within the set.
+    pub(crate) fn contains_interval(&self, [start, end]: [f64; 2]) -> bool {
+        let at = self.0.partition_point(|span| span[1] < end);
+        self.0.get(at).is_some_and(|span| span[0] <= start && end <= span[1])
+    }
+
+    /// Adds what is in both of two other sets.
+    pub(crate) fn insert_intersection(&mut self, one: &Self, other: &Self) {
+        let (mut i, mut j) = (0, 0);
+        while let (Some(a), Some(b)) = (one.0.get(i), other.0.get(j)) {
+            let common = [a[0].max(b[0]), a[1].min(b[1])];
+            if common[0] < common[1] {
+                self.insert_interval(common);
+            }
+            if a[1] < b[1] {
+                i += 1;
+            } else {
+                j += 1;
+            }
+        }
+    }
+
+    /// Closes gaps, also those at the ends 0 and 1, that are shorter than `least`; then leaves out intervals that are.
+    pub(crate) fn remove_slivers(&mut self, least: f64) {
+        self.0.dedup_by(|next, kept| {
+            let closes = next[0] - kept[1] < least;
+            if closes {
+                kept[1] = next[1];
+            }
+            closes
+        });
+        self.0.retain(|span| span[1] - span[0] >= least);
+        if let Some(first) = self.0.first_mut().filter(|first| first[0] < least) {
+            first[0] = 0.0;
+        }
+        if let Some(last) = self.0.last_mut().filter(|last| 1.0 - last[1] < least) {
+            last[1] = 1.0;
+        }
+    }
+
+    /// The whole of [0, 1] in order, each part with whether it is in the set.
+    pub(crate) fn divide_unit_interval(&self) -> impl Iterator<Item = ([f64; 2], bool)> + '_ {
+        let starts = std::iter::once(0.0).chain(self.0.iter().map(|span| span[1]));
+        let ends = self.0.iter().map(|span| Some(*span)).chain([None]);
+        starts.zip(ends).flat_map(|(start, span)| {
+            let gap = ([start, span.map_or(1.0, |span| span[0])], false);
+            let gap = (gap.0[0] < gap.0[1]).then_some(gap);
+            gap.into_iter().chain(span.map(|span| (span, true)))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn interval_set(spans: &[[f64; 2]]) -> OcclusionIntervals {
+        let mut set = OcclusionIntervals::default();
+        spans.iter().for_each(|&span| set.insert_interval(span));
+        set
+    }
+
+    #[test]
+    fn intervals_that_touch_become_one() {
+        let spans = interval_set(&[[0.5, 0.6], [0.1, 0.2], [0.8, 0.9], [0.2, 0.5]]);
+        assert_eq!(spans.as_slice(), [[0.1, 0.6], [0.8, 0.9]]);
+        assert_eq!(interval_set(&[[0.1, 0.2], [0.3, 0.4], [0.0, 1.0]]).as_slice(), [[0.0, 1.0]]);
+    }
+
+    #[test]
+    fn only_what_lies_in_one_interval_is_covered() {
+        let spans = interval_set(&[[0.1, 0.4], [0.5, 0.9]]);
+        assert!(spans.contains_interval([0.1, 0.4]) && spans.contains_interval([0.6, 0.6]));
+        assert!(
+            !spans.contains_interval([0.3, 0.6])
+                && !spans.contains_interval([0.0, 0.2])
+                && !spans.contains_interval([0.8, 1.0])
+        );
+    }
+
+    #[test]
+    fn what_is_common_is_added() {
+        let mut spans = interval_set(&[[0.0, 0.1]]);
+        spans.insert_intersection(
+            &interval_set(&[[0.2, 0.5], [0.6, 0.9]]),
+            &interval_set(&[[0.4, 0.7], [0.9, 1.0]]),
+        );
+        assert_eq!(spans.as_slice(), [[0.0, 0.1], [0.4, 0.5], [0.6, 0.7]]);
+    }
+
+    #[test]
+    fn slivers_go() {
+        let mut spans = interval_set(&[[0.001, 0.2], [0.201, 0.4], [0.6, 0.601], [0.8, 0.9999]]);
+        spans.remove_slivers(0.01);
+        assert_eq!(spans.as_slice(), [[0.0, 0.4], [0.8, 1.0]]);
+    }
+
+    #[test]
+    fn the_parts_fill_the_edge() {
+        let parts: Vec<_> =
+            interval_set(&[[0.0, 0.25], [0.5, 0.75]]).divide_unit_interval().collect();
+        let expected =
+            [([0.0, 0.25], true), ([0.25, 0.5], false), ([0.5, 0.75], true), ([0.75, 1.0], false)];
+        assert_eq!(parts, expected);
+        assert_eq!(
+            OcclusionIntervals::default().divide_unit_interval().collect::<Vec<_>>(),
+            [([0.0, 1.0], false)]
+        );
+    }
+}

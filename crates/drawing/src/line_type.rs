@@ -1,0 +1,120 @@
+//! Line types and widths of technical drawing (ISO 128-2:2020; in the edition of 1996, parts 20 and 24).
+//!
+//! ```text
+//!  01.2  continuous wide      ━━━━━━━━━━━━━━━━━━━━━━   visible edges and outlines
+//!  01.1  continuous narrow    ──────────────────────   tangent edges, dimensions, hatching
+//!  02.1  dashed narrow        ─────  ─────  ─────  ─   hidden edges: dash 12 d, gap 3 d
+//!  04.1  chain narrow         ───────── · ───────── ·  axes: dash 24 d, gap 3 d, dot ½ d, gap 3 d
+//! ```
+//! Lengths are multiples of the width d of the line. Wide lines are twice as wide as narrow ones, and widths form a series in
+//! which each is √2 times the one before, so that a drawing on A3 can be brought to A4 and still has widths of the series.
+
+use super::page::{Cap, Ink, Join, Pen};
+
+/// The widths of the series, in millimetres.
+const WIDTH_SERIES: [f64; 9] = [0.13, 0.18, 0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0];
+
+/// A group of line widths that go together, named by the widest.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct IsoLineGroup {
+    /// The place of the wide line in the series, at least 2.
+    wide_index: usize,
+}
+
+impl IsoLineGroup {
+    /// 0.35 mm and 0.18 mm: small sheets.
+    pub const MM_0_35: Self = Self { wide_index: 3 };
+    /// 0.5 mm and 0.25 mm: the usual one.
+    pub const MM_0_5: Self = Self { wide_index: 4 };
+    /// 0.7 mm and 0.35 mm: large sheets.
+    pub const MM_0_7: Self = Self { wide_index: 5 };
+
+    /// The group whose wide lines have this width in millimetres: 0.25, 0.35, 0.5, 0.7, 1, 1.4 or 2. `None` for any other.
+    #[must_use]
+    pub fn from_wide_width(wide: f64) -> Option<Self> {
+        let found = WIDTH_SERIES.iter().position(|&width| (width - wide).abs() < 1e-9)?;
+        (found >= 2).then_some(Self { wide_index: found })
+    }
+
+    /// The width of wide lines in millimetres.
+    #[must_use]
+    pub fn wide_width(self) -> f64 {
+        WIDTH_SERIES[self.wide_index]
+    }
+
+    /// The width of lettering: between the two.
+    #[must_use]
+    pub fn lettering_width(self) -> f64 {
+        WIDTH_SERIES[self.wide_index - 1]
+    }
+
+    /// The width of narrow lines in millimetres.
+    #[must_use]
+    pub fn narrow_width(self) -> f64 {
+        WIDTH_SERIES[self.wide_index - 2]
+    }
+}
+
+/// A line type by its number in ISO 128.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum LineType {
+    /// 01: without a gap.
+    Continuous,
+    /// 02: dashes.
+    Dashed,
+    /// 04: long dashes with a dot between them.
+    LongDashedDotted,
+    /// 05: long dashes with two dots between them.
+    LongDashedDoubleDotted,
+}
+
+impl LineType {
+    /// Dashes and gaps in turn, in millimetres, for a line of this width.
+    #[must_use]
+    pub fn dash_pattern(self, width: f64) -> Vec<f64> {
+        let in_widths: &[f64] = match self {
+            Self::Continuous => &[],
+            Self::Dashed => &[12.0, 3.0],
+            Self::LongDashedDotted => &[24.0, 3.0, 0.5, 3.0],
+            Self::LongDashedDoubleDotted => &[24.0, 3.0, 0.5, 3.0, 0.5, 3.0],
+        };
+        in_widths.iter().map(|length| length * width).collect()
+    }
+
+    /// A pen for this type. Dashes end square at their ends, or they would be longer than they say.
+    #[must_use]
+    pub fn to_pen(self, width: f64, ink: Ink, cap: Cap, join: Join) -> Pen {
+        let cap = if self == Self::Continuous { cap } else { Cap::Butt };
+        Pen { width, ink, dashes: self.dash_pattern(width), cap, join }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn groups_are_those_of_the_standard() {
+        let of = |wide: f64| {
+            IsoLineGroup::from_wide_width(wide)
+                .map(|g| [g.wide_width(), g.lettering_width(), g.narrow_width()])
+        };
+        assert_eq!(of(0.25), Some([0.25, 0.18, 0.13]));
+        assert_eq!(of(0.5), Some([0.5, 0.35, 0.25]));
+        assert_eq!(of(0.7), Some([0.7, 0.5, 0.35]));
+        assert_eq!(of(2.0), Some([2.0, 1.4, 1.0]));
+        assert_eq!((of(0.18), of(0.4), of(f64::NAN)), (None, None, None));
+        // The series grows by √2 to the width of a drawing pen, and wide is to narrow as 2 to 1.
+        for pair in WIDTH_SERIES.windows(2) {
+            assert!((pair[1] / pair[0] - core::f64::consts::SQRT_2).abs() < 0.05, "{pair:?}");
+        }
+    }
+
+    #[test]
+    fn dashes_are_twelve_widths_long() {
+        assert_eq!(LineType::Dashed.dash_pattern(0.25), [3.0, 0.75]);
+        assert_eq!(LineType::LongDashedDotted.dash_pattern(0.5), [12.0, 1.5, 0.25, 1.5]);
+        let pen = LineType::Dashed.to_pen(0.25, [0; 3], Cap::Round, Join::Round);
+        assert_eq!((pen.cap, pen.join), (Cap::Butt, Join::Round));
+    }
+}

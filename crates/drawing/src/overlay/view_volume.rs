@@ -1,0 +1,41 @@
+//! The view volume of another camera, with its eye: the frustum of the lessons (C61 to C64).
+
+use super::{BLUE, LETTER_HEIGHT, PicturePlane, overlay_layer};
+use crate::{Group, Label, Layer, TextAlign};
+use camera::ViewProjection;
+use glam::DVec2;
+use homog::{HPoint, Point, World};
+use projection::{Convention, ViewVolume};
+
+impl PicturePlane {
+    /// The twelve edges, and the rays from the eye to the near plane.
+    pub(super) fn view_volume_layers(&self, view_projection: &ViewProjection) -> Vec<Layer> {
+        let volume = ViewVolume::new(view_projection.view_to_clip, Convention::CHAPTER);
+        let view_to_world = view_projection.camera.view_to_world();
+        let Some(corners) = volume.corners() else { return Vec::new() };
+        let corners = corners.map(|corner| Some(view_to_world.transform_point(corner.divide()?)));
+        let edge = |[a, b]: [usize; 2]| Some([corners[a]?, corners[b]?]);
+        let edges: Vec<[Point<World>; 2]> =
+            ViewVolume::EDGES.into_iter().filter_map(edge).collect();
+        let mut layers = self.line_layers("volume", BLUE, &edges).to_vec();
+        if let Some(eye) = volume.eye().and_then(HPoint::divide) {
+            let eye = view_to_world.transform_point(eye);
+            let rays: Vec<_> = corners[..4].iter().flatten().map(|corner| [eye, *corner]).collect();
+            let [mut visible, hidden] = self.line_layers("volume-rays", BLUE, &rays);
+            visible.pen.width *= 0.5;
+            layers.extend([visible, hidden, self.eye_layer(eye)]);
+        }
+        layers
+    }
+
+    /// The name of the eye beside it.
+    fn eye_layer(&self, eye: Point<World>) -> Layer {
+        let mut layer = overlay_layer("volume-eye", "eye of the view volume", BLUE);
+        let strokes = self.point_in_picture(self.project_point(eye)).map(|place| {
+            let at = place - DVec2::new(0.0, 1.5);
+            Label::new("eye", at, 0.8 * LETTER_HEIGHT).with_align(TextAlign::Middle).strokes()
+        });
+        layer.groups.push(Group { strokes: strokes.unwrap_or_default(), ..Group::default() });
+        layer
+    }
+}

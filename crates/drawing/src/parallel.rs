@@ -1,0 +1,58 @@
+//! Work for several threads whose results come in the order of the work.
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Items that a thread takes at a time.
+const CHUNK_SIZE: usize = 512;
+
+/// Does the work of `count` items with up to `threads` threads, each with memory of its own, and puts what it pushes
+/// together in the order of the items: it does not depend on the number of threads.
+pub(super) fn map_in_order<M: Default, T: Send>(
+    count: usize,
+    threads: usize,
+    work: impl Fn(Range<usize>, &mut M, &mut Vec<T>) + Sync,
+) -> Vec<T> {
+    let next = AtomicUsize::new(0);
+    let take = || {
+        let (mut memory, mut done) = (M::default(), Vec::new());
+        loop {
+            let start = next.fetch_add(CHUNK_SIZE, Ordering::Relaxed);
+            if start >= count {
+                return done;
+            }
+            let mut results = Vec::new();
+            work(start..count.min(start + CHUNK_SIZE), &mut memory, &mut results);
+            done.push((start, results));
+        }
+    };
+    let mut done: Vec<(usize, Vec<T>)> = std::thread::scope(|scope| {
+        let threads = threads.min(count.div_ceil(CHUNK_SIZE));
+        let others: Vec<_> = (1..threads).map(|_| scope.spawn(take)).collect();
+        let mut done = take();
+        for other in others {
+            match other.join() {
+                Ok(results) => done.extend(results),
+                Err(cause) => std::panic::resume_unwind(cause),
+            }
+        }
+        done
+    });
+    done.sort_unstable_by_key(|(start, _)| *start);
+    done.into_iter().flat_map(|(_, results)| results).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn any_number_of_threads_gives_the_same_order() {
+        let count = 3 * CHUNK_SIZE + 7;
+        for threads in [0, 1, 2, 5, 64] {
+            let work = |range: Range<usize>, (): &mut (), out: &mut Vec<usize>| out.extend(range);
+            assert!(map_in_order(count, threads, work).into_iter().eq(0..count));
+        }
+        assert!(map_in_order(0, 4, |_, (): &mut (), _: &mut Vec<()>| panic!()).is_empty());
+    }
+}

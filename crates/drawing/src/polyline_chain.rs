@@ -1,0 +1,262 @@
+//! Chains: pieces that share their ends become polylines, so that corners are joined, dashes go on around them, and files are small.
+//!
+//! Ends are the same if they are the same place of the page's grid. Where more than two pieces meet, the straightest way is taken.
+
+use super::overlap_removal::PageSegment;
+use super::page::{PagePoint, Polyline, to_micrometers};
+
+/// A polyline of one layer and object.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) struct PolylineChain {
+    pub(super) layer: u32,
+    pub(super) object: u32,
+    pub(super) polyline: Polyline,
+}
+
+/// At a place where more than two pieces meet, a turn with a smaller cosine ends the chain: 60°.
+const MIN_TURN_COSINE: f64 = 0.5;
+
+/// How far, in micrometres, a point may be beside the line of its neighbours and be left out.
+const COLLINEAR_TOLERANCE: f64 = 1.0;
+
+/// The most points in a row that are left out; more of them take too long to look at again and again.
+const MAX_DROPPED_RUN: usize = 64;
+
+/// Chains the pieces: by layer, by object, and in the order of their first pieces.
+pub(super) fn join_into_chains(pieces: &[PageSegment]) -> Vec<PolylineChain> {
+    let mut order: Vec<&PageSegment> = pieces.iter().collect();
+    order.sort_by_key(|piece| (piece.layer, piece.object));
+    let alike = order.chunk_by(|a, b| (a.layer, a.object) == (b.layer, b.object));
+    alike
+        .flat_map(|group| {
+            let (layer, object) = (group[0].layer, group[0].object);
+            let lines = SegmentGraph::new(group).into_polylines();
+            lines.into_iter().map(move |line| PolylineChain { layer, object, polyline: line })
+        })
+        .collect()
+}
+
+/// The pieces of one layer and object on the grid, and which of them meet where.
+struct SegmentGraph {
+    /// The two ends of each piece.
+    segments: Vec<[PagePoint; 2]>,
+    /// Every end: its place, its piece, and which end of it. Sorted, so that those of one place are neighbours.
+    ends: Vec<(PagePoint, u32, u8)>,
+    is_used: Vec<bool>,
+}
+
+impl SegmentGraph {
+    fn new(pieces: &[&PageSegment]) -> Self {
+        let on_grid = |piece: &&PageSegment| piece.ends.map(to_micrometers);
+        let sides: Vec<_> = pieces.iter().map(on_grid).filter(|[a, b]| a != b).collect();
+        let segments = drop_duplicate_segments(&sides);
+        let mut ends: Vec<_> = (0_u32..)
+            .zip(&segments)
+            .flat_map(|(side, [a, b])| [(*a, side, 0), (*b, side, 1)])
+            .collect();
+        ends.sort_unstable();
+        let is_used = vec![false; segments.len()];
+        Self { segments: segments, ends, is_used }
+    }
+
+    fn into_polylines(mut self) -> Vec<Polyline> {
+        let mut lines = Vec::new();
+        for side in 0..self.segments.len() {
+            if self.is_used[side] {
+                continue;
+            }
+            self.is_used[side] = true;
+            let mut points = self.segments[side].to_vec();
+            self.extend_chain(&mut points);
+            let closed = points.len() > 3 && points.first() == points.last();
+            if closed {
+                points.pop();
+            } else {
+                points.reverse();
+                self.extend_chain(&mut points);
+                points.reverse();
+            }
+            lines.push(Polyline { points: remove_collinear(points, closed), closed });
+        }
+        lines
+    }
+
+    /// Goes on from the last point as far as there is a way.
+    fn extend_chain(&mut self, points: &mut Vec<PagePoint>) {
+        while let Some((side, next)) =
+            self.next_segment(points[points.len() - 2], points[points.len() - 1])
+        {
+            self.is_used[side] = true;
+            points.push(next);
+            if next == points[0] {
+                return;
+            }
+        }
+    }
+
+    /// The piece that goes on from `here`, where one comes from `before`, and where it leads.
+    fn next_segment(&self, before: PagePoint, here: PagePoint) -> Option<(usize, PagePoint)> {
+        let first = self.ends.partition_point(|(place, ..)| *place < here);
+        let incident = self.ends[first..].iter().take_while(|(place, ..)| *place == here);
+        let is_crossing = incident.clone().nth(2).is_some();
+        let mut best: Option<(f64, usize, PagePoint)> = None;
+        for &(_, side, end) in incident {
+            let (side, next) = (side as usize, self.segments[side as usize][usize::from(1 - end)]);
+            let cosine = turn_cosine(before, here, next);
+            let is_way = !self.is_used[side] && (!is_crossing || cosine >= MIN_TURN_COSINE);
+            if is_way && best.is_none_or(|(other, ..)| cosine > other) {
+                best = Some((cosine, side, next));
+            }
+        }
+        best.map(|(_, side, next)| (side, next))
+    }
+}
+
+/// The sides without those that are there before, in either direction.
+fn drop_duplicate_segments(sides: &[[PagePoint; 2]]) -> Vec<[PagePoint; 2]> {
+    let sorted = |side: &[PagePoint; 2]| [side[0].min(side[1]), side[0].max(side[1])];
+    let mut order: Vec<u32> = (0..sides.len() as u32).collect();
+    order.sort_by_key(|&at| (sorted(&sides[at as usize]), at));
+    order.dedup_by_key(|at| sorted(&sides[*at as usize]));
+    order.sort_unstable();
+    order.into_iter().map(|at| sides[at as usize]).collect()
+}
+
+fn grid_offset([x0, y0]: PagePoint, [x1, y1]: PagePoint) -> [f64; 2] {
+    [f64::from(x1) - f64::from(x0), f64::from(y1) - f64::from(y0)]
+}
+
+/// The cosine of the turn at `b` on the way from `a` to `c`.
+fn turn_cosine(a: PagePoint, b: PagePoint, c: PagePoint) -> f64 {
+    let ([x0, y0], [x1, y1]) = (grid_offset(a, b), grid_offset(b, c));
+    let squares = (x0 * x0 + y0 * y0) * (x1 * x1 + y1 * y1);
+    (x0 * x1 + y0 * y1) / libm::sqrt(squares)
+}
+
+/// The points without those that lie on the straight line between points that stay.
+fn remove_collinear(points: Vec<PagePoint>, closed: bool) -> Vec<PagePoint> {
+    let mut retained = vec![points[0]];
+    let mut dropped: Vec<PagePoint> = Vec::new();
+    let ends = points[1..].iter().chain(closed.then_some(&points[0]));
+    let mut last = points[0];
+    for (at, &next) in ends.enumerate() {
+        let from = retained[retained.len() - 1];
+        if at > 0 {
+            dropped.push(last);
+            let flat = dropped.iter().all(|&point| lies_on_segment(from, point, next));
+            if !flat || dropped.len() > MAX_DROPPED_RUN {
+                retained.push(last);
+                dropped.clear();
+            }
+        }
+        last = next;
+    }
+    if !closed {
+        retained.push(last);
+    }
+    if retained.len() < 2 { points } else { retained }
+}
+
+/// Whether a point lies on the segment from `from` to `to`, but for less than a step of the grid.
+fn lies_on_segment(from: PagePoint, point: PagePoint, to: PagePoint) -> bool {
+    let ([dx, dy], [px, py]) = (grid_offset(from, to), grid_offset(from, point));
+    let square = dx * dx + dy * dy;
+    let (along, across) = (dx * px + dy * py, dx * py - dy * px);
+    (0.0..=square).contains(&along)
+        && across * across <= COLLINEAR_TOLERANCE * COLLINEAR_TOLERANCE * square
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec2;
+
+    /// The chains of segments given in millimetres, all of one layer and object.
+    fn chains_in_millimeters(segments: &[[f64; 4]]) -> Vec<(Vec<[i32; 2]>, bool)> {
+        let piece = |&[x0, y0, x1, y1]: &[f64; 4]| PageSegment {
+            ends: [DVec2::new(x0, y0), DVec2::new(x1, y1)],
+            layer: 0,
+            object: 0,
+        };
+        let pieces: Vec<PageSegment> = segments.iter().map(piece).collect();
+        let in_millimetres =
+            |line: Polyline| line.points.iter().map(|p| p.map(|c| c / 1000)).collect();
+        join_into_chains(&pieces)
+            .into_iter()
+            .map(|chain| (in_millimetres(chain.polyline.clone()), chain.polyline.closed))
+            .collect()
+    }
+
+    #[test]
+    fn a_square_in_any_order_is_one_closed_line() {
+        let square = [
+            [0.0, 0.0, 1.0, 0.0],
+            [1.0, 1.0, 0.0, 1.0],
+            [1.0, 1.0, 1.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0],
+        ];
+        let expected = (vec![[0, 0], [1, 0], [1, 1], [0, 1]], true);
+        assert_eq!(chains_in_millimeters(&square), [expected]);
+    }
+
+    #[test]
+    fn an_open_line_grows_to_both_sides_and_straight_joints_vanish() {
+        let line = [
+            [2.0, 0.0, 3.0, 0.0],
+            [1.0, 0.0, 2.0, 0.0],
+            [3.0, 0.0, 3.0, 5.0],
+            [1.0, 0.0, 0.0, 0.0],
+        ];
+        assert_eq!(chains_in_millimeters(&line), [(vec![[0, 0], [3, 0], [3, 5]], false)]);
+    }
+
+    #[test]
+    fn at_a_crossing_the_straight_way_is_taken() {
+        let cross = [
+            [0.0, 5.0, 5.0, 5.0],
+            [5.0, 0.0, 5.0, 5.0],
+            [5.0, 5.0, 10.0, 5.0],
+            [5.0, 5.0, 5.0, 10.0],
+        ];
+        let expected = [(vec![[0, 5], [10, 5]], false), (vec![[5, 0], [5, 10]], false)];
+        assert_eq!(chains_in_millimeters(&cross), expected);
+        // A T: the bar is one line, the foot another.
+        let expected = [(vec![[0, 5], [10, 5]], false), (vec![[5, 5], [5, 10]], false)];
+        assert_eq!(chains_in_millimeters(&[cross[0], cross[3], cross[2]]), expected);
+    }
+
+    #[test]
+    fn a_piece_that_is_there_twice_or_too_short_for_the_grid_is_not_drawn_again() {
+        let twice = [[0.0, 0.0, 1.0, 2.0], [1.0, 2.0, 0.0, 0.0], [0.0, 0.0, 0.0001, 0.0]];
+        assert_eq!(chains_in_millimeters(&twice), [(vec![[0, 0], [1, 2]], false)]);
+    }
+
+    #[test]
+    fn a_circle_of_many_sides_keeps_its_shape() {
+        let point = |k: usize| {
+            let (sin, cos) = libm::sincos(k as f64 / 1000.0 * core::f64::consts::TAU);
+            [50.0 * cos, 50.0 * sin]
+        };
+        let side = |k: usize| {
+            let ([x0, y0], [x1, y1]) = (point(k), point((k + 1) % 1000));
+            [x0, y0, x1, y1]
+        };
+        let sides: Vec<[f64; 4]> = (0..1000).map(side).collect();
+        let pieces: Vec<PageSegment> = sides
+            .iter()
+            .map(|s| PageSegment {
+                ends: [DVec2::new(s[0], s[1]), DVec2::new(s[2], s[3])],
+                layer: 2,
+                object: 7,
+            })
+            .collect();
+        let chains = join_into_chains(&pieces);
+        assert_eq!(chains.len(), 1);
+        let Polyline { points, closed } = &chains[0].polyline;
+        assert!(*closed && points.len() > 400 && points.len() <= 1000, "{}", points.len());
+        for &[x, y] in points {
+            assert!((libm::hypot(f64::from(x), f64::from(y)) - 50_000.0).abs() < 1.0, "{x} {y}");
+        }
+        assert!((chains[0].polyline.length() - 100.0 * core::f64::consts::PI).abs() < 0.01);
+    }
+}

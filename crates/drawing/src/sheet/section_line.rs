@@ -1,0 +1,160 @@
+//! Which view shows which cut, and the lines that say where the cuts are (ISO 128-40).
+//!
+//! ```text
+//!    A                 A        The line of the cut, chain narrow with wide ends, stands in the views that see the plane from its
+//!    │                 │        edge; arrows show the way one looks, and a letter names the cut. The view that looks straight
+//!    ▼━ ── · ── · ── ━ ▼        onto the plane is drawn cut, with A–A below it. All other principal views show the thing whole.
+//! ```
+
+use super::{PlacedView, Sheet, ViewLayout};
+use crate::label::{Label, TextAlign};
+use crate::line_type::LineType;
+use crate::page::{Cap, Group, Ink, Join, Layer, Pen, Polyline};
+use camera::NamedView;
+use glam::DVec2;
+use homog::{Plane, Vector, World};
+
+/// What counts as parallel: the sine or the cosine may differ by this.
+const PARALLEL_TOLERANCE: f64 = 1e-6;
+
+/// How far the line reaches beyond the view, in millimetres; its wide ends are as long.
+const OVERHANG: f64 = 4.0;
+
+/// The length of the arrows with their shafts, in millimetres.
+const ARROW_LENGTH: f64 = 6.0;
+
+impl PlacedView<'_> {
+    /// Whether the view shows a cut: an axonometric view every one, a principal view what it looks straight onto.
+    pub(super) fn shows_section(&self, plane: Plane<World>) -> bool {
+        let is_principal = NamedView::PRINCIPAL.contains(&self.view.name);
+        !is_principal || self.faces_section(plane)
+    }
+
+    fn faces_section(&self, plane: Plane<World>) -> bool {
+        plane.normal().dot(self.view.camera.gaze()) > 1.0 - PARALLEL_TOLERANCE
+    }
+
+    /// Where a plane that is seen from its edge is on the sheet: a point, and the unit vector to what is kept.
+    fn section_trace(&self, plane: Plane<World>) -> Option<(DVec2, DVec2)> {
+        let camera = self.view.camera;
+        let retained_direction =
+            camera.rotation().transform_vector(Vector::from_raw(plane.normal().raw())).raw();
+        if retained_direction.z.abs() > PARALLEL_TOLERANCE {
+            return None;
+        }
+        let away = plane.evaluate(camera.eye());
+        let millimetres = self.scale.to_paper_length(self.view.millimeters_per_unit * away);
+        let kept = DVec2::new(retained_direction.x, -retained_direction.y).normalize_or_zero();
+        Some((self.center - kept * millimetres, kept))
+    }
+}
+
+/// The lines of all cuts that a principal view shows, and the names of those views' cuts.
+pub(super) fn section_line_layers(
+    sheet: &Sheet,
+    sections: &[Plane<World>],
+    arrangement: &ViewLayout<'_>,
+    ink: Ink,
+) -> Vec<Layer> {
+    let principal: Vec<&PlacedView<'_>> = arrangement
+        .views
+        .iter()
+        .filter(|placed| NamedView::PRINCIPAL.contains(&placed.view.name))
+        .collect();
+    let group = sheet.line_width_group();
+    let chain =
+        LineType::LongDashedDotted.to_pen(group.narrow_width(), ink, Cap::Butt, Join::Miter);
+    let mut lines = Layer::new("cut-lines", "lines of cuts", chain);
+    let wide = Pen { cap: Cap::Butt, ..Pen::solid(group.wide_width(), ink) };
+    let mut ends = Layer::new("cut-ends", "ends of cuts", wide);
+    let mut names =
+        Layer::new("cut-names", "names of cuts", Pen::solid(group.lettering_width(), ink));
+    let shown = sections.iter().filter(|plane| principal.iter().any(|p| p.faces_section(**plane)));
+    for (plane, letter) in shown.zip('A'..='Z') {
+        for placed in &principal {
+            if placed.faces_section(*plane) {
+                let area = placed.object_area();
+                let height = sheet.lettering_height();
+                let at = DVec2::new(placed.center.x, area.y() + area.height() + 1.8 * height);
+                let name = format!("{letter}-{letter}");
+                names.groups.push(label_group(&name, at, height));
+            } else if let Some(line) = SectionLine::in_view(placed, *plane) {
+                lines.groups.push(stroke_group([line.ends]));
+                let inner =
+                    |k: usize| line.ends[k].lerp(line.ends[1 - k], OVERHANG / line.line_length());
+                ends.groups
+                    .push(stroke_group([[line.ends[0], inner(0)], [line.ends[1], inner(1)]]));
+                names.groups.push(line.arrow_group());
+                let height = sheet.lettering_height();
+                for end in line.ends {
+                    let at = end - line.retained_direction * (ARROW_LENGTH + height)
+                        + DVec2::Y * (0.5 * height);
+                    names.groups.push(label_group(&letter.to_string(), at, height));
+                }
+            }
+        }
+    }
+    [lines, ends, names].into_iter().filter(|layer| !layer.groups.is_empty()).collect()
+}
+
+fn label_group(text: &str, at: DVec2, height: f64) -> Group {
+    let strokes = Label::new(text, at, height).with_align(TextAlign::Middle).strokes();
+    Group { strokes, ..Group::default() }
+}
+
+fn stroke_group<const N: usize>(lines: [[DVec2; 2]; N]) -> Group {
+    let strokes = lines.iter().filter_map(|ends| Polyline::through_points(ends, false)).collect();
+    Group { strokes, ..Group::default() }
+}
+
+/// The line of a cut in a view.
+struct SectionLine {
+    ends: [DVec2; 2],
+    retained_direction: DVec2,
+}
+
+impl SectionLine {
+    /// `None` if the plane is not seen from its edge, or passes by.
+    fn in_view(placed: &PlacedView<'_>, plane: Plane<World>) -> Option<Self> {
+        let (point, kept) = placed.section_trace(plane)?;
+        let area = placed.object_area();
+        let half = DVec2::new(area.width(), area.height()) * 0.5;
+        let along = DVec2::new(-kept.y, kept.x);
+        // From where to where the line is within the area of the view.
+        let mut span = [f64::NEG_INFINITY, f64::INFINITY];
+        for axis in 0..2 {
+            let from = point[axis] - placed.center[axis];
+            if along[axis].abs() < PARALLEL_TOLERANCE {
+                if from.abs() > half[axis] {
+                    return None;
+                }
+                continue;
+            }
+            let [s, t] = [-half[axis] - from, half[axis] - from].map(|to| to / along[axis]);
+            span = [span[0].max(s.min(t)), span[1].min(s.max(t))];
+        }
+        let is_there = span[0] < span[1] && span[0].is_finite() && span[1].is_finite();
+        let ends = [span[0] - OVERHANG, span[1] + OVERHANG].map(|t| point + along * t);
+        is_there.then_some(Self { ends, retained_direction: kept })
+    }
+
+    fn line_length(&self) -> f64 {
+        (self.ends[1] - self.ends[0]).length()
+    }
+
+    /// An arrow at each end, its tip on the line.
+    fn arrow_group(&self) -> Group {
+        let shaft = self.ends.map(|end| {
+            [end - self.retained_direction * ARROW_LENGTH, end - self.retained_direction]
+        });
+        let head = |tip: DVec2| {
+            let (back, side) = (
+                tip - self.retained_direction * 3.0,
+                DVec2::new(-self.retained_direction.y, self.retained_direction.x) * 0.5,
+            );
+            Polyline::through_points(&[tip, back + side, back - side], true)
+        };
+        let fills = self.ends.into_iter().filter_map(head).collect();
+        Group { fills, ..stroke_group(shaft) }
+    }
+}

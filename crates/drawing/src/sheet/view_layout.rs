@@ -1,0 +1,244 @@
+//! Where views stand on a sheet, and at which scale they fit.
+//!
+//! Views stand in columns and rows; the front view and the one beside it share their row, the front view and the one from above
+//! their column. The room that is left is shared out between them. The axonometric view stands in the corner that they leave free,
+//! at a smaller scale if it must, and says so. The title block may stand under the views where there is room for both; otherwise
+//! they all stay above it.
+
+use super::sheet_view::SheetView;
+use super::{Sheet, SheetError, rectangle_from_size};
+use camera::NamedView;
+use glam::DVec2;
+use projection::SheetAngle;
+use viewport::{DrawingScale, Rectangle};
+
+/// The least distance between two views, and to the frame, in millimetres.
+const VIEW_GAP: f64 = 10.0;
+
+/// The room for a dimension line and its text beside a view, in heights of letters.
+const DIMENSION_MARGIN: f64 = 4.0;
+
+/// A view in its place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PlacedView<'a> {
+    pub(super) view: &'a SheetView,
+    /// Where its middle is on the sheet, in millimetres.
+    pub(super) center: DVec2,
+    pub(super) scale: DrawingScale,
+}
+
+/// The views in their places.
+#[derive(Debug)]
+pub(super) struct ViewLayout<'a> {
+    /// The scale of the sheet.
+    pub(super) scale: DrawingScale,
+    /// The front view, the one from above, the one from the side, and the axonometric one if there is one.
+    pub(super) views: Vec<PlacedView<'a>>,
+    /// Whether the view from above stands under the front view.
+    pub(super) is_top_below: bool,
+}
+
+impl<'a> ViewLayout<'a> {
+    pub(super) fn arrange_views(
+        sheet: &Sheet,
+        principal: [&'a SheetView; 3],
+        axonometric: Option<&'a SheetView>,
+    ) -> Result<Self, SheetError> {
+        let table = ViewGrid::new(sheet, principal);
+        let area = sheet.drawing_area();
+        let block = sheet.title_block_area();
+        let height = area.height() - block.height();
+        let above_block = rectangle_from_size(area.x(), area.y(), area.width(), height);
+        let candidates = [area, above_block].into_iter().filter_map(|area| {
+            let scale = match sheet.scale {
+                Some(scale) => table.fits_at_scale(scale, area).then_some(scale)?,
+                None => table.largest_fitting_scale(area)?,
+            };
+            let placed = table.place_views(scale, area);
+            let keeps_off = |placed: &PlacedView<'_>| {
+                placed.keeps_distance(block, VIEW_GAP * 0.5)
+                    && placed.keeps_distance(sheet.scale_bar_area(), 1.5)
+            };
+            placed.iter().all(keeps_off).then_some((scale, placed, area))
+        });
+        // At equal scales the first has more room.
+        let best = candidates.reduce(|a, b| if b.0.ratio() > a.0.ratio() { b } else { a });
+        let (scale, mut placed, area) = best.ok_or_else(|| {
+            let any = Sheet { scale: None, ..sheet.clone() };
+            let fitting = sheet.scale.and_then(|_| Self::arrange_views(&any, principal, None).ok());
+            table.too_large_error(sheet, above_block, fitting.map(|fitting| fitting.scale))
+        })?;
+        let corner = free_corner_area(&placed, area, block);
+        placed.extend(axonometric.and_then(|view| place_in_corner(view, corner?, scale)));
+        Ok(Self { scale, views: placed, is_top_below: table.is_top_below })
+    }
+
+    /// Where the object of a view is on the sheet.
+    pub(super) fn view_area(&self, name: NamedView) -> Option<Rectangle> {
+        self.views.iter().find(|placed| placed.view.name == name).map(PlacedView::object_area)
+    }
+}
+
+impl PlacedView<'_> {
+    /// Where the object is on the sheet.
+    pub(super) fn object_area(&self) -> Rectangle {
+        let size = self.view.size * self.scale.ratio();
+        let corner = self.center - size * 0.5;
+        rectangle_from_size(corner.x, corner.y, size.x, size.y)
+    }
+
+    /// Whether the view keeps so far off a rectangle.
+    fn keeps_distance(&self, other: Rectangle, distance: f64) -> bool {
+        let half = self.view.size * self.scale.ratio() * 0.5 + DVec2::splat(distance);
+        let between = (self.center - DVec2::from(other.center())).abs();
+        between.x >= half.x + other.width() * 0.5 || between.y >= half.y + other.height() * 0.5
+    }
+}
+
+/// The corner of the area beside the view from above and above or below the one from the side, without the title block.
+fn free_corner_area(
+    placed: &[PlacedView<'_>],
+    area: Rectangle,
+    block: Rectangle,
+) -> Option<Rectangle> {
+    let [top, side] = [placed.get(1)?.object_area(), placed.get(2)?.object_area()];
+    let ends = |low: f64, size: f64| [low, low + size];
+    let beside = |taken: [f64; 2], whole: [f64; 2], is_after: bool| {
+        if is_after {
+            [taken[1] + VIEW_GAP, whole[1] - VIEW_GAP]
+        } else {
+            [whole[0] + VIEW_GAP, taken[0] - VIEW_GAP]
+        }
+    };
+    let across = ends(area.x(), area.width());
+    let along = ends(area.y(), area.height());
+    let is_right = side.x() > top.x();
+    let is_below = top.y() > side.y();
+    let x = beside(ends(top.x(), top.width()), across, is_right);
+    let mut y = beside(ends(side.y(), side.height()), along, is_below);
+    if is_below && x[1] > block.x() {
+        y[1] = y[1].min(block.y() - VIEW_GAP);
+    }
+    let size = [x[1] - x[0], y[1] - y[0]];
+    size.iter()
+        .all(|side| *side > VIEW_GAP)
+        .then(|| rectangle_from_size(x[0], y[0], size[0], size[1]))
+}
+
+/// The view in the middle of a corner, at the largest standard scale that is no larger than that of the sheet.
+fn place_in_corner(
+    view: &SheetView,
+    corner: Rectangle,
+    most: DrawingScale,
+) -> Option<PlacedView<'_>> {
+    let available = [corner.width(), corner.height()];
+    let fits = |scale: DrawingScale| {
+        (0..2).all(|axis| scale.to_paper_length(view.size[axis]) <= available[axis])
+    };
+    let scale = if fits(most) {
+        most
+    } else {
+        DrawingScale::largest_standard(view.size.to_array(), available)?
+    };
+    Some(PlacedView { view, center: corner.center().into(), scale })
+}
+
+/// Columns and rows of the three views: sizes in millimetres of the thing.
+struct ViewGrid<'a> {
+    /// Each with its column and row.
+    views: [(&'a SheetView, [usize; 2]); 3],
+    columns: [f64; 2],
+    rows: [f64; 2],
+    /// Room for dimensions, which does not grow with the scale: at the left of the columns, and above or below the rows.
+    dimension_margin: f64,
+    is_top_below: bool,
+}
+
+impl<'a> ViewGrid<'a> {
+    fn new(sheet: &Sheet, [front, top, side]: [&'a SheetView; 3]) -> Self {
+        let first = sheet.projection_angle == SheetAngle::First;
+        // In first angle a view stands on the side opposite to the one it is seen from.
+        let side_is_right = first == (side.name == NamedView::Left);
+        let (front_column, front_row) = (usize::from(!side_is_right), usize::from(!first));
+        let views = [
+            (front, [front_column, front_row]),
+            (top, [front_column, 1 - front_row]),
+            (side, [1 - front_column, front_row]),
+        ];
+        let most = |axis: usize, number: usize| {
+            let sizes = views.iter().filter(|(_, place)| place[axis] == number);
+            sizes.map(|(view, _)| view.size[axis]).fold(0.0, f64::max)
+        };
+        Self {
+            columns: [most(0, 0), most(0, 1)],
+            rows: [most(1, 0), most(1, 1)],
+            views,
+            dimension_margin: if sheet.dimensions {
+                DIMENSION_MARGIN * sheet.lettering_height()
+            } else {
+                0.0
+            },
+            is_top_below: first,
+        }
+    }
+
+    /// What is left of an area for the views themselves.
+    fn available_size(&self, area: Rectangle) -> [f64; 2] {
+        [area.width(), area.height()].map(|side| side - self.dimension_margin - 3.0 * VIEW_GAP)
+    }
+
+    fn total_size(&self) -> [f64; 2] {
+        [self.columns[0] + self.columns[1], self.rows[0] + self.rows[1]]
+    }
+
+    fn fits_at_scale(&self, scale: DrawingScale, area: Rectangle) -> bool {
+        let [width, height] = self.available_size(area);
+        let [x, y] = self.total_size().map(|size| scale.to_paper_length(size));
+        x <= width && y <= height
+    }
+
+    fn largest_fitting_scale(&self, area: Rectangle) -> Option<DrawingScale> {
+        DrawingScale::largest_standard(self.total_size(), self.available_size(area))
+    }
+
+    /// The views with their centres on the sheet.
+    fn place_views(&self, scale: DrawingScale, area: Rectangle) -> Vec<PlacedView<'a>> {
+        let [width, height] = self.available_size(area);
+        let [x, y] = self.total_size().map(|size| scale.to_paper_length(size));
+        let gaps = [(width - x) / 3.0 + VIEW_GAP, (height - y) / 3.0 + VIEW_GAP];
+        let middles = |sizes: [f64; 2], start: f64, gap: f64| {
+            let [first, second] = sizes.map(|size| scale.to_paper_length(size));
+            [start + gap + first * 0.5, start + 2.0 * gap + first + second * 0.5]
+        };
+        let above = if self.is_top_below { self.dimension_margin } else { 0.0 };
+        let columns = middles(self.columns, area.x() + self.dimension_margin, gaps[0]);
+        let rows = middles(self.rows, area.y() + above, gaps[1]);
+        let center = |[column, row]: [usize; 2]| DVec2::new(columns[column], rows[row]);
+        let placed =
+            |&(view, place): &(&'a SheetView, _)| PlacedView { view, center: center(place), scale };
+        self.views.iter().map(placed).collect()
+    }
+
+    fn too_large_error(
+        &self,
+        sheet: &Sheet,
+        area: Rectangle,
+        fitting: Option<DrawingScale>,
+    ) -> SheetError {
+        let smallest = DrawingScale::STANDARD[DrawingScale::STANDARD.len() - 1];
+        let scale = sheet.scale.unwrap_or(smallest);
+        let remedy = match fitting {
+            Some(fitting) => format!("; {fitting} fits"),
+            None => "; take larger paper, or say what a unit of the model is".to_owned(),
+        };
+        let need = self.total_size().map(|size| scale.to_paper_length(size));
+        let available = self.available_size(area).map(|side| side.max(0.0));
+        SheetError::TooLarge {
+            paper: sheet.paper_name.clone(),
+            scale,
+            need,
+            room: available,
+            remedy,
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! A font of single strokes, as a pen draws letters, made for this program: labels need no font file and have the same bytes
+//! everywhere.
+//!
+//! ```text
+//!   10 ┌ ─ ╱╲ ─ ─ ─ ─ ┐ height of capitals      widths of strokes are a tenth of the height,
+//!    7 ├ ─╱─ ╲ ╭──╮ ─ ┤ of small letters        letters a fourth apart and words six tenths,
+//!      │ ╱────╲│  │   │                         about as ISO 3098 has it for lettering B
+//!    0 └╱─ ─ ─ ╰──╯╲ ─┘ baseline
+//!   −3                  descenders
+//! ```
+//! A glyph is a text: `m x,y` moves, `l x,y` is a straight line, `h x,y` a quarter of an ellipse that leaves horizontally and
+//! arrives vertically, `v x,y` one the other way round, `c x,y x,y x,y` a cubic. Round letters are four quarters and the lines
+//! between them.
+
+mod accents;
+mod glyphs;
+
+use glam::DVec2;
+
+/// The height of capitals in the units of the glyphs.
+pub(super) const CAP_HEIGHT: f64 = 10.0;
+
+/// The room between letters.
+const LETTER_SPACING: f64 = 2.4;
+
+/// The width of a space, with the room before and after it the distance of words.
+const SPACE_WIDTH: f64 = 1.6;
+
+/// The straight lines a quarter or a cubic is drawn with.
+const CURVE_STEPS: u32 = 6;
+
+/// A character as strokes: x from its left side, y up from the baseline.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Glyph {
+    pub(super) width: f64,
+    pub(super) strokes: Vec<Vec<DVec2>>,
+}
+
+/// A line of text as strokes: x from its beginning, y up from the baseline, with its width.
+pub(super) fn typeset_line(text: &str) -> Glyph {
+    let mut line = Glyph { width: 0.0, strokes: Vec::new() };
+    let mut x = 0.0;
+    for character in text.chars() {
+        let glyph = glyph_for_char(character);
+        let shift = DVec2::new(x, 0.0);
+        let moved = |stroke: Vec<DVec2>| stroke.into_iter().map(|point| point + shift).collect();
+        line.strokes.extend(glyph.strokes.into_iter().map(moved));
+        line.width = x + glyph.width;
+        x = line.width + LETTER_SPACING;
+    }
+    line
+}
+
+/// The glyph of a character; a box for what the font has not.
+fn glyph_for_char(character: char) -> Glyph {
+    if character.is_whitespace() {
+        return Glyph { width: SPACE_WIDTH, strokes: Vec::new() };
+    }
+    if let Some((_, width, path)) = glyphs::GLYPHS.iter().find(|(c, ..)| *c == character) {
+        return Glyph { width: *width, strokes: parse_strokes(path) };
+    }
+    accents::accented_glyph(character)
+        .unwrap_or_else(|| Glyph { width: 5.0, strokes: parse_strokes(glyphs::MISSING_GLYPH) })
+}
+
+/// The strokes of a glyph's path.
+fn parse_strokes(path: &str) -> Vec<Vec<DVec2>> {
+    let mut strokes: Vec<Vec<DVec2>> = Vec::new();
+    let mut words = path.split_ascii_whitespace();
+    while let Some(command) = words.next() {
+        let mut point = || parse_point(words.next().unwrap_or_default());
+        let to = point();
+        if command == "m" {
+            strokes.push(vec![to]);
+            continue;
+        }
+        let Some(stroke) = strokes.last_mut() else { continue };
+        let from = stroke[stroke.len() - 1];
+        match command {
+            "h" => stroke.extend(quarter_ellipse(from, to, DVec2::new(from.x, to.y))),
+            "v" => stroke.extend(quarter_ellipse(from, to, DVec2::new(to.x, from.y))),
+            "c" => stroke.extend(cubic_bezier(from, to, point(), point())),
+            _ => stroke.push(to),
+        }
+    }
+    strokes
+}
+
+fn parse_point(word: &str) -> DVec2 {
+    let number = |text: &str| text.parse().unwrap_or(0.0);
+    word.split_once(',').map_or(DVec2::ZERO, |(x, y)| DVec2::new(number(x), number(y)))
+}
+
+/// A quarter of an ellipse about `centre`.
+fn quarter_ellipse(from: DVec2, to: DVec2, centre: DVec2) -> impl Iterator<Item = DVec2> {
+    (1..=CURVE_STEPS).map(move |step| {
+        let angle = core::f64::consts::FRAC_PI_2 * f64::from(step) / f64::from(CURVE_STEPS);
+        let (sin, cos) = libm::sincos(angle);
+        if step == CURVE_STEPS { to } else { centre + (from - centre) * cos + (to - centre) * sin }
+    })
+}
+
+/// A cubic by its control points.
+fn cubic_bezier(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> impl Iterator<Item = DVec2> {
+    (1..=CURVE_STEPS).map(move |step| {
+        let t = f64::from(step) / f64::from(CURVE_STEPS);
+        let (ab, bc, cd) = (a.lerp(b, t), b.lerp(c, t), c.lerp(d, t));
+        if step == CURVE_STEPS { d } else { ab.lerp(bc, t).lerp(bc.lerp(cd, t), t) }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn glyphs_stay_between_their_sides_and_the_lines_of_writing() {
+        for (character, width, path) in glyphs::GLYPHS {
+            let words = path.split_ascii_whitespace();
+            let known = |word: &str| {
+                "mlhvc".contains(word)
+                    || word
+                        .split_once(',')
+                        .is_some_and(|(x, y)| x.parse::<f64>().is_ok() && y.parse::<f64>().is_ok())
+            };
+            assert!(words.clone().all(known), "{character}: {path}");
+            let points: Vec<DVec2> = parse_strokes(path).concat();
+            for point in &points {
+                assert!((-0.3..=width + 0.3).contains(&point.x), "{character}: {point}");
+                assert!((-3.0..=11.0).contains(&point.y), "{character}: {point}");
+            }
+            let reaches = points.iter().fold(-1.0, |most, point| point.x.max(most));
+            assert!(width - reaches < 0.9, "{character}: {reaches} of {width}");
+        }
+        let mut characters: Vec<char> = glyphs::GLYPHS.iter().map(|(c, ..)| *c).collect();
+        characters.sort_unstable();
+        assert!(characters.windows(2).all(|pair| pair[0] != pair[1]), "a character is there twice");
+    }
+
+    #[test]
+    fn all_of_ascii_and_latin_is_there() {
+        let tofu = parse_strokes(glyphs::MISSING_GLYPH);
+        let latin =
+            (0xa1..=0xff).filter(|c| ![0xa4, 0xa6, 0xa8, 0xad, 0xaf, 0xb4, 0xb8].contains(c));
+        let more = "ĀāăćČčďĐđēěğıŁłńňőœŒřśŠšťůűźŻżŽž⌀−–—…‘’“”„".chars().map(u32::from);
+        for code in (0x21..0x7f).chain(latin).chain(more) {
+            let character = char::from_u32(code).expect("a character");
+            let glyph = glyph_for_char(character);
+            assert!(glyph.strokes != tofu && !glyph.strokes.is_empty(), "{character}");
+        }
+        assert_eq!(glyph_for_char('漢').strokes, tofu);
+    }
+
+    #[test]
+    fn a_line_is_as_wide_as_its_letters_and_what_is_between_them() {
+        let [a, i] = ["A", "i"].map(|text| typeset_line(text).width);
+        assert_eq!(typeset_line("AiA").width, 2.0 * a + i + 4.8);
+        assert_eq!(typeset_line("A A").width, 2.0 * a + 6.4);
+        assert_eq!(typeset_line("").width, 0.0);
+    }
+}

@@ -1,0 +1,85 @@
+//! Letters with accents: a letter, and a mark that stands over or under it.
+
+use super::{Glyph, glyph_for_char, parse_strokes};
+use glam::DVec2;
+
+/// Marks over letters, about x = 0, y from the top of the letter; and under them, y from the baseline.
+const ACUTE: &str = "m -0.7,1.2 l 0.9,2.9";
+const GRAVE: &str = "m 0.7,1.2 l -0.9,2.9";
+const CIRCUMFLEX: &str = "m -1.5,1.2 l 0,2.8 l 1.5,1.2";
+const CARON: &str = "m -1.5,2.8 l 0,1.2 l 1.5,2.8";
+const DIAERESIS: &str = "m -1.2,2 l -1.2,2.2 m 1.2,2 l 1.2,2.2";
+const DOUBLE_ACUTE: &str = "m -1.5,1.2 l -0.4,2.9 m 0.5,1.2 l 1.6,2.9";
+const TILDE: &str = "m -1.9,1.5 c -1.5,2.5 -0.8,2.5 0,2 c 0.8,1.5 1.5,1.5 1.9,2.5";
+const RING: &str = "m 0,3.2 h -1.1,2.1 v 0,1 h 1.1,2.1 v 0,3.2";
+const MACRON: &str = "m -1.6,2 l 1.6,2";
+const BREVE: &str = "m -1.5,2.8 v 0,1.3 h 1.5,2.8";
+const DOT: &str = "m 0,2 l 0,2.2";
+const CEDILLA: &str = "m 0,0 l 0,-0.7 h 1.1,-1.6 v 0,-2.5 l -0.9,-2.5";
+const APOSTROPHE: &str = "m 0.4,0 l 0,-1.8";
+
+/// The letters of a mark, each with the letter below it.
+const MARKED_LETTERS: &[(&str, &str)] = &[
+    (ACUTE, "ÁAÉEÍIÓOÚUÝYĆCŃNŚSŹZŔRĹLáaéeíıóoúuýyćcńnśsźzŕr"),
+    (GRAVE, "ÀAÈEÌIÒOÙUàaèeìıòoùu"),
+    (CIRCUMFLEX, "ÂAÊEÎIÔOÛUĈCĜGĤHŜSŴWŶYâaêeîıôoûuĉcĝgŝsŵwŷy"),
+    (CARON, "ČCĎDĚEŇNŘRŠSŤTŽZǍAčcěeňnřršsžzǎa"),
+    (DIAERESIS, "ÄAËEÏIÖOÜUŸYäaëeïıöoüuÿy"),
+    (DOUBLE_ACUTE, "ŐOŰUőoűu"),
+    (TILDE, "ÃAÑNÕOĨIŨUãañnõoĩıũu"),
+    (RING, "ÅAŮUåaůu"),
+    (MACRON, "ĀAĒEĪIŌOŪUāaēeīıōoūu"),
+    (BREVE, "ĂAĞGĬIŬUăağgŭu"),
+    (DOT, "ŻZĖEİIĠGżzėeġg"),
+    (CEDILLA, "ÇCŞSŢTçcşsţt"),
+];
+
+/// Letters that have an apostrophe beside them for a caron.
+const APOSTROPHE_CARON_LETTERS: &str = "ďdťtľlĽL";
+
+/// The letter with its mark; `None` if it is none of these.
+pub(super) fn accented_glyph(character: char) -> Option<Glyph> {
+    for (mark, letters) in MARKED_LETTERS {
+        if let Some(letter) = base_letter(letters, character) {
+            return Some(glyph_with_mark(letter, mark));
+        }
+    }
+    let letter = base_letter(APOSTROPHE_CARON_LETTERS, character)?;
+    let mut glyph = glyph_for_char(letter);
+    let corner = DVec2::new(glyph.width + 1.2, 10.0);
+    glyph.width += 1.6;
+    add_strokes(&mut glyph, APOSTROPHE, corner);
+    Some(glyph)
+}
+
+fn base_letter(letters: &str, character: char) -> Option<char> {
+    let mut pairs = letters.chars();
+    while let (Some(marked), Some(letter)) = (pairs.next(), pairs.next()) {
+        if marked == character {
+            return Some(letter);
+        }
+    }
+    None
+}
+
+fn glyph_with_mark(letter: char, mark: &str) -> Glyph {
+    let mut glyph = glyph_for_char(letter);
+    let is_below = mark == CEDILLA;
+    let top = glyph.strokes.iter().flatten().fold(0.0, |top: f64, point| point.y.max(top));
+    let middle = glyph.width * 0.5;
+    // A letter that is no wider than its stroke makes room for its mark.
+    if middle == 0.0 {
+        glyph.strokes.iter_mut().flatten().for_each(|point| point.x += 0.8);
+        glyph.width = 1.6;
+    }
+    // Over small letters a mark stands a little lower, so that lines of text do not touch.
+    let base = if is_below { 0.0 } else { top - if top > 8.0 { 0.2 } else { 0.1 } };
+    let at = DVec2::new(glyph.width * 0.5, base);
+    add_strokes(&mut glyph, mark, at);
+    glyph
+}
+
+fn add_strokes(glyph: &mut Glyph, path: &str, at: DVec2) {
+    let moved = parse_strokes(path).into_iter();
+    glyph.strokes.extend(moved.map(|stroke| stroke.into_iter().map(|point| point + at).collect()));
+}

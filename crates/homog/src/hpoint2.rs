@@ -1,0 +1,168 @@
+//! Homogeneous points and lines of the plane, three numbers each, up to a factor.
+//!
+//! ```text
+//!          h
+//!          │        ╱  the ray of all [−2k, −k, 2k]
+//!   h = 1 ─┼──────●─── meets the plane h = 1 in (−1, −1/2)
+//!          │    ╱
+//!          │  ╱
+//!          0
+//! ```
+//!
+//! A homogeneous point is a ray through the origin of a space with one dimension more; the place it
+//! stands for is where the ray meets h = 1. Points and lines are duals: two points span a line, two
+//! lines meet in a point, by the same vector product, and parallel lines meet too, at infinity.
+//! Source: chapter §8.2, figure 8.11; HO-2.
+
+use crate::hpoint_kind::are_proportional;
+use glam::DVec3;
+
+/// A homogeneous point [x, y, h] of the plane: the place (x/h, y/h), or a direction if h = 0.
+///
+/// ```
+/// use homog::Hom2;
+/// let point = Hom2::new(-2.0, -1.0, 2.0);
+/// assert_eq!(point.divide(), Some([-1.0, -0.5]));
+/// assert_eq!(point.equivalent(Hom2::new(4.0, 2.0, -4.0), 0.0), Some(true));
+/// assert_eq!(Hom2::new(1.0, 0.0, 0.0).divide(), None); // a direction
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct HPoint2 {
+    raw: DVec3,
+}
+
+impl HPoint2 {
+    /// The homogeneous point [x, y, h].
+    #[must_use]
+    pub const fn new(x: f64, y: f64, h: f64) -> Self {
+        Self::from_raw(DVec3::new(x, y, h))
+    }
+
+    /// The place (x, y), lifted to h = 1.
+    #[must_use]
+    pub const fn from_xy(x: f64, y: f64) -> Self {
+        Self::new(x, y, 1.0)
+    }
+
+    /// The point at infinity along (x, y).
+    #[must_use]
+    pub const fn at_infinity(x: f64, y: f64) -> Self {
+        Self::new(x, y, 0.0)
+    }
+
+    /// The point with the given three numbers.
+    #[must_use]
+    pub const fn from_raw(raw: DVec3) -> Self {
+        Self { raw }
+    }
+
+    /// The three numbers x, y, h.
+    #[must_use]
+    pub const fn raw(self) -> DVec3 {
+        self.raw
+    }
+
+    /// The place this stands for; `None` for directions, and where a number is not finite.
+    #[must_use]
+    pub fn divide(self) -> Option<[f64; 2]> {
+        let place = self.raw.truncate() / self.raw.z;
+        (self.raw.z.is_finite() && place.is_finite()).then_some(place.to_array())
+    }
+
+    /// The line through this point and another; `None` if they are the same, or stand for nothing.
+    #[must_use]
+    pub fn join(self, other: Self) -> Option<HLine2> {
+        cross_product(self.raw, other.raw).map(HLine2::from_raw)
+    }
+
+    /// True if both stand for the same; `None` if one stands for nothing (HO-2).
+    #[must_use]
+    pub fn equivalent(self, other: Self, relative: f64) -> Option<bool> {
+        are_proportional(&self.raw.to_array(), &other.raw.to_array(), relative)
+    }
+}
+
+impl From<[f64; 2]> for HPoint2 {
+    /// Lifts a place: h = 1.
+    fn from([x, y]: [f64; 2]) -> Self {
+        Self::from_xy(x, y)
+    }
+}
+
+/// The line a x + b y + c = 0, that is a x + b y + c h = 0 for homogeneous points, up to a factor.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct HLine2 {
+    raw: DVec3,
+}
+
+impl HLine2 {
+    /// The line of all points at infinity, h = 0.
+    pub const INFINITY: Self = Self { raw: DVec3::Z };
+
+    /// The line a x + b y + c = 0.
+    #[must_use]
+    pub const fn new(a: f64, b: f64, c: f64) -> Self {
+        Self::from_raw(DVec3::new(a, b, c))
+    }
+
+    /// The line with the given coefficients.
+    #[must_use]
+    pub const fn from_raw(raw: DVec3) -> Self {
+        Self { raw }
+    }
+
+    /// The coefficients a, b, c.
+    #[must_use]
+    pub const fn raw(self) -> DVec3 {
+        self.raw
+    }
+
+    /// a x + b y + c h: 0 on the line, of one sign on either side.
+    #[must_use]
+    pub fn evaluate(self, point: HPoint2) -> f64 {
+        self.raw.dot(point.raw())
+    }
+
+    /// Where two lines meet, at infinity if they are parallel; `None` if they are the same.
+    #[must_use]
+    pub fn meet(self, other: Self) -> Option<HPoint2> {
+        cross_product(self.raw, other.raw).map(HPoint2::from_raw)
+    }
+
+    /// True if both are the same line; `None` if one of them is no line (HO-2).
+    #[must_use]
+    pub fn equivalent(self, other: Self, relative: f64) -> Option<bool> {
+        are_proportional(&self.raw.to_array(), &other.raw.to_array(), relative)
+    }
+}
+
+fn cross_product(a: DVec3, b: DVec3) -> Option<DVec3> {
+    let cross = a.cross(b);
+    (cross.is_finite() && cross != DVec3::ZERO).then_some(cross)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn c19_the_ray_of_a_point_meets_h_1_in_its_place() {
+        for k in [1.0, -3.0, 1e-200] {
+            assert_eq!(HPoint2::new(-2.0 * k, -k, 2.0 * k).divide(), Some([-1.0, -0.5]));
+        }
+        assert_eq!(HPoint2::new(0.0, 0.0, 0.0).divide(), None);
+        assert_eq!(HPoint2::new(1.0, 2.0, f64::INFINITY).divide(), None);
+    }
+
+    #[test]
+    fn lines_are_spanned_by_points_and_meet_in_points() {
+        let (a, b) = (HPoint2::from_xy(1.0, 2.0), HPoint2::from_xy(3.0, 2.0));
+        let level = a.join(b).expect("two places");
+        assert_eq!(level.equivalent(HLine2::new(0.0, 1.0, -2.0), 0.0), Some(true));
+        let parallel = HLine2::new(0.0, 1.0, 5.0);
+        let far = level.meet(parallel).expect("two lines");
+        assert_eq!(far.equivalent(HPoint2::at_infinity(1.0, 0.0), 0.0), Some(true));
+        assert_eq!(HLine2::INFINITY.evaluate(far), 0.0);
+        assert_eq!((a.join(a), level.meet(level)), (None, None));
+    }
+}

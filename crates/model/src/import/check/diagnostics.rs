@@ -1,0 +1,125 @@
+//! The list of problems, kept short even if a file has millions, and without doubles.
+
+use super::codes::Code;
+use super::report::{Problem, Severity};
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::fmt::Display;
+
+/// So many problems of each severity are kept; a reader has lost patience long before.
+const MAX_PER_SEVERITY: usize = 400;
+/// No message and no pointer is longer than this: what a file has for names may have megabytes.
+const MAX_TEXT_LENGTH: usize = 500;
+
+/// Collects problems while a file is checked.
+#[derive(Default, Debug)]
+pub(super) struct Diagnostics {
+    lists: RefCell<[SeverityList; 3]>,
+}
+
+/// The problems of one severity.
+#[derive(Default, Debug)]
+struct SeverityList {
+    retained: Vec<Problem>,
+    known_keys: BTreeSet<(&'static str, String)>,
+    count: usize,
+}
+
+impl Diagnostics {
+    /// Adds a problem, with the remedy that goes with its code. Nothing is formatted if the list is full.
+    pub(super) fn add(&self, code: &Code, pointer: impl Display, message: impl Display) {
+        self.add_with_help(code, pointer, message, code.remedy);
+    }
+
+    /// Adds a problem with a remedy of its own.
+    pub(super) fn add_with_help(
+        &self,
+        code: &Code,
+        pointer: impl Display,
+        message: impl Display,
+        remedy: &str,
+    ) {
+        let list = &mut self.lists.borrow_mut()[code.severity as usize];
+        if list.retained.len() >= MAX_PER_SEVERITY {
+            list.count += 1;
+            return;
+        }
+        let pointer = truncate_text(pointer.to_string());
+        if list.known_keys.insert((code.name, pointer.clone())) {
+            list.count += 1;
+            list.retained.push(Problem {
+                severity: code.severity,
+                code: code.name,
+                pointer,
+                message: truncate_text(message.to_string()),
+                remedy: remedy.to_owned(),
+            });
+        }
+    }
+
+    /// Whether something at least so bad is known of this very place, or of a place in it.
+    pub(super) fn has_at_or_below(&self, worst: Severity, pointer: &str) -> bool {
+        let lists = self.lists.borrow();
+        let concerns = |problem: &Problem| {
+            let rest = problem.pointer.strip_prefix(pointer);
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+        };
+        let worse = &lists[..=worst as usize];
+        !pointer.is_empty() && worse.iter().any(|list| list.retained.iter().any(concerns))
+    }
+
+    /// Whether there is an error.
+    pub(super) fn has_errors(&self) -> bool {
+        self.lists.borrow()[Severity::Error as usize].count > 0
+    }
+
+    /// Whether a problem of this kind is known.
+    pub(super) fn has_code(&self, code: &Code) -> bool {
+        let list = &self.lists.borrow()[code.severity as usize];
+        list.retained.iter().any(|problem| problem.code == code.name)
+    }
+
+    /// All that is kept, the worst first, and how many there are of each severity.
+    pub(super) fn into_parts(self) -> (Vec<Problem>, [usize; 3]) {
+        let lists = self.lists.into_inner();
+        let counts = [lists[0].count, lists[1].count, lists[2].count];
+        (lists.into_iter().flat_map(|list| list.retained).collect(), counts)
+    }
+}
+
+fn truncate_text(mut text: String) -> String {
+    if text.len() > MAX_TEXT_LENGTH {
+        let end = (0..=MAX_TEXT_LENGTH).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
+        text.truncate(end);
+        text.push('…');
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::codes;
+    use super::*;
+
+    #[test]
+    fn the_list_is_short_sorted_and_without_doubles() {
+        let findings = Diagnostics::default();
+        findings.add(&codes::NODE_EMPTY, "/nodes/0", "empty");
+        for at in [1, 1, 2] {
+            findings.add(&codes::ACCESSOR_TOO_LONG, format_args!("/accessors/{at}"), "too long");
+        }
+        for at in 0..1_000_000 {
+            findings.add(&codes::NON_RELATIVE_URI, format_args!("/images/{at}/uri"), "absolute");
+        }
+        findings.add(&codes::EMPTY_ENTITY, "é".repeat(10_000), "empty");
+        let knows = |pointer| findings.has_at_or_below(Severity::Warning, pointer);
+        assert!(knows("/accessors/1") && knows("/accessors") && knows("/images/7"));
+        assert!(!knows("/accessors/11") && !knows("/nodes/0") && !knows(""));
+        assert!(!findings.has_at_or_below(Severity::Error, "/images/7"));
+        let (problems, counts) = findings.into_parts();
+        assert_eq!(counts, [3, 1_000_000, 1]);
+        assert_eq!(problems.len(), 3 + MAX_PER_SEVERITY + 1);
+        assert!(problems.windows(2).all(|pair| pair[0].severity <= pair[1].severity));
+        assert!(problems[2].pointer.len() < MAX_TEXT_LENGTH + 5);
+    }
+}

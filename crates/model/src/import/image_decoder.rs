@@ -1,0 +1,304 @@
+//! Decoding PNG, JPEG, WebP and, by the feature `basisu`, KTX2 into 8-bit RGBA.
+//!
+//! What an image is, its first bytes say; the file's name and the glTF `mimeType` are not asked.
+
+use super::jpeg::check_chroma_sampling;
+use super::webp::check_frame_sizes;
+use crate::Image;
+use image_webp::WebPDecoder;
+use png::{BitDepth, ColorType, Transformations};
+use std::io::Cursor;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use zune_jpeg::JpegDecoder;
+use zune_jpeg::zune_core::bytestream::ZCursor;
+use zune_jpeg::zune_core::colorspace::ColorSpace;
+use zune_jpeg::zune_core::options::DecoderOptions;
+
+/// Width and height, from the header alone.
+pub(super) fn image_size(bytes: &[u8]) -> Result<(u32, u32), String> {
+    catch_decoder_panic(|| match ImageFormat::from_magic(bytes)? {
+        ImageFormat::Png => {
+            let mut decoder = png::Decoder::new(Cursor::new(bytes));
+            let header = decoder.read_header_info().map_err(|error| png_problem(&error))?;
+            Ok((header.width, header.height))
+        }
+        ImageFormat::Jpeg => {
+            let mut decoder = jpeg_decoder(bytes);
+            decoder.decode_headers().map_err(|error| jpeg_problem(&error))?;
+            let info = decoder.info().ok_or("the JPEG has no header")?;
+            Ok((u32::from(info.width), u32::from(info.height)))
+        }
+        ImageFormat::WebP => Ok(webp_decoder(bytes)?.dimensions()),
+        #[cfg(feature = "basisu")]
+        ImageFormat::Ktx2 => super::ktx2::size(bytes),
+    })
+    .and_then(|(width, height)| {
+        let (texels, most) = (
+            u64::from(width) * u64::from(height),
+            ImageFormat::from_magic(bytes)?.max_plausible_texels(bytes.len()),
+        );
+        if texels <= most {
+            Ok((width, height))
+        } else {
+            Err(decompression_bomb(width, height, bytes.len()))
+        }
+    })
+}
+
+/// The name of the format, or nothing if it is not known.
+pub(super) fn format_name(bytes: &[u8]) -> &'static str {
+    match ImageFormat::from_magic(bytes) {
+        Ok(ImageFormat::Png) => "png",
+        Ok(ImageFormat::Jpeg) => "jpeg",
+        Ok(ImageFormat::WebP) => "webp",
+        #[cfg(feature = "basisu")]
+        Ok(ImageFormat::Ktx2) => "ktx2",
+        Err(_) => "",
+    }
+}
+
+/// An image of at most so many texels, whose header is asked before anything is allocated.
+pub fn decode_bounded(bytes: &[u8], most: u64) -> Result<Image, String> {
+    let (width, height) = image_size(bytes)?;
+    if u64::from(width) * u64::from(height) > most {
+        return Err(format!("the image has {width} x {height} texels, more than {most} in all"));
+    }
+    decode_rgba(bytes)
+}
+
+/// The whole image. Its size should have been asked first: this allocates as much as the image has texels.
+pub(super) fn decode_rgba(bytes: &[u8]) -> Result<Image, String> {
+    catch_decoder_panic(|| match ImageFormat::from_magic(bytes)? {
+        ImageFormat::Png => decode_png(bytes),
+        ImageFormat::Jpeg => decode_jpeg(bytes),
+        ImageFormat::WebP => decode_webp(bytes),
+        #[cfg(feature = "basisu")]
+        ImageFormat::Ktx2 => super::ktx2::decode(bytes),
+    })
+}
+
+/// A decoder that panics has met a broken image.
+fn catch_decoder_panic<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| Err("the decoder gave up".to_owned()))
+}
+
+fn decompression_bomb(width: u32, height: u32, bytes: usize) -> String {
+    format!("the image says {width} x {height} texels, which cannot be in {bytes} bytes")
+}
+
+/// The texels of an image that is next to no bytes long, if its format can have such.
+const BOMB_ALLOWANCE_TEXELS: u64 = 8 << 20;
+
+enum ImageFormat {
+    Png,
+    Jpeg,
+    WebP,
+    #[cfg(feature = "basisu")]
+    Ktx2,
+}
+
+impl ImageFormat {
+    /// No more texels than this can be in so many bytes: deflate makes at most 1,032 bytes of one and a byte has eight
+    /// one-bit texels; a JPEG needs a bit for each block of 64 texels; a WebP of one colour needs next to nothing, so
+    /// that its sheer size is held against it: what [`HOLLOW`] allows takes 70 MB while it is decoded.
+    fn max_plausible_texels(&self, bytes: usize) -> u64 {
+        let bytes = bytes as u64;
+        match self {
+            Self::Png => bytes.saturating_mul(8 * 1032),
+            Self::Jpeg => bytes.saturating_mul(8 * 64),
+            Self::WebP => bytes.saturating_mul(1024).saturating_add(BOMB_ALLOWANCE_TEXELS),
+            // Blocks of one colour that are repeated need next to nothing as well.
+            #[cfg(feature = "basisu")]
+            Self::Ktx2 => bytes.saturating_mul(1024).saturating_add(BOMB_ALLOWANCE_TEXELS),
+        }
+    }
+
+    fn from_magic(bytes: &[u8]) -> Result<Self, String> {
+        let other = match bytes {
+            [0x89, b'P', b'N', b'G', ..] => return Ok(Self::Png),
+            [0xFF, 0xD8, 0xFF, ..] => return Ok(Self::Jpeg),
+            [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => {
+                return Ok(Self::WebP);
+            }
+            #[cfg(feature = "basisu")]
+            [..] if bytes.starts_with(&super::ktx2::MAGIC) => return Ok(Self::Ktx2),
+            [] => return Err("the image is empty".to_owned()),
+            [0xAB, b'K', b'T', b'X', ..] => "a KTX image",
+            [b'D', b'D', b'S', b' ', ..] => "a DDS image",
+            [b'G', b'I', b'F', b'8', ..] => "a GIF image",
+            [b'B', b'M', ..] => "a BMP image",
+            [b'<', ..] => "an SVG image or a web page",
+            _ => "of an unknown format",
+        };
+        Err(format!("this is {other}; only PNG, JPEG and WebP are read"))
+    }
+}
+
+fn png_problem(error: &png::DecodingError) -> String {
+    format!("the PNG is broken: {error}")
+}
+
+fn decode_png(bytes: &[u8]) -> Result<Image, String> {
+    let problem = |error: png::DecodingError| png_problem(&error);
+    let mut decoder =
+        png::Decoder::new_with_limits(Cursor::new(bytes), png::Limits { bytes: 1 << 30 });
+    decoder.set_transformations(Transformations::normalize_to_color8() | Transformations::ALPHA);
+    decoder.set_ignore_text_chunk(true);
+    decoder.set_ignore_iccp_chunk(true);
+    let mut reader = decoder.read_info().map_err(problem)?;
+    let (width, height) = reader.info().size();
+    match reader.output_color_type() {
+        (ColorType::Rgba, BitDepth::Eight) => {
+            let mut rgba = blank_texels(width, height);
+            reader.next_frame(rgba.as_flattened_mut()).map_err(problem)?;
+            Ok(Image { width, height, rgba })
+        }
+        (ColorType::GrayscaleAlpha, BitDepth::Eight) => {
+            let mut grey = vec![0; reader.output_buffer_size().ok_or("the PNG is too large")?];
+            reader.next_frame(&mut grey).map_err(problem)?;
+            let pairs = grey.as_chunks().0.iter();
+            checked_image(width, height, pairs.map(|&[y, alpha]| [y, y, y, alpha]).collect())
+        }
+        (color, depth) => Err(format!("the PNG is {color:?} of {depth:?} bits after reading")),
+    }
+}
+
+fn blank_texels(width: u32, height: u32) -> Vec<[u8; 4]> {
+    vec![[0; 4]; width as usize * height as usize]
+}
+
+fn jpeg_decoder(bytes: &[u8]) -> JpegDecoder<ZCursor<&[u8]>> {
+    let options = DecoderOptions::default()
+        .jpeg_set_out_colorspace(ColorSpace::RGBA)
+        .set_max_width(usize::from(u16::MAX))
+        .set_max_height(usize::from(u16::MAX));
+    JpegDecoder::new_with_options(ZCursor::new(bytes), options)
+}
+
+fn jpeg_problem(error: &zune_jpeg::errors::DecodeErrors) -> String {
+    format!("the JPEG is broken: {error}")
+}
+
+fn decode_jpeg(bytes: &[u8]) -> Result<Image, String> {
+    check_chroma_sampling(bytes)?;
+    let mut decoder = jpeg_decoder(bytes);
+    decoder.decode_headers().map_err(|error| jpeg_problem(&error))?;
+    if let Some(space @ (ColorSpace::CMYK | ColorSpace::YCCK)) = decoder.input_colorspace() {
+        return Err(format!("the JPEG is in {space:?}, for printing; only RGB and grey are read"));
+    }
+    let info = decoder.info().ok_or("the JPEG has no header")?;
+    let (width, height) = (u32::from(info.width), u32::from(info.height));
+    let mut rgba = blank_texels(width, height);
+    decoder.decode_into(rgba.as_flattened_mut()).map_err(|error| jpeg_problem(&error))?;
+    Ok(Image { width, height, rgba })
+}
+
+fn webp_problem(error: &image_webp::DecodingError) -> String {
+    format!("the WebP is broken: {error}")
+}
+
+fn webp_decoder(bytes: &[u8]) -> Result<WebPDecoder<Cursor<&[u8]>>, String> {
+    let mut decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(|error| webp_problem(&error))?;
+    decoder.set_memory_limit(1 << 30);
+    Ok(decoder)
+}
+
+fn decode_webp(bytes: &[u8]) -> Result<Image, String> {
+    let mut decoder = webp_decoder(bytes)?;
+    let (width, height) = decoder.dimensions();
+    check_frame_sizes(bytes, (width, height))?;
+    if decoder.has_alpha() {
+        let mut rgba = blank_texels(width, height);
+        decoder.read_image(rgba.as_flattened_mut()).map_err(|error| webp_problem(&error))?;
+        return Ok(Image { width, height, rgba });
+    }
+    let mut rgb = vec![0; decoder.output_buffer_size().ok_or("the WebP is too large")?];
+    decoder.read_image(&mut rgb).map_err(|error| webp_problem(&error))?;
+    let rgba = rgb.as_chunks().0.iter().map(|&[r, g, b]| [r, g, b, 255]);
+    checked_image(width, height, rgba.collect())
+}
+
+fn checked_image(width: u32, height: u32, rgba: Vec<[u8; 4]>) -> Result<Image, String> {
+    if rgba.len() as u64 == u64::from(width) * u64::from(height) {
+        Ok(Image { width, height, rgba })
+    } else {
+        Err("the image is incomplete".to_owned())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A PNG of 2 x 1 texels with these bytes as its only row.
+    fn png(color: ColorType, depth: BitDepth, row: &[u8], palette: Option<&[u8]>) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, 2, 1);
+        encoder.set_color(color);
+        encoder.set_depth(depth);
+        if let Some(palette) = palette {
+            encoder.set_palette(palette);
+            encoder.set_trns(&[255, 64][..]);
+        }
+        encoder.write_header().unwrap().write_image_data(row).unwrap();
+        bytes
+    }
+
+    /// A baseline JPEG of 8 x 8 texels, all of middle grey: every coefficient is 0, and each of the two Huffman tables has
+    /// the single code `0`, for "no difference" and for "end of block".
+    fn jpeg(components: u8) -> Vec<u8> {
+        let numbers = || 1..=components;
+        let mut bytes = vec![0xFF, 0xD8, 0xFF, 0xDB, 0, 67, 0];
+        bytes.extend([1; 64]);
+        bytes.extend([0xFF, 0xC0, 0, 8 + 3 * components, 8, 0, 8, 0, 8, components]);
+        numbers().for_each(|number| bytes.extend([number, 0x11, 0]));
+        for table in [0x00, 0x10] {
+            bytes.extend([0xFF, 0xC4, 0, 20, table, 1]);
+            bytes.extend([0; 16]);
+        }
+        bytes.extend([0xFF, 0xDA, 0, 6 + 2 * components, components]);
+        numbers().for_each(|number| bytes.extend([number, 0]));
+        bytes.extend([0, 63, 0, 0x00, 0xFF, 0xD9]);
+        bytes
+    }
+
+    #[test]
+    fn every_kind_of_png_becomes_rgba_of_8_bits() {
+        use ColorType::{Grayscale, GrayscaleAlpha, Indexed, Rgb, Rgba};
+        let palette: &[u8] = &[1, 2, 3, 4, 5, 6];
+        type Row<'a> = (ColorType, BitDepth, &'a [u8], Option<&'a [u8]>, [[u8; 4]; 2]);
+        let table: [Row<'_>; 9] = [
+            (Rgba, BitDepth::Eight, &[1, 2, 3, 4, 5, 6, 7, 8], None, [[1, 2, 3, 4], [5, 6, 7, 8]]),
+            (Rgb, BitDepth::Eight, &[1, 2, 3, 5, 6, 7], None, [[1, 2, 3, 255], [5, 6, 7, 255]]),
+            (GrayscaleAlpha, BitDepth::Eight, &[9, 4, 7, 8], None, [[9, 9, 9, 4], [7, 7, 7, 8]]),
+            (Grayscale, BitDepth::Eight, &[9, 7], None, [[9, 9, 9, 255], [7, 7, 7, 255]]),
+            (Grayscale, BitDepth::One, &[0b0100_0000], None, [[0, 0, 0, 255], [255; 4]]),
+            (Grayscale, BitDepth::Four, &[0x2F], None, [[34, 34, 34, 255], [255; 4]]),
+            (Grayscale, BitDepth::Sixteen, &[9, 99, 7, 0], None, [[9, 9, 9, 255], [7, 7, 7, 255]]),
+            (Indexed, BitDepth::Eight, &[1, 0], Some(palette), [[4, 5, 6, 64], [1, 2, 3, 255]]),
+            (
+                Indexed,
+                BitDepth::One,
+                &[0b1000_0000],
+                Some(palette),
+                [[4, 5, 6, 64], [1, 2, 3, 255]],
+            ),
+        ];
+        for (color, depth, row, palette, rgba) in table {
+            let file = png(color, depth, row, palette);
+            assert_eq!(image_size(&file), Ok((2, 1)));
+            assert_eq!(decode_rgba(&file).unwrap().rgba, rgba, "{color:?} of {depth:?} bits");
+        }
+    }
+
+    #[test]
+    fn jpegs_of_one_and_three_components_are_read_and_those_for_printing_refused() {
+        for components in [1, 3] {
+            let image = decode_rgba(&jpeg(components)).unwrap();
+            assert_eq!((image.width, image.height), (8, 8));
+            assert_eq!(image.rgba, [[128, 128, 128, 255]; 64], "{components} components");
+        }
+        let problem = decode_rgba(&jpeg(4)).unwrap_err();
+        assert_eq!(problem, "the JPEG is in CMYK, for printing; only RGB and grey are read");
+    }
+}

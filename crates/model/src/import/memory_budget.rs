@@ -1,0 +1,44 @@
+//! How much memory the arrays that a file asks for may take.
+
+use super::error::{Diagnostic, ImportErrorKind};
+use super::limits::Limits;
+use std::cell::Cell;
+
+/// Arrays may take so many bytes however small the files are.
+const FREE_ARRAY_BYTES: u64 = 16 << 20;
+
+/// Counts the bytes of all arrays; see [`Limits::array_bytes`] and [`Limits::array_growth`].
+#[derive(Debug)]
+pub(super) struct MemoryBudget<'a> {
+    limits: &'a Limits,
+    allocated: Cell<u64>,
+}
+
+impl<'a> MemoryBudget<'a> {
+    pub(super) fn new(limits: &'a Limits) -> Self {
+        Self { limits, allocated: Cell::new(0) }
+    }
+
+    /// Counts an array that is about to be made. `pointer` is the member that says how long it is, `files` the bytes of
+    /// all files that have been read.
+    pub(super) fn charge_bytes(
+        &self,
+        pointer: &str,
+        bytes: u64,
+        files: u64,
+    ) -> Result<(), Diagnostic> {
+        let made = self.allocated.get().saturating_add(bytes);
+        self.allocated.set(made);
+        let what = format!("the arrays take {made} bytes up to here");
+        let Limits { array_bytes, array_growth, .. } = *self.limits;
+        if made > array_bytes {
+            return Err(Diagnostic::limit_exceeded(pointer, &what, "array_bytes", array_bytes));
+        }
+        if made.saturating_sub(FREE_ARRAY_BYTES) > files.saturating_mul(array_growth) {
+            let problem = format!("{what}, more than {array_growth} times the files");
+            let remedy = Diagnostic::raise_limit_help("array_growth");
+            return Err(Diagnostic::new(ImportErrorKind::Limit, pointer, problem, &remedy));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,83 @@
+//! Decoding images on all processors while the geometry is read.
+//!
+//! Which thread decodes which image makes no difference: results are kept by their place.
+
+use super::image_decoder;
+use super::images::EncodedImage;
+use crate::Image;
+use crate::Timings;
+use std::convert::Infallible;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+/// An image, or why there is none.
+pub(super) type DecodeResult = Result<Image, String>;
+
+/// Decodes images.
+pub(super) fn decode_images(encoded: &[EncodedImage<'_>]) -> Vec<DecodeResult> {
+    let Ok(((), decoded)) =
+        decode_images_alongside(encoded, &Timings::default(), || Ok::<_, Infallible>(()));
+    decoded
+}
+
+/// Does other work while images are decoded, then helps with those that are left, which is measured as `images`. If the
+/// work fails no further image is begun.
+pub(super) fn decode_images_alongside<T, E>(
+    encoded: &[EncodedImage<'_>],
+    timings: &Timings,
+    work: impl FnOnce() -> Result<T, E>,
+) -> Result<(T, Vec<DecodeResult>), E> {
+    let queue = DecodeQueue::new(encoded);
+    let processors = thread::available_parallelism().map_or(1, usize::from);
+    let done = thread::scope(|scope| {
+        let others = processors.saturating_sub(1).min(encoded.len());
+        let others: Vec<_> =
+            (0..others).map(|_| scope.spawn(|| queue.decode_until_empty())).collect();
+        let done = work();
+        timings.measure("images", || {
+            if done.is_err() {
+                queue.stop_queue();
+            }
+            queue.decode_until_empty();
+            others.into_iter().for_each(|thread| drop(thread.join()));
+        });
+        done
+    });
+    Ok((done?, queue.into_results()))
+}
+
+/// Images, of which each thread takes the next one.
+struct DecodeQueue<'a> {
+    encoded: &'a [EncodedImage<'a>],
+    next: AtomicUsize,
+    results: Vec<Mutex<Option<DecodeResult>>>,
+}
+
+impl<'a> DecodeQueue<'a> {
+    fn new(encoded: &'a [EncodedImage<'a>]) -> Self {
+        let results = encoded.iter().map(|_| Mutex::new(None)).collect();
+        Self { encoded, next: AtomicUsize::new(0), results }
+    }
+
+    fn decode_until_empty(&self) {
+        loop {
+            let at = self.next.fetch_add(1, Ordering::Relaxed);
+            let Some(image) = self.encoded.get(at) else { break };
+            let decoded = image_decoder::decode_rgba(&image.bytes);
+            if let Ok(mut slot) = self.results[at].lock() {
+                *slot = Some(decoded);
+            }
+        }
+    }
+
+    fn stop_queue(&self) {
+        self.next.store(self.encoded.len(), Ordering::Relaxed);
+    }
+
+    fn into_results(self) -> Vec<DecodeResult> {
+        let given_up = || Err("it was not decoded".to_owned());
+        let results = self.results.into_iter().map(|slot| slot.into_inner().ok().flatten());
+        results.map(|result| result.unwrap_or_else(given_up)).collect()
+    }
+}

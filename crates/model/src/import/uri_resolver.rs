@@ -1,0 +1,297 @@
+//! Which file a URI of a glTF file means, and whether it may be read.
+//!
+//! A model comes from a stranger, so its URIs are not trusted: they name files by a relative path below one folder,
+//! the root, and nothing else. No absolute path, no scheme but `data:`, no `..` above the root, no symbolic link that
+//! leads out of it, no device or pipe, no file larger than the limit. Everything is checked before a file is opened,
+//! and a path that would leave the root is refused without looking whether something is there. The person who loads the
+//! model may name other folders: then `..` and symbolic links may lead there too, and nothing else changes.
+
+use super::ImportOptions;
+use super::error::{Diagnostic, ImportErrorKind};
+use super::limits::Limits;
+use base64::Engine;
+use base64::alphabet;
+use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+use std::cell::Cell;
+use std::fs::File;
+use std::io::Read;
+use std::path::{Component, Path, PathBuf};
+
+/// Reads the files that a glTF file refers to.
+#[derive(Debug)]
+pub(super) struct UriResolver<'a> {
+    /// The folder of the glTF file and the one that everything must stay below; `None` if no file may be read.
+    sandbox: Option<AssetSandbox>,
+    pub(super) limits: &'a Limits,
+    /// Whether a missing file stops loading; see [`ImportOptions::lenient`].
+    pub(super) lenient: bool,
+    /// The bytes that have been read so far.
+    bytes_read: Cell<u64>,
+}
+
+/// Where files are looked for.
+#[derive(Debug)]
+struct AssetSandbox {
+    /// The folder that relative paths begin at.
+    folder: PathBuf,
+    /// The folders of which everything must stay below one.
+    roots: Vec<PathBuf>,
+}
+
+impl<'a> UriResolver<'a> {
+    /// A resolver for the assets of `file`, which must be below the folders that the options name, or below the file's own.
+    /// The file itself has been read: its `length` counts.
+    pub(super) fn new(
+        file: &Path,
+        length: usize,
+        options: &'a ImportOptions,
+    ) -> Result<Self, Diagnostic> {
+        let parent = match file.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent,
+            _ => Path::new("."),
+        };
+        let folder = canonical_folder(parent)?;
+        let root = options.root.as_deref().map_or_else(|| Ok(folder.clone()), canonical_folder)?;
+        Self::with_sandbox(Some((folder, root)), length, options)
+    }
+
+    /// A resolver for the assets of a glTF file in memory: they begin at the root, or, without one, may not be files.
+    pub(super) fn in_memory(length: usize, options: &'a ImportOptions) -> Result<Self, Diagnostic> {
+        let root = options.root.as_deref().map(canonical_folder).transpose()?;
+        Self::with_sandbox(root.map(|root| (root.clone(), root)), length, options)
+    }
+
+    /// A resolver for assets that begin at a folder and stay below a root.
+    fn with_sandbox(
+        place: Option<(PathBuf, PathBuf)>,
+        length: usize,
+        options: &'a ImportOptions,
+    ) -> Result<Self, Diagnostic> {
+        let ImportOptions { limits, lenient, allow_outside, .. } = options;
+        let others = allow_outside.iter().map(|folder| canonical_allowed_folder(folder));
+        let others: Vec<PathBuf> = others.collect::<Result<_, _>>()?;
+        let place = place.map(|(folder, root)| {
+            let roots = std::iter::once(root).chain(others).collect();
+            AssetSandbox { folder, roots }
+        });
+        Ok(Self { sandbox: place, limits, lenient: *lenient, bytes_read: Cell::new(length as u64) })
+    }
+
+    /// The bytes that a URI stands for; `pointer` is where the URI is.
+    pub(super) fn read_uri(&self, uri: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
+        let bytes = match uri.split_once(':') {
+            Some((scheme, data)) if scheme.eq_ignore_ascii_case("data") => {
+                decode_data_uri(data, pointer)?
+            }
+            _ => read_file(&self.locate_file(uri, pointer)?, self.limits, pointer)?,
+        };
+        self.bytes_read.set(self.bytes_read.get().saturating_add(bytes.len() as u64));
+        if self.bytes_read.get() > self.limits.total_bytes {
+            let what = format!("{} bytes have been read up to here", self.bytes_read.get());
+            return Err(Diagnostic::limit_exceeded(
+                pointer,
+                &what,
+                "total_bytes",
+                self.limits.total_bytes,
+            ));
+        }
+        Ok(bytes)
+    }
+
+    /// The bytes of all files that have been read so far.
+    pub(super) fn total_bytes(&self) -> u64 {
+        self.bytes_read.get()
+    }
+
+    /// The file that a URI names: as it is written, else percent-decoded, else with `\` read as `/`.
+    fn locate_file(&self, uri: &str, pointer: &str) -> Result<PathBuf, Diagnostic> {
+        if uri.is_empty() {
+            return Err(Diagnostic::invalid(pointer, "the URI is empty"));
+        }
+        let Some(place) = &self.sandbox else {
+            let problem = format!("the model is in memory and may not read the file {uri:?}");
+            return Err(forbidden_path(pointer, &problem));
+        };
+        let decoded = percent_decode(uri).and_then(|bytes| String::from_utf8(bytes).ok());
+        let candidates =
+            [Some(uri.to_owned()), decoded.clone(), decoded.map(|d| d.replace('\\', "/"))];
+        for candidate in candidates.into_iter().flatten() {
+            let path = place.path_below_root(&candidate, pointer)?;
+            if let Ok(path) = path.canonicalize() {
+                return place.check_path(path, uri, pointer);
+            }
+        }
+        Err(match uri_scheme(uri) {
+            Some(scheme) => {
+                forbidden_path(pointer, &format!("the scheme {scheme:?} of {uri:?} is not read"))
+            }
+            None => Diagnostic::new(
+                ImportErrorKind::Unreadable,
+                pointer,
+                format!("the file {uri:?} does not exist"),
+                "put it beside the glTF file",
+            ),
+        })
+    }
+}
+
+impl AssetSandbox {
+    /// Whether a path is below one of the roots.
+    fn contains_path(&self, path: &Path) -> bool {
+        self.roots.iter().any(|root| path.starts_with(root))
+    }
+
+    /// The path of a relative name, if it stays below a root by its letters alone. With only one root it never leaves it; on
+    /// its way from one of several to another it must.
+    fn path_below_root(&self, name: &str, pointer: &str) -> Result<PathBuf, Diagnostic> {
+        let outside =
+            || Err(forbidden_path(pointer, &format!("{name:?} is outside of the model's folder")));
+        let drive = cfg!(windows) && name.contains(':');
+        if name.starts_with(['/', '\\']) || name.contains('\0') || drive {
+            return outside();
+        }
+        let (mut path, several) = (self.folder.clone(), self.roots.len() > 1);
+        for part in Path::new(name).components() {
+            match part {
+                Component::Normal(part) => path.push(part),
+                Component::CurDir => {}
+                Component::ParentDir if (several || path != self.roots[0]) && path.pop() => {}
+                _ => return outside(),
+            }
+        }
+        if self.contains_path(&path) { Ok(path) } else { outside() }
+    }
+
+    /// A path that exists, if neither symbolic links lead it out of the roots nor it is something else than a file.
+    fn check_path(&self, path: PathBuf, uri: &str, pointer: &str) -> Result<PathBuf, Diagnostic> {
+        if !self.contains_path(&path) {
+            return Err(forbidden_path(
+                pointer,
+                &format!("{uri:?} leads out of the model's folder"),
+            ));
+        }
+        if !path.is_file() {
+            return Err(forbidden_path(pointer, &format!("{uri:?} is not a regular file")));
+        }
+        Ok(path)
+    }
+}
+
+/// Reads a whole regular file, but no more than the limit.
+pub(super) fn read_file(
+    path: &Path,
+    limits: &Limits,
+    pointer: &str,
+) -> Result<Vec<u8>, Diagnostic> {
+    let fault = |error: std::io::Error| unreadable_file(pointer, path, &error);
+    let metadata = path.metadata().map_err(fault)?;
+    if !metadata.is_file() {
+        let problem =
+            if metadata.is_dir() { "this is a folder" } else { "this is not a regular file" };
+        return Err(Diagnostic::new(
+            ImportErrorKind::Unreadable,
+            pointer,
+            problem.to_owned(),
+            "give a file",
+        ));
+    }
+    let allowed = limits.file_bytes;
+    let mut bytes = Vec::new();
+    if metadata.len() <= allowed {
+        // Room for one byte more: reading to the end then needs no second allocation.
+        bytes.reserve_exact(usize::try_from(metadata.len()).unwrap_or(0).saturating_add(1));
+        let file = File::open(path).map_err(fault)?;
+        file.take(allowed.saturating_add(1)).read_to_end(&mut bytes).map_err(fault)?;
+    }
+    let length = metadata.len().max(bytes.len() as u64);
+    if length > allowed {
+        let what = format!("the file has {length} bytes");
+        return Err(Diagnostic::limit_exceeded(pointer, &what, "file_bytes", allowed));
+    }
+    Ok(bytes)
+}
+
+/// A folder that the person who loads the model allows files to be in.
+fn canonical_allowed_folder(folder: &Path) -> Result<PathBuf, Diagnostic> {
+    folder.canonicalize().map_err(|error| {
+        let problem =
+            format!("the folder {}, allowed for files, cannot be used: {error}", folder.display());
+        Diagnostic::new(ImportErrorKind::Unreadable, "", problem, "name a folder that exists")
+    })
+}
+
+fn canonical_folder(folder: &Path) -> Result<PathBuf, Diagnostic> {
+    folder.canonicalize().map_err(|error| unreadable_file("", folder, &error))
+}
+
+fn unreadable_file(pointer: &str, path: &Path, error: &std::io::Error) -> Diagnostic {
+    // Without a pointer it is the file that the message begins with anyway.
+    let name = if pointer.is_empty() { "the file".to_owned() } else { path.display().to_string() };
+    let (problem, remedy) = match error.kind() {
+        std::io::ErrorKind::NotFound => (format!("{name} does not exist"), "check the name"),
+        std::io::ErrorKind::PermissionDenied => {
+            (format!("{name} may not be read"), "check its permissions")
+        }
+        _ => (format!("{name} cannot be read: {error}"), "check the file"),
+    };
+    Diagnostic::new(ImportErrorKind::Unreadable, pointer, problem, remedy)
+}
+
+fn forbidden_path(pointer: &str, problem: &str) -> Diagnostic {
+    let remedy = "copy the file beside the glTF file and name it by a relative path, or allow its folder \
+                  with --allow-outside DIR";
+    Diagnostic::new(ImportErrorKind::Forbidden, pointer, problem.to_owned(), remedy)
+}
+
+/// The scheme of a URI (RFC 3986 §3.1), if it has one.
+fn uri_scheme(uri: &str) -> Option<&str> {
+    let (scheme, _) = uri.split_once(':')?;
+    let mut letters = scheme.chars();
+    let first = letters.next()?.is_ascii_alphabetic();
+    let rest = letters.all(|c| c.is_ascii_alphanumeric() || "+-.".contains(c));
+    (first && rest).then_some(scheme)
+}
+
+/// The bytes of a text in which `%41` stands for the byte 0x41; `None` where two digits do not follow a `%`.
+fn percent_decode(text: &str) -> Option<Vec<u8>> {
+    let mut bytes = Vec::with_capacity(text.len());
+    let mut rest = text.as_bytes();
+    while let Some((&byte, after)) = rest.split_first() {
+        let digit = |at: usize| after.get(at).and_then(|&d| char::from(d).to_digit(16));
+        match (byte, digit(0), digit(1)) {
+            (b'%', Some(high), Some(low)) => {
+                bytes.push((high * 16 + low) as u8);
+                rest = &after[2..];
+            }
+            (b'%', ..) => return None,
+            _ => {
+                bytes.push(byte);
+                rest = after;
+            }
+        }
+    }
+    Some(bytes)
+}
+
+/// Either alphabet of base64, with or without padding.
+const LENIENT_BASE64: GeneralPurposeConfig = GeneralPurposeConfig::new()
+    .with_decode_allow_trailing_bits(true)
+    .with_decode_padding_mode(DecodePaddingMode::Indifferent);
+
+/// The data of a data URI, whose scheme is already cut off (RFC 2397).
+fn decode_data_uri(data: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
+    let Some((kind, data)) = data.split_once(',') else {
+        return Err(Diagnostic::invalid(pointer, "the data URI has no comma before its data"));
+    };
+    if !kind.to_ascii_lowercase().ends_with(";base64") {
+        let problem = "the data URI is neither base64 nor has it two digits after every %";
+        return percent_decode(data).ok_or_else(|| Diagnostic::invalid(pointer, problem));
+    }
+    let standard = GeneralPurpose::new(&alphabet::STANDARD, LENIENT_BASE64).decode(data);
+    let bytes = standard.or_else(|error| {
+        GeneralPurpose::new(&alphabet::URL_SAFE, LENIENT_BASE64).decode(data).map_err(|_| error)
+    });
+    bytes.map_err(|error| {
+        Diagnostic::invalid(pointer, format!("the data URI is not base64: {error}"))
+    })
+}

@@ -1,0 +1,260 @@
+//! The depth table: how distance becomes depth after the divide, and how finely depth can tell distances apart (C48, C68; ZP-1).
+//!
+//! A perspective keeps lines straight at the price of depth: half of the range is spent on the stretch from N to 2FN/(F + N). What
+//! is stored is rounded, so far away many distances have one depth. Floating-point numbers are finest near 0; with the far plane
+//! there (reversed depth) both effects cancel.
+
+use super::number_format::format_short;
+use projection::{Convention, DepthCurve, DepthFormat, ProjectionError, chapter};
+use std::fmt::Write as _;
+
+/// How many rows a table has that is not told its distances.
+const DEFAULT_ROWS: u32 = 16;
+
+/// How far an infinite far plane is followed, in near distances.
+const INFINITE_FAR_RATIO: f64 = 1e4;
+
+/// Depths against distances, normal and reversed.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct DepthTable {
+    near: f64,
+    far: f64,
+    format: DepthFormat,
+    curves: [DepthCurve; 2],
+}
+
+/// A distance, and what becomes of it. Two values are for normal and for reversed depth.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct DepthRow {
+    /// From the eye, along the line of sight.
+    pub distance: f64,
+    /// After the divide.
+    pub depths: [f64; 2],
+    /// The smallest step away from the eye that gives another stored depth.
+    pub steps: [f64; 2],
+}
+
+impl DepthTable {
+    /// Of a perspective between these planes, in a convention's range of depths and in the same range reversed. `far` may be
+    /// infinite.
+    ///
+    /// # Errors
+    /// If not 0 < near < far, or if the format has no bits or more than 64.
+    pub fn new(
+        near: f64,
+        far: f64,
+        convention: Convention,
+        format: DepthFormat,
+    ) -> Result<Self, ProjectionError> {
+        let curve = |convention| DepthCurve::perspective(near, far, convention);
+        let curves = [curve(convention)?, curve(convention.reversed())?];
+        let table = Self { near, far, format, curves };
+        table.row_at(near)?;
+        Ok(table)
+    }
+
+    /// The curve of normal and that of reversed depth.
+    #[must_use]
+    pub const fn curves(&self) -> [DepthCurve; 2] {
+        self.curves
+    }
+
+    /// How depths are stored.
+    #[must_use]
+    pub const fn depth_format(&self) -> DepthFormat {
+        self.format
+    }
+
+    /// The distance of the near plane, and of the far plane or, if that is infinite, ten thousand times the near one.
+    #[must_use]
+    pub fn distance_range(&self) -> [f64; 2] {
+        let end = if self.far.is_finite() { self.far } else { self.near * INFINITE_FAR_RATIO };
+        [self.near, end]
+    }
+
+    /// Sixteen distances from near to far, in equal ratios, those between rounded to three digits.
+    #[must_use]
+    pub fn default_distances(&self) -> Vec<f64> {
+        let [near, end] = self.distance_range();
+        let ratio = libm::log(end) - libm::log(near);
+        let between = (1..DEFAULT_ROWS - 1).map(|row| {
+            let fraction = f64::from(row) / f64::from(DEFAULT_ROWS - 1);
+            let distance = near * libm::exp(ratio * fraction);
+            format!("{distance:.2e}").parse().unwrap_or(distance)
+        });
+        let between = between.filter(|distance| *distance > near && *distance < end);
+        let mut all: Vec<f64> = std::iter::once(near).chain(between).chain([end]).collect();
+        all.dedup();
+        all
+    }
+
+    /// What becomes of a distance.
+    ///
+    /// # Errors
+    /// If it is not greater than 0 and finite, or has no depth that can be told from the next.
+    pub fn row_at(&self, distance: f64) -> Result<DepthRow, ProjectionError> {
+        let step = |curve: DepthCurve| curve.resolution(distance, self.format);
+        let steps = [step(self.curves[0])?, step(self.curves[1])?];
+        let lost = ProjectionError::Unrepresentable { what: "depth at this distance" };
+        let depth = |curve: DepthCurve| curve.depth(distance).ok_or(lost);
+        Ok(DepthRow { distance, depths: [depth(self.curves[0])?, depth(self.curves[1])?], steps })
+    }
+
+    /// What is to be said of the whole: the format, where half of the range is spent, and where the chapter's P moves the middle to
+    /// (C48): z + f + n − fn/z with its signs, the distance N + F − NF/D.
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        let format = match self.format {
+            DepthFormat::FixedPoint(bits) => format!("{bits}-bit fixed point"),
+            DepthFormat::Float32 => "32-bit floating point".to_owned(),
+        };
+        let half_range_distance = format_short(self.curves[0].half_range_distance(), 5);
+        let planes = [self.near, self.far].map(|distance| format_short(distance, 6));
+        let mut notes = vec![
+            format!("near {}, far {}, {format}", planes[0], planes[1]),
+            format!("half of the range is spent at 2FN/(F+N) = {half_range_distance}"),
+        ];
+        notes.extend(self.moved_midpoint().map(|[middle, moved]| {
+            let [middle, moved] = [middle, moved].map(|distance| format_short(distance, 5));
+            format!("P keeps both planes and moves the middle from {middle} to {moved}")
+        }));
+        notes
+    }
+
+    /// The distance in the middle between the planes, and where the chapter's P, before the scaling, moves it; `None` without a far
+    /// plane.
+    #[must_use]
+    pub fn moved_midpoint(&self) -> Option<[f64; 2]> {
+        let midpoint = 0.5 * self.near + 0.5 * self.far;
+        let p = chapter::p(-self.near, -self.far).ok()?;
+        let moved = p.transform_point(homog::Point::new(0.0, 0.0, -midpoint)).divide()?;
+        Some([midpoint, -moved.z()])
+    }
+
+    /// A table for people, its columns below each other.
+    #[must_use]
+    pub fn to_text(&self, rows: &[DepthRow]) -> String {
+        let cells = self.table_cells(rows);
+        let widths: Vec<usize> = (0..5)
+            .map(|column| cells.iter().map(|row| row[column].len()).max().unwrap_or(0))
+            .collect();
+        let mut text = self.notes().join("\n") + "\n\n";
+        for row in &cells {
+            let line: Vec<String> =
+                row.iter().zip(&widths).map(|(cell, &width)| format!("{cell:>width$}")).collect();
+            let _ = writeln!(text, "{}", line.join("   "));
+        }
+        text
+    }
+
+    /// A table in Markdown.
+    #[must_use]
+    pub fn to_markdown(&self, rows: &[DepthRow]) -> String {
+        let mut text = self.notes().join("; ") + ".\n\n";
+        for (number, row) in self.table_cells(rows).iter().enumerate() {
+            let _ = writeln!(text, "| {} |", row.join(" | "));
+            if number == 0 {
+                text += "| ---: | ---: | ---: | ---: | ---: |\n";
+            }
+        }
+        text
+    }
+
+    /// The cells of a table for people, the names of the columns first. At the far plane there is no step: no depth is farther.
+    pub(super) fn table_cells(&self, rows: &[DepthRow]) -> Vec<[String; 5]> {
+        let names = ["distance", "depth", "reversed", "step", "step reversed"].map(str::to_owned);
+        let fixed = |depth: f64| format!("{:.4}", depth + 0.0);
+        let row = |row: &DepthRow| {
+            let is_last = row.distance >= self.far;
+            let [step, other] =
+                row.steps.map(|step| if is_last { "-".to_owned() } else { format_short(step, 3) });
+            let [depth, reversed] = row.depths.map(fixed);
+            [format_short(row.distance, 6), depth, reversed, step, other]
+        };
+        std::iter::once(names).chain(rows.iter().map(row)).collect()
+    }
+
+    /// The numbers in full, for programs: a line of names, then a line for each distance, with commas between.
+    #[must_use]
+    pub fn to_csv(&self, rows: &[DepthRow]) -> String {
+        let mut text = "distance,depth,reversed_depth,step,reversed_step\n".to_owned();
+        for DepthRow { distance, depths: [depth, reversed], steps: [step, other] } in rows {
+            let _ = writeln!(text, "{distance},{depth},{reversed},{step},{other}");
+        }
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(near: f64, far: f64, convention: Convention, format: DepthFormat) -> DepthTable {
+        DepthTable::new(near, far, convention, format).expect("a table")
+    }
+
+    /// C68: near 2, far 40, as the lesson prints it.
+    #[test]
+    fn the_lessons_table_comes_out() {
+        let table = table(2.0, 40.0, Convention::OPENGL, DepthFormat::FixedPoint(24));
+        for (distance, printed) in
+            [(2.0, "-1.0000"), (3.0, "-0.2982"), (4.0, "0.0526"), (40.0, "1.0000")]
+        {
+            let row = table.row_at(distance).expect("a row");
+            let exact = 21.0 / 19.0 - 80.0 / 19.0 / distance;
+            assert!((row.depths[0] - exact).abs() < 1e-12);
+            assert_eq!(table.table_cells(&[row])[1][1], printed);
+            assert_eq!(row.depths[1], -row.depths[0]);
+        }
+        assert!(table.notes()[1].ends_with("= 3.8095"), "{:?}", table.notes());
+    }
+
+    /// C48: n = −1, f = −3, z = −2 goes to −2.5.
+    #[test]
+    fn the_middle_moves_away_from_the_eye() {
+        let one_to_three = table(1.0, 3.0, Convention::CHAPTER, DepthFormat::Float32);
+        assert_eq!(one_to_three.moved_midpoint(), Some([2.0, 2.5]));
+        let open = table(1.0, f64::INFINITY, Convention::WEBGPU, DepthFormat::Float32);
+        assert_eq!(open.moved_midpoint(), None);
+        assert_eq!((open.notes().len(), open.distance_range()), (2, [1.0, 1e4]));
+    }
+
+    /// ZP-1: a step of fixed depth is D²(F−N)/(FN) parts of the range.
+    #[test]
+    fn steps_grow_with_the_square_of_the_distance() {
+        let table = table(0.1, 1000.0, Convention::WEBGPU, DepthFormat::FixedPoint(24));
+        for distance in table.default_distances() {
+            let row = table.row_at(distance).expect("a row");
+            let expected = distance * distance * 999.9 / 100.0 / 16_777_215.0;
+            assert!(row.steps.iter().all(|step| (step / expected - 1.0).abs() < 1e-9), "{row:?}");
+        }
+        // Floating point: far away, reversed depth is finer by orders of magnitude.
+        let float = DepthTable { format: DepthFormat::Float32, ..table };
+        let row = float.row_at(950.0).expect("a row");
+        assert!(row.steps[0] > 0.5 && row.steps[1] < 1e-5, "{row:?}");
+    }
+
+    #[test]
+    fn distances_lead_from_near_to_far() {
+        for (near, far) in [(0.1, 1000.0), (2.0, 40.0), (1.0, 1.001), (3.0, f64::INFINITY)] {
+            let table = table(near, far, Convention::WEBGPU, DepthFormat::Float32);
+            let distances = table.default_distances();
+            assert_eq!([distances[0], distances[distances.len() - 1]], table.distance_range());
+            assert!(distances.windows(2).all(|pair| pair[0] < pair[1]), "{distances:?}");
+        }
+    }
+
+    #[test]
+    fn tables_are_written_for_people_and_for_programs() {
+        let table = table(1.0, 4.0, Convention::WEBGPU, DepthFormat::FixedPoint(8));
+        let rows: Vec<DepthRow> = [1.0, 2.0].iter().filter_map(|&d| table.row_at(d).ok()).collect();
+        assert_eq!(rows.len(), 2);
+        let text = table.to_text(&rows);
+        assert!(text.contains("distance    depth   reversed"), "{text}");
+        let markdown = table.to_markdown(&rows);
+        assert!(markdown.contains("| 2 | 0.6667 | 0.3333 |"), "{markdown}");
+        let csv = table.to_csv(&rows);
+        let numbers = csv.lines().nth(2).expect("a line").split(',').nth(1).expect("a number");
+        assert_eq!(numbers.parse::<f64>().ok(), Some(rows[1].depths[0]));
+    }
+}

@@ -1,0 +1,38 @@
+//! Numbers as captions and tables have them.
+
+/// A number with this many significant digits at most, without zeros at the end.
+pub(super) fn format_short(x: f64, digits: usize) -> String {
+    if !x.is_finite() {
+        return if x > 0.0 { "infinite".to_owned() } else { format!("{x}") };
+    }
+    // Rounding first, so that 9.9996 counts as 10; and −0 is a 0 to people.
+    let rounded: f64 = format!("{x:.*e}", digits.saturating_sub(1)).parse().unwrap_or(x);
+    let rounded = rounded + 0.0;
+    let size = rounded.abs();
+    if size == 0.0 || (1e-4..1e6).contains(&size) {
+        format!("{rounded}")
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_as_short_as_they_can_be() {
+        let cases = [
+            (1.0 / 3.0, "0.3333"),
+            (9.999_96, "10"),
+            (-0.0, "0"),
+            (2.0, "2"),
+            (123_456.0, "123500"),
+            (5.96e-8, "5.96e-8"),
+            (f64::INFINITY, "infinite"),
+        ];
+        for (x, text) in cases {
+            assert_eq!(format_short(x, 4), text);
+        }
+    }
+}

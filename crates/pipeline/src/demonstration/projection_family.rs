@@ -1,0 +1,269 @@
+//! The whole family: one subject in every projection of the textbooks, each with its place in the tree, its formulas and numbers.
+//!
+//! What is said of a projection is taken from its matrix, not from its name: the lengths and directions in which a parallel one
+//! draws the axes (C76, C77), the places at which the axes of a perspective vanish (C80, C81).
+
+use super::DemonstrationError;
+use super::number_format::format_short;
+use crate::explain::formula_ids;
+use crate::scene::file::{CameraFile, ProjectionFile, SceneFile};
+use crate::scene::{Origin, Scene};
+use camera::ViewProjection;
+use drawing::Panels;
+use glam::DVec2;
+use homog::{Clip, Projective, Vector, World};
+use model::ModelInstance;
+use projection::{
+    Convention, Decomposed, ProjectionClass, Window, decompose, principal_vanishing_points,
+};
+
+const AXES: [(&str, Vector<World>); 3] = [("x", Vector::X), ("y", Vector::Y), ("z", Vector::Z)];
+
+/// A projection by its name.
+#[derive(Clone, PartialEq, Debug)]
+pub struct NamedProjection {
+    /// Its name: lower case, hyphens.
+    pub name: String,
+    /// What it is.
+    pub projection: ProjectionFile,
+}
+
+/// The models in each of these projections, seen from where each is usually seen from; what the scene says of its camera does not
+/// matter. The number of threads does not change it.
+///
+/// # Errors
+/// If the scene makes no sense, there is nothing to draw, or the picture has no pixels.
+pub fn projection_panels(
+    origin: &Origin,
+    file: &SceneFile,
+    models: &[ModelInstance],
+    members: &[NamedProjection],
+    threads: usize,
+) -> Result<Panels, DemonstrationError> {
+    let mut title = String::new();
+    let mut panels = Vec::with_capacity(members.len());
+    for NamedProjection { name, projection } in members {
+        let camera = CameraFile { projection: Some(projection.clone()), ..CameraFile::default() };
+        let file = SceneFile { camera, ..file.clone() };
+        let mut scene = Scene::from_models(origin, &file, models.to_vec())?;
+        scene.image.background = [1.0; 4];
+        let panel = crate::render::render_panel(&scene, name, name.replace('-', " "), threads)?;
+        let size = DVec2::new(scene.image.width.into(), scene.image.height.into());
+        panels.push(panel.with_notes(projection_notes(projection, &scene.view_projection, size)));
+        title = scene.model_names();
+    }
+    Ok(Panels::new(format!("{title}: planar projections"), panels))
+}
+
+/// Its place in the tree, its formulas, its numbers.
+fn projection_notes(
+    projection: &ProjectionFile,
+    view_projection: &ViewProjection,
+    size: DVec2,
+) -> Vec<String> {
+    let world_to_clip = view_projection.world_to_clip();
+    let decomposition =
+        decompose(view_projection.view_to_clip.raw(), Convention::CHAPTER).map(|found| found.kind);
+    let is_parallel =
+        AXES.iter().all(|(_, axis)| world_to_clip.transform_direction(*axis).w() == 0.0);
+    let volume = decomposition.ok().and_then(|kind| view_window(&kind));
+    let class = classify_projection(projection, world_to_clip);
+    let measurements = match volume {
+        Some(ViewWindow::Parallel(window)) => {
+            describe_axes(world_to_clip, size, Some(size.y / window.height()))
+        }
+        Some(ViewWindow::Perspective(slopes)) => {
+            describe_opening_angle(slopes) + &describe_vanishing_points(world_to_clip, size)
+        }
+        None if is_parallel => describe_axes(world_to_clip, size, None),
+        None => describe_vanishing_points(world_to_clip, size),
+    };
+    vec![
+        class_path(class),
+        format!("formulas {}", formula_list(class, view_projection)),
+        measurements,
+    ]
+}
+
+/// The classes from below the root to this one.
+fn class_path(class: ProjectionClass) -> String {
+    let mut names: Vec<&str> = class.ancestors().map(ProjectionClass::name).collect();
+    names.pop();
+    names.reverse();
+    names.join(", ")
+}
+
+fn classify_projection(
+    projection: &ProjectionFile,
+    map: Projective<World, Clip>,
+) -> ProjectionClass {
+    use ProjectionFile as P;
+    match projection {
+        P::Multiview(_) => ProjectionClass::Multiview,
+        P::Isometric => ProjectionClass::Isometric,
+        P::Dimetric => ProjectionClass::Dimetric,
+        P::Trimetric => ProjectionClass::Trimetric,
+        P::Axonometric { .. } => ProjectionClass::Axonometric,
+        P::Cavalier { .. } => ProjectionClass::Cavalier,
+        P::Cabinet { .. } => ProjectionClass::Cabinet,
+        P::Oblique { .. } => ProjectionClass::GeneralOblique,
+        P::Military { .. } => ProjectionClass::Military,
+        P::Orthographic { .. } => ProjectionClass::Orthographic,
+        _ => match principal_vanishing_points(map).map(|points| points.count()) {
+            Ok(1) => ProjectionClass::OnePoint,
+            Ok(2) => ProjectionClass::TwoPoint,
+            Ok(3) => ProjectionClass::ThreePoint,
+            _ => ProjectionClass::Perspective,
+        },
+    }
+}
+
+/// The formulas of the matrix, and before them those of what the projection is by its name.
+fn formula_list(class: ProjectionClass, view_projection: &ViewProjection) -> String {
+    let named = match class {
+        ProjectionClass::Multiview => "MV-1",
+        _ if class.ancestors().any(|above| above == ProjectionClass::Axonometric) => "AX-1",
+        _ if class.ancestors().any(|above| above == ProjectionClass::Oblique) => "OB-1, VV-1",
+        _ if class.ancestors().any(|above| above == ProjectionClass::Perspective) => "VN-1",
+        _ => "",
+    };
+    let of_matrix = formula_ids(view_projection.view_to_clip).unwrap_or_default();
+    let mut all: Vec<&str> = Vec::new();
+    let each = named.split(", ").chain(of_matrix.split(", "));
+    each.filter(|id| !id.is_empty()).for_each(|id| {
+        if !all.contains(&id) {
+            all.push(id);
+        }
+    });
+    all.join(", ")
+}
+
+/// What the picture's window measures.
+enum ViewWindow {
+    /// Units of the picture plane.
+    Parallel(Window),
+    /// The window one unit ahead of the eye.
+    Perspective(Window),
+}
+
+fn view_window(kind: &Decomposed) -> Option<ViewWindow> {
+    Some(match kind {
+        Decomposed::Frustum(frustum) => ViewWindow::Perspective(frustum.slopes()),
+        Decomposed::Orthographic(volume)
+        | Decomposed::Classical { volume, .. }
+        | Decomposed::PlacedOrthographic { volume, .. } => ViewWindow::Parallel(volume.window()),
+        _ => return None,
+    })
+}
+
+/// How long a unit of each axis is drawn, and in which direction, counterclockwise from the right. `pixels` are those of a unit of
+/// the picture plane; where the matrix does not tell them, the longest axis counts as drawn in full, as the plan of a military one.
+fn describe_axes(map: Projective<World, Clip>, size: DVec2, pixels: Option<f64>) -> String {
+    let images = AXES.map(|(name, axis)| {
+        let image = map.transform_direction(axis);
+        (name, DVec2::new(image.x(), image.y()) * size * 0.5)
+    });
+    let length = |image: DVec2| libm::sqrt(image.length_squared());
+    let longest = images.iter().map(|(_, image)| length(*image)).fold(0.0, f64::max);
+    let unit = pixels.unwrap_or(longest);
+    let drawn = images.map(|(name, image)| {
+        let length_in_units = length(image) / unit;
+        if length_in_units < 1e-9 {
+            return format!("{name} a point");
+        }
+        let degrees = libm::atan2(image.y, image.x).to_degrees();
+        let degrees = libm::round(degrees * 10.0) / 10.0;
+        format!(
+            "{name} {} at {}°",
+            format_short(length_in_units, 3),
+            format_short(degrees.rem_euclid(360.0), 4)
+        )
+    });
+    drawn.join(" · ")
+}
+
+fn describe_opening_angle(slopes: Window) -> String {
+    let degrees = (libm::atan(slopes.top()) - libm::atan(slopes.bottom())).to_degrees();
+    format!("{}° high · ", format_short(degrees, 3))
+}
+
+/// Where the axes vanish, in half heights of the picture from its middle.
+fn describe_vanishing_points(map: Projective<World, Clip>, size: DVec2) -> String {
+    let Ok(points) = principal_vanishing_points(map) else { return String::new() };
+    let aspect = size.x / size.y;
+    let all = AXES.iter().zip(points.axes).filter_map(|((name, _), point)| {
+        let point = point.point()?;
+        let rounded = |c: f64| format_short(libm::round(c * 100.0) / 100.0, 4);
+        Some(format!("{name} to ({}, {})", rounded(point.x() * aspect), rounded(point.y())))
+    });
+    all.collect::<Vec<String>>().join(" · ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::demonstration::test_scene::house_scene;
+
+    fn notes_for(projection: ProjectionFile) -> Vec<String> {
+        let (origin, file, scene) = house_scene();
+        let members = [NamedProjection { name: "one".to_owned(), projection }];
+        let panels = projection_panels(&origin, &file, &scene.models, &members, 1).expect("panels");
+        panels.panels[0].notes.clone()
+    }
+
+    /// √(2/3) in isometric; √(8)/3 and √(2)/3 in the dimetric of 42° and 7°; depth in full and by half; a plan with heights.
+    #[test]
+    fn parallel_projections_draw_the_axes_as_the_textbooks_say() {
+        let cases = [
+            (
+                ProjectionFile::Isometric,
+                "AX-1",
+                "x 0.816 at 330° · y 0.816 at 90° · z 0.816 at 210°",
+            ),
+            (
+                ProjectionFile::Dimetric,
+                "AX-1",
+                "x 0.943 at 352.8° · y 0.943 at 90° · z 0.471 at 221.4°",
+            ),
+            (ProjectionFile::cavalier(), "OB-1", "x 1 at 0° · y 1 at 90° · z 1 at 225°"),
+            (ProjectionFile::cabinet(), "OB-1", "x 1 at 0° · y 1 at 90° · z 0.5 at 225°"),
+            (ProjectionFile::military(), "OB-1", "x 1 at 45° · y 1 at 90° · z 1 at 315°"),
+            (
+                ProjectionFile::Multiview(crate::scene::file::PrincipalFile::Front),
+                "MV-1",
+                "x 1 at 0° · y 1 at 90° · z a point",
+            ),
+        ];
+        for (projection, formula, axes) in cases {
+            let notes = notes_for(projection.clone());
+            assert!(notes[1].contains(formula), "{projection:?}: {notes:?}");
+            assert_eq!(notes[2], axes, "{projection:?}");
+        }
+    }
+
+    #[test]
+    fn perspectives_are_named_by_how_many_axes_vanish() {
+        let cases = [
+            (ProjectionFile::one_point(), "perspective, one-point", "z to (0.35, 0.45)"),
+            (
+                ProjectionFile::two_point(),
+                "perspective, two-point",
+                "x to (-3.2, 0.4) · z to (2.4, 0.4)",
+            ),
+            (
+                ProjectionFile::three_point(),
+                "perspective, three-point",
+                "x to (-3.2, 1.2) · y to (0.1, -5) · z to (2.4, 1.2)",
+            ),
+            (ProjectionFile::PERSPECTIVE, "perspective, three-point", "35° high"),
+        ];
+        for (projection, class, numbers) in cases {
+            let notes = notes_for(projection);
+            assert_eq!(notes[0], class);
+            assert!(
+                notes[1].contains("VN-1, PE-1, PE-3") && notes[2].contains(numbers),
+                "{notes:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,302 @@
+//! The tear: what becomes of a floor that runs from ahead of the eye to behind it, divided at once and clipped first (C36).
+//!
+//! ```text
+//!    from the side                  divided at once            clipped first
+//!                  eye
+//!    ═══════════════●═══════         ╲ ╱  what is behind          /   \
+//!    ahead        w = 0  behind       ╳   comes out upside       /     \
+//!                                    ╱ ╲  down, in the sky      /       \
+//! ```
+//! A point at z = −ε has its image far below, one at z = +ε far above: the segment between them goes through infinity, and what joins
+//! the images of its ends is the part that does not belong to it. Clipping against the near plane before the divide leaves w > 0.
+
+use super::DemonstrationError;
+use super::number_format::format_short;
+use camera::Camera;
+use clip::{Volume, clip_convex, clip_segment};
+use drawing::{Cap, Join, Polyline};
+use drawing::{Group, Ink, Label, Layer, LineType, Page, Panel, Panels, Pen, TextAlign};
+use glam::DVec2;
+use homog::{Clip, HPoint, Ndc, Point, Projective, Vector, World};
+use projection::{Convention, Fov, Perspective};
+
+const INK: Ink = [26, 31, 38];
+const RED: Ink = [179, 38, 30];
+const BLUE: Ink = [26, 86, 176];
+
+/// Width and height of each picture in millimetres.
+const PICTURE_SIZE: DVec2 = DVec2::new(88.0, 66.0);
+const LETTER_HEIGHT: f64 = 2.2;
+const STROKE_WIDTH: f64 = 0.35;
+
+/// The eye's height above the floor, and the near plane's distance.
+const EYE_HEIGHT: f64 = 1.6;
+const NEAR: f64 = 0.5;
+const FAR: f64 = 40.0;
+
+/// Where the boards of the floor begin and end, from the horizon towards the eye and beyond it; and their borders from left to
+/// right. The third board crosses the plane of the eye, z = 0.
+const BOARD_ENDS: [f64; 5] = [-15.0, -9.0, -3.0, 3.0, 9.0];
+const BOARD_BORDERS: [f64; 5] = [-2.0, -1.0, 0.0, 1.0, 2.0];
+
+/// The layers: what is ahead, what crosses the plane of the eye, what is behind it.
+const BOARD_KINDS: [(&str, &str, Ink); 3] = [
+    ("ahead", "boards ahead of the eye", INK),
+    ("crossing", "boards that cross the plane of the eye", RED),
+    ("behind", "boards behind the eye", BLUE),
+];
+
+/// A board of the floor.
+struct Board {
+    kind: usize,
+    corners: [Point<World>; 4],
+}
+
+/// The floor from the side, divided without clipping, and clipped first.
+///
+/// # Errors
+/// If camera or projection cannot be had; theirs are fixed, so they can.
+pub fn wraparound_panels() -> Result<Panels, DemonstrationError> {
+    let world_to_clip = world_to_clip()?;
+    let boards = floor_boards();
+    let panels = vec![
+        side_panel(&boards),
+        divided_panel(&boards, world_to_clip),
+        clipped_panel(&boards, world_to_clip),
+    ];
+    Ok(Panels::new("Clip before the divide: a floor that runs past the eye", panels))
+}
+
+/// From the world to the chapter's canonical volume (PE-3), looking along −z.
+fn world_to_clip() -> Result<Projective<World, Clip>, DemonstrationError> {
+    let eye = Point::new(0.0, EYE_HEIGHT, 0.0);
+    let camera = Camera::look_to(eye, -Vector::Z, Vector::Y)?;
+    let lens = Perspective::new(
+        Fov::Vertical(60_f64.to_radians()),
+        PICTURE_SIZE.x / PICTURE_SIZE.y,
+        NEAR,
+        FAR,
+    )?;
+    Ok(camera.world_to_view().then_project(lens.view_to_clip(Convention::CHAPTER)))
+}
+
+fn floor_boards() -> Vec<Board> {
+    let mut boards = Vec::new();
+    for end in BOARD_ENDS.windows(2) {
+        let kind = if end[1] < 0.0 {
+            0
+        } else if end[0] < 0.0 {
+            1
+        } else {
+            2
+        };
+        for border in BOARD_BORDERS.windows(2) {
+            let corner = |x: usize, z: usize| Point::new(border[x], 0.0, end[z]);
+            boards.push(Board {
+                kind,
+                corners: [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)],
+            });
+        }
+    }
+    boards
+}
+
+/// The scene from the side: the gaze to the left, so that what is seen is left of the eye.
+fn side_panel(boards: &[Board]) -> Panel {
+    let place = |z: f64, y: f64| DVec2::new(56.0 + z * 3.2, 40.0 - y * 3.2);
+    let line = |a: [f64; 2], b: [f64; 2]| {
+        Polyline::through_points(&[place(a[0], a[1]), place(b[0], b[1])], false)
+    };
+    let floor = |kind: usize| {
+        let boards_of_kind = boards.iter().filter(|board| board.kind == kind);
+        let lines =
+            boards_of_kind.filter_map(|b| line([b.corners[0].z(), 0.0], [b.corners[2].z(), 0.0]));
+        lines.collect()
+    };
+    let mut page = Page::new(PICTURE_SIZE, "from the side", None);
+    page.layers
+        .extend(BOARD_KINDS.iter().enumerate().map(|(kind, of)| stroke_layer(*of, floor(kind))));
+    let slope = libm::tan(30_f64.to_radians());
+    let planes =
+        [line([0.0, -3.0], [0.0, 7.0]), line([-NEAR, EYE_HEIGHT - 1.2], [-NEAR, EYE_HEIGHT + 1.2])];
+    let mut dashed = LineType::Dashed.to_pen(0.18, INK, Cap::Butt, Join::Round);
+    dashed.ink = [110, 116, 124];
+    let mut plane = Layer::new("planes", "the plane of the eye and the near plane", dashed);
+    plane.groups.push(stroke_group(planes.into_iter().flatten().collect()));
+    let angle =
+        [-1.0, 1.0].map(|side| line([0.0, EYE_HEIGHT], [-10.0, EYE_HEIGHT + side * 10.0 * slope]));
+    let angle = stroke_layer(
+        ("angle", "what is seen", [110, 116, 124]),
+        angle.into_iter().flatten().collect(),
+    );
+    let mut strokes = label_strokes("eye", place(0.6, EYE_HEIGHT), TextAlign::Start);
+    strokes.extend(label_strokes("w = 0", place(0.0, 7.4), TextAlign::Middle));
+    strokes.extend(label_strokes("w > 0", place(-7.5, -1.3), TextAlign::End));
+    strokes.extend(label_strokes("w < 0", place(2.0, -1.3), TextAlign::Start));
+    let words = stroke_layer(("words", "names", INK), strokes);
+    page.layers.extend([plane, with_thin_pen(angle), with_thin_pen(words)]);
+    let notes = vec![
+        format!("eye at height {EYE_HEIGHT}, looking along -z; near plane at {NEAR}"),
+        "black: ahead; red: through the plane of the eye; blue: behind it".to_owned(),
+    ];
+    let (id, title) = ("side".to_owned(), "from the side".to_owned());
+    Panel { id, title, notes, page }
+}
+
+/// Each corner divided as it is, and the images joined.
+fn divided_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
+    let outline = |board: &Board| -> Vec<Polyline> {
+        let images = board.corners.map(|corner| map.transform_point(corner).divide());
+        let sides = (0..4).filter_map(|n| Some([images[n]?, images[(n + 1) % 4]?]));
+        sides.filter_map(clip_to_picture).collect()
+    };
+    let image = |x: f64, z: f64| describe_image(map, Point::new(x, 0.0, z));
+    let notes = vec![
+        format!("(1, 0, -3) {}; (1, 0, 3) {}", image(1.0, -3.0), image(1.0, 3.0)),
+        format!("(1, 0, -0.01) {}; (1, 0, 0.01) {}", image(1.0, -0.01), image(1.0, 0.01)),
+    ];
+    boards_panel("divided", "divided at once", notes, boards, outline)
+}
+
+/// Clipped before the divide.
+fn clipped_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
+    let ring = |board: &Board| {
+        clip_convex(&board.corners.map(|corner| map.transform_point(corner)), &Volume::CHAPTER)
+    };
+    let outline = |board: &Board| -> Vec<Polyline> {
+        let images: Vec<Point<Ndc>> =
+            ring(board).points().iter().filter_map(|p| p.divide()).collect();
+        let places: Vec<DVec2> = images.into_iter().map(to_page).collect();
+        Polyline::through_points(&places, true).into_iter().collect()
+    };
+    let least = boards.iter().flat_map(|board| ring(board).points().to_vec()).map(HPoint::w);
+    let least = least.fold(f64::INFINITY, f64::min);
+    let count = |kind: usize| {
+        let boards_of_kind = boards.iter().filter(|board| board.kind == kind);
+        let left = boards_of_kind.clone().filter(|board| !ring(board).is_empty()).count();
+        format!("{left} of {} {}", boards_of_kind.count(), BOARD_KINDS[kind].0)
+    };
+    let notes = vec![
+        format!("left are {}, {}, {}", count(0), count(1), count(2)),
+        format!("the least w that is divided by is {}", format_short(least, 4)),
+    ];
+    boards_panel("clipped", "clipped first", notes, boards, outline)
+}
+
+/// A picture of the boards by their outlines.
+fn boards_panel(
+    id: &str,
+    title: &str,
+    notes: Vec<String>,
+    boards: &[Board],
+    outline: impl Fn(&Board) -> Vec<Polyline>,
+) -> Panel {
+    let mut page = Page::new(PICTURE_SIZE, title, None);
+    for (kind, of) in BOARD_KINDS.iter().enumerate() {
+        let boards_of_kind = boards.iter().filter(|board| board.kind == kind);
+        page.layers.push(stroke_layer(*of, boards_of_kind.flat_map(&outline).collect()));
+    }
+    page.layers.retain(|layer| !layer.groups[0].strokes.is_empty());
+    Panel { id: id.to_owned(), title: title.to_owned(), notes, page }
+}
+
+/// The part of a straight line between images that is in the picture.
+fn clip_to_picture([a, b]: [Point<Ndc>; 2]) -> Option<Polyline> {
+    // They are divided already: w is 1, and depth does not count.
+    let flat = |p: Point<Ndc>| HPoint::<Clip>::new(p.x(), p.y(), 0.0, 1.0);
+    let visible = clip_segment(flat(a), flat(b), &Volume::CHAPTER)?;
+    Polyline::through_points(
+        &[to_page(visible.start.divide()?), to_page(visible.end.divide()?)],
+        false,
+    )
+}
+
+/// Where an image is on the page, y down.
+fn to_page(image: Point<Ndc>) -> DVec2 {
+    (DVec2::new(image.x(), -image.y()) + 1.0) * 0.5 * PICTURE_SIZE
+}
+
+/// w, and where the point goes.
+fn describe_image(map: Projective<World, Clip>, point: Point<World>) -> String {
+    let clip = map.transform_point(point);
+    let Some(image) = clip.divide() else { return "has no image".to_owned() };
+    let [w, x, y] = [clip.w(), image.x(), image.y()].map(|number| format_short(number, 3));
+    format!("has w = {w}, goes to ({x}, {y})")
+}
+
+fn label_strokes(words: &str, at: DVec2, align: TextAlign) -> Vec<Polyline> {
+    Label::new(words, at, LETTER_HEIGHT).with_align(align).strokes()
+}
+
+fn stroke_group(strokes: Vec<Polyline>) -> Group {
+    Group { strokes, ..Group::default() }
+}
+
+fn stroke_layer((id, title, ink): (&str, &str, Ink), strokes: Vec<Polyline>) -> Layer {
+    let mut layer = Layer::new(id, title, Pen::solid(STROKE_WIDTH, ink));
+    layer.groups.push(stroke_group(strokes));
+    layer
+}
+
+fn with_thin_pen(mut layer: Layer) -> Layer {
+    layer.pen.width = LETTER_HEIGHT * 0.1;
+    layer
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drawing::to_millimeters;
+
+    fn stroke_heights(panel: &Panel, layer: &str) -> Vec<f64> {
+        let found = panel.page.layers.iter().filter(|found| found.id == layer);
+        let lines = found.flat_map(|layer| &layer.groups).flat_map(|group| &group.strokes);
+        lines.flat_map(|line| &line.points).map(|place| to_millimeters(*place).y).collect()
+    }
+
+    /// The floor is below the horizon, which is the middle of the picture: nothing of it may be drawn above.
+    #[test]
+    fn only_what_is_clipped_first_stays_below_the_horizon() {
+        let panels = wraparound_panels().expect("the panels").panels;
+        let [_, divided, clipped] = &panels[..] else { unreachable!("three panels") };
+        let horizon = PICTURE_SIZE.y * 0.5;
+        for layer in ["ahead", "crossing"] {
+            let heights = stroke_heights(clipped, layer);
+            assert!(!heights.is_empty() && heights.iter().all(|y| *y > horizon), "{layer}");
+        }
+        assert!(stroke_heights(clipped, "behind").is_empty());
+        // The boards that cross are torn: they have ends above and below.
+        let torn = stroke_heights(divided, "crossing");
+        assert!(torn.iter().any(|y| *y > horizon) && torn.iter().any(|y| *y < horizon));
+        let behind = stroke_heights(divided, "behind");
+        assert!(!behind.is_empty() && behind.iter().all(|y| *y < horizon));
+        // What is ahead comes out alike.
+        assert!(stroke_heights(divided, "ahead").iter().all(|y| *y > horizon));
+    }
+
+    /// z = ±ε goes to ∓∞: x/w and y/w for w = ∓z, with the cotangent of 30° across and upwards.
+    #[test]
+    fn the_numbers_are_those_of_the_formula() {
+        let panels = wraparound_panels().expect("the panels").panels;
+        let cot = libm::sqrt(3.0);
+        let (x, y) = (cot / (PICTURE_SIZE.x / PICTURE_SIZE.y), -EYE_HEIGHT * cot);
+        for (z, note) in [(3.0, 0), (0.01, 1)] {
+            let [ahead, behind] = [z, -z].map(|w: f64| {
+                format!(
+                    "w = {}, goes to ({}, {})",
+                    format_short(w, 3),
+                    format_short(x / w, 3),
+                    format_short(y / w, 3)
+                )
+            });
+            let actual = &panels[1].notes[note];
+            assert!(
+                actual.contains(&ahead) && actual.contains(&behind),
+                "{actual}: {ahead}, {behind}"
+            );
+        }
+        // The lower border of the picture cuts them: at y = −w.
+        let least = format!("the least w that is divided by is {}", format_short(-y, 4));
+        assert_eq!(panels[2].notes[1], least);
+    }
+}

@@ -1,0 +1,257 @@
+//! The figures of an explanation: the view volume from above and from the side, the canonical volume, and the picture.
+//!
+//! They show the numbers that the steps tell: what is not among these is not drawn.
+
+use super::plain_text::format_number;
+use super::transform_chain::TransformChain;
+use super::{Explanation, ItemValue};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use homog::HPoint;
+use shade::Picture;
+
+/// Width and height of a figure, and the room around what it shows, in its own units.
+const SIZE: [f64; 2] = [300.0, 220.0];
+const MARGIN: f64 = 24.0;
+
+/// A point of the subject in one of the spaces, with its name.
+struct LabeledPoint {
+    name: String,
+    coordinates: Vec<f64>,
+}
+
+/// A figure: what it shows, and the SVG element.
+pub(super) struct Diagram {
+    pub(super) caption: String,
+    pub(super) svg: String,
+}
+
+/// All figures that an explanation has the numbers for.
+pub(super) fn draw_diagrams(
+    told: &Explanation,
+    chain: &TransformChain,
+    picture: Option<&Picture>,
+) -> Vec<Diagram> {
+    let mut figures = Vec::new();
+    if let Some(corners) = view_volume_corners(chain) {
+        let marks = labeled_points(told, "view");
+        let ahead = if chain.looks_along_z() { 1.0 } else { -1.0 };
+        let plan = |place: &[f64]| [ahead * place[2], place[0]];
+        let side = |place: &[f64]| [ahead * place[2], place[1]];
+        let volume = |project: &dyn Fn(&[f64]) -> [f64; 2]| corners.map(|c| project(&c));
+        figures.push(volume_diagram(
+            "View space from above: the gaze to the right, u up",
+            volume(&plan),
+            &marks,
+            plan,
+        ));
+        figures.push(volume_diagram(
+            "View space from the side: the gaze to the right, v up",
+            volume(&side),
+            &marks,
+            side,
+        ));
+    }
+    let marks_of_ndc = labeled_points(told, "ndc");
+    if !marks_of_ndc.is_empty() {
+        let corners = canonical_corners(chain);
+        let front = |place: &[f64]| [place[0], place[1]];
+        let side = |place: &[f64]| [place[2], place[1]];
+        figures.push(volume_diagram(
+            "The canonical view volume: x to the right, y up",
+            corners.map(|c| front(&c)),
+            &marks_of_ndc,
+            front,
+        ));
+        figures.push(volume_diagram(
+            "The canonical view volume from the side: z to the right, y up",
+            corners.map(|c| side(&c)),
+            &marks_of_ndc,
+            side,
+        ));
+    }
+    if let Some(picture) = picture {
+        figures.push(picture_diagram(chain, picture, &labeled_points(told, "screen")));
+    }
+    figures
+}
+
+/// The points that the steps tell of in a space: of a segment both ends, of a triangle all corners.
+fn labeled_points(told: &Explanation, space: &str) -> Vec<LabeledPoint> {
+    let items = told.steps.iter().flat_map(|step| &step.items);
+    let marks = items.filter_map(|item| {
+        let name = item.id.strip_prefix(space)?;
+        let name = if name.is_empty() { name } else { name.strip_prefix('_')? };
+        let ItemValue::Numbers(place) = &item.value else { return None };
+        let is_place = place.len() == 3 && place.iter().all(|c| c.is_finite());
+        is_place.then(|| LabeledPoint { name: name.to_owned(), coordinates: place.clone() })
+    });
+    marks.collect()
+}
+
+/// The corners of the canonical volume: x fastest, then y, then z.
+fn canonical_corners(chain: &TransformChain) -> [[f64; 3]; 8] {
+    let [near, far] = chain.depth_range();
+    let side = |bit: usize| if bit == 0 { -1.0 } else { 1.0 };
+    std::array::from_fn(|n| [side(n & 1), side(n >> 1 & 1), if n >> 2 == 0 { near } else { far }])
+}
+
+/// The corners of the view volume in view space; `None` if it reaches to infinity.
+fn view_volume_corners(chain: &TransformChain) -> Option<[[f64; 3]; 8]> {
+    let clip_to_view = chain.view_to_clip().inverse()?;
+    let mut corners = [[0.0; 3]; 8];
+    for (corner, [x, y, z]) in corners.iter_mut().zip(canonical_corners(chain)) {
+        let place = clip_to_view.transform_hpoint(HPoint::new(x, y, z, 1.0)).divide()?;
+        *corner = <[f64; 3]>::from(place);
+    }
+    corners.as_flattened().iter().all(|c| c.abs() < 1e12).then_some(corners)
+}
+
+/// The edges of a box by the numbers of its corners.
+const BOX_EDGES: [[usize; 2]; 12] = [
+    [0, 1],
+    [2, 3],
+    [4, 5],
+    [6, 7],
+    [0, 2],
+    [1, 3],
+    [4, 6],
+    [5, 7],
+    [0, 4],
+    [1, 5],
+    [2, 6],
+    [3, 7],
+];
+
+/// A volume seen along an axis, with the points of the subject.
+fn volume_diagram(
+    caption: &str,
+    corners: [[f64; 2]; 8],
+    marks: &[LabeledPoint],
+    project: impl Fn(&[f64]) -> [f64; 2],
+) -> Diagram {
+    let places: Vec<[f64; 2]> = marks.iter().map(|mark| project(&mark.coordinates)).collect();
+    let is_view = caption.starts_with("View");
+    let origin = is_view.then_some([0.0; 2]);
+    let window = DiagramWindow::around_points(corners.iter().chain(&places).chain(&origin));
+    let mut svg = open_svg(SIZE);
+    for [from, to] in BOX_EDGES {
+        let ([x1, y1], [x2, y2]) =
+            (window.to_diagram(corners[from]), window.to_diagram(corners[to]));
+        svg += &format!(
+            "<line class=\"volume\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>"
+        );
+    }
+    if let Some(eye) = origin {
+        let [x, y] = window.to_diagram(eye);
+        svg += &format!(
+            "<circle class=\"eye\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\"/><text x=\"{x:.1}\" y=\"{:.1}\">eye</text>",
+            y + 16.0
+        );
+    }
+    let placed: Vec<[f64; 2]> = places.iter().map(|&place| window.to_diagram(place)).collect();
+    svg += &subject_svg(marks, &placed, 1.0);
+    svg += "</svg>";
+    Diagram { caption: caption.to_owned(), svg }
+}
+
+/// The picture with the points of the subject.
+fn picture_diagram(chain: &TransformChain, picture: &Picture, marks: &[LabeledPoint]) -> Diagram {
+    let [width, height] = chain.image_size();
+    let mut svg = open_svg([width, height]);
+    let png = STANDARD.encode(picture.to_png());
+    svg += &format!(
+        "<image width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" href=\"data:image/png;base64,{png}\"/>"
+    );
+    let placed: Vec<[f64; 2]> = marks
+        .iter()
+        .map(|mark| chain.from_top_left([mark.coordinates[0], mark.coordinates[1]]))
+        .collect();
+    svg += &subject_svg(marks, &placed, width / SIZE[0]);
+    svg += "</svg>";
+    let caption =
+        format!("The picture, {} × {} pixels", format_number(width), format_number(height));
+    Diagram { caption, svg }
+}
+
+/// Points with their names, joined if there are several; `unit` is the length of a line's width.
+fn subject_svg(marks: &[LabeledPoint], placed: &[[f64; 2]], unit: f64) -> String {
+    let mut svg = String::new();
+    if placed.len() > 1 {
+        let corners: Vec<String> = placed.iter().map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
+        svg += &format!(
+            "<polygon class=\"subject\" stroke-width=\"{:.2}\" points=\"{}\"/>",
+            1.5 * unit,
+            corners.join(" ")
+        );
+    }
+    for (mark, [x, y]) in marks.iter().zip(placed) {
+        svg += &format!(
+            "<circle class=\"mark\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{:.1}\" stroke-width=\"{:.1}\"/>",
+            4.0 * unit,
+            1.5 * unit
+        );
+        if !mark.name.is_empty() {
+            svg += &format!(
+                "<text class=\"mark\" x=\"{:.1}\" y=\"{:.1}\" style=\"font-size:{:.1}px\">{}</text>",
+                x + 6.0 * unit,
+                y - 6.0 * unit,
+                12.0 * unit,
+                mark.name
+            );
+        }
+    }
+    svg
+}
+
+fn open_svg([width, height]: [f64; 2]) -> String {
+    format!("<svg viewBox=\"0 0 {width} {height}\" role=\"img\">")
+}
+
+/// Where points of a plane, y up, are in a figure: all in it, at one scale.
+struct DiagramWindow {
+    center: [f64; 2],
+    scale: f64,
+}
+
+impl DiagramWindow {
+    fn around_points<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> Self {
+        let (mut min, mut max) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for point in points {
+            for axis in 0..2 {
+                min[axis] = min[axis].min(point[axis]);
+                max[axis] = max[axis].max(point[axis]);
+            }
+        }
+        let scale = |axis: usize| (SIZE[axis] - 2.0 * MARGIN) / (max[axis] - min[axis]).max(1e-300);
+        let center = [0, 1].map(|axis| 0.5 * (min[axis] + max[axis]));
+        Self { center: center, scale: scale(0).min(scale(1)) }
+    }
+
+    fn to_diagram(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [cx, cy] = self.center;
+        [0.5 * SIZE[0] + (x - cx) * self.scale, 0.5 * SIZE[1] - (y - cy) * self.scale]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_window_holds_its_points_at_one_scale() {
+        let points = [[-1.0, 0.0], [3.0, 0.0], [0.0, 1.0]];
+        let window = DiagramWindow::around_points(points.iter());
+        for point in points {
+            let [x, y] = window.to_diagram(point);
+            assert!((MARGIN..=SIZE[0] - MARGIN).contains(&x), "{x}");
+            assert!((MARGIN..=SIZE[1] - MARGIN).contains(&y), "{y}");
+        }
+        let ([x0, y0], [x1, y1]) = (window.to_diagram([0.0, 0.0]), window.to_diagram([1.0, 1.0]));
+        assert!((x1 - x0 - (y0 - y1)).abs() < 1e-9, "y runs up");
+        assert_eq!(
+            DiagramWindow::around_points([[2.0, 2.0]].iter()).to_diagram([2.0, 2.0]),
+            [150.0, 110.0]
+        );
+    }
+}

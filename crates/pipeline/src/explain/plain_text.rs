@@ -1,0 +1,86 @@
+//! An explanation as text: names in a column, matrices aligned.
+
+use super::{Explanation, Item, ItemValue, Step};
+use homog::MatrixDisplay;
+use std::fmt::{self, Display, Formatter};
+
+impl Display for Explanation {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.subject)?;
+        for (number, step) in (1..).zip(&self.steps) {
+            writeln!(f, "\n{number}. {}{}", step.title, FormulaSuffix(step))?;
+            let width = step.items.iter().map(|item| item.name.chars().count()).max().unwrap_or(0);
+            for item in &step.items {
+                write_item_text(f, item, width)?;
+            }
+        }
+        writeln!(f, "\n{}", self.verdict)
+    }
+}
+
+/// The formula of a step, in brackets.
+struct FormulaSuffix<'a>(&'a Step);
+
+impl Display for FormulaSuffix<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        self.0.formula.map_or(Ok(()), |formula| write!(f, " ({formula})"))
+    }
+}
+
+fn write_item_text(f: &mut Formatter<'_>, item: &Item, width: usize) -> fmt::Result {
+    let lines = match &item.value {
+        ItemValue::Matrix(rows) => MatrixDisplay::from_rows(*rows).to_string(),
+        ItemValue::Numbers(numbers) => {
+            let all: Vec<String> = numbers.iter().copied().map(format_number).collect();
+            format!("({})", all.join(", "))
+        }
+        ItemValue::Number(value) => format_number(*value),
+        ItemValue::Text(words) => words.clone(),
+    };
+    let mut name = item.name.as_str();
+    for line in lines.lines() {
+        writeln!(f, "   {name:width$}  {line}")?;
+        name = "";
+    }
+    Ok(())
+}
+
+/// Seven significant digits, without zeros at the end.
+pub(super) fn format_number(x: f64) -> String {
+    // −0 is a 0 to people.
+    let x = x + 0.0;
+    let size = x.abs();
+    if !(size == 0.0 || (1e-4..1e9).contains(&size)) {
+        return format!("{x:.6e}");
+    }
+    let before = format!("{size:.0}").len().min(7);
+    let digits = format!("{x:.*}", 7 - before);
+    if digits.contains('.') {
+        digits.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        digits
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_have_seven_digits_at_most() {
+        let cases = [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (1.5, "1.5"),
+            (-100.0, "-100"),
+            (1.0 / 3.0, "0.333333"),
+            (123_456.789, "123456.8"),
+            (1e-9, "1.000000e-9"),
+            (2.0e12, "2.000000e12"),
+            (f64::INFINITY, "inf"),
+        ];
+        for (x, text) in cases {
+            assert_eq!(format_number(x), text);
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! A place of the world, or a vertex of a model, on its way to a pixel.
+
+use super::plain_text::format_number;
+use super::transform_chain::{TransformChain, describe_outcode};
+use super::{Explanation, Step};
+use homog::{Affine, Model as ModelSpace, Point, World};
+use model::ModelInstance;
+use model::{MeshInstance, Model};
+
+/// Tells the maps themselves, without anything that passes them.
+#[must_use]
+pub fn explain_transforms(chain: &TransformChain) -> Explanation {
+    let [_, screen] = chain.screen_steps(&[]);
+    let steps = vec![chain.camera_step(&[]), chain.projection_step(&[]), screen];
+    let verdict = "--point, --segment and --node follow something through them.".to_owned();
+    Explanation {
+        subject: "The chain of maps from the world to the screen".to_owned(),
+        steps,
+        verdict,
+    }
+}
+
+/// Follows a place of the world through every stage.
+#[must_use]
+pub fn explain_point(chain: &TransformChain, place: Point<World>) -> Explanation {
+    let [x, y, z] = <[f64; 3]>::from(place).map(format_number);
+    explain_world_point(chain, place, format!("The point ({x}, {y}, {z}) of the world"), Vec::new())
+}
+
+/// A vertex of a shown mesh.
+#[derive(Clone, Copy, Debug)]
+pub struct VertexRef {
+    /// The node's number in its model.
+    pub node: usize,
+    /// The primitive's number in the mesh of the node.
+    pub primitive: usize,
+    /// The vertex's number in the primitive.
+    pub index: usize,
+}
+
+/// Follows a vertex of a model through every stage, as the model stands.
+///
+/// # Errors
+/// If the model does not show such a vertex; the text says what there is.
+pub fn explain_vertex(
+    chain: &TransformChain,
+    placed: &ModelInstance,
+    vertex: VertexRef,
+) -> Result<Explanation, String> {
+    let (instance, primitive) = find_shown_primitive(&placed.model, vertex.node, vertex.primitive)?;
+    let posed = placed.model.skin_primitive(instance, primitive);
+    let position = *posed.positions.get(vertex.index).ok_or_else(|| {
+        let count = posed.positions.len();
+        format!(
+            "primitive {} has {count} vertices; there is no vertex {}",
+            vertex.primitive, vertex.index
+        )
+    })?;
+    let to_world = posed.to_model.then(placed.model_to_world);
+    let mesh_point = model_point(position);
+    let node = describe_node(&placed.model, vertex.node);
+    let world = to_world.transform_point(mesh_point);
+    let step = model_step(placed, posed.to_model, &[("", mesh_point)]);
+    let subject = format!("Vertex {} of primitive {} at {node}", vertex.index, vertex.primitive);
+    Ok(explain_world_point(chain, world, subject, vec![step]))
+}
+
+fn explain_world_point(
+    chain: &TransformChain,
+    place: Point<World>,
+    subject: String,
+    mut steps: Vec<Step>,
+) -> Explanation {
+    let clip = chain.world_to_clip().transform_point(place);
+    steps.push(chain.camera_step(&[("", place)]));
+    steps.push(chain.projection_step(&[("", place)]));
+    steps.push(chain.outcode_step(&[("", clip)]));
+    steps.extend(chain.screen_steps(&[("", clip)]));
+    let code = chain.clip_volume().outcode(clip);
+    let verdict = match chain.project_to_screen(clip) {
+        Some(screen) if code.is_inside() => {
+            let [x, y, depth] = <[f64; 3]>::from(screen).map(format_number);
+            format!("It is inside the view volume and lands at ({x}, {y}) with depth {depth}.")
+        }
+        _ => format!("It is not in the picture: it is {}.", describe_outcode(code)),
+    };
+    Explanation { subject, steps, verdict }
+}
+
+/// The way of points of a mesh to the world.
+pub(super) fn model_step(
+    placed: &ModelInstance,
+    to_model: Affine<ModelSpace, ModelSpace>,
+    points: &[(&str, Point<ModelSpace>)],
+) -> Step {
+    let to_world = to_model.then(placed.model_to_world);
+    let mut step = Step::new("model", "Model: from the mesh to the world", Some("HO-4, HO-5"))
+        .with_item("node_to_model", "the nodes' transforms", to_model.rows())
+        .with_item("model_to_world", "the model's place in the scene", placed.model_to_world.rows())
+        .with_item("mesh_to_world", "the product", to_world.rows());
+    for (name, point) in points {
+        let label = |what: &str| {
+            if name.is_empty() { what.to_owned() } else { format!("{what} of {name}") }
+        };
+        let id =
+            |what: &str| if name.is_empty() { what.to_owned() } else { format!("{what}_{name}") };
+        step.add_item(id("mesh"), label("in the mesh"), <[f64; 3]>::from(*point));
+        step.add_item(
+            id("world"),
+            label("in the world"),
+            <[f64; 3]>::from(to_world.transform_point(*point)),
+        );
+    }
+    step
+}
+
+/// The first instance of a node, and one of the primitives it shows.
+pub(super) fn find_shown_primitive(
+    model: &Model,
+    node: usize,
+    primitive: usize,
+) -> Result<(MeshInstance, &model::Primitive), String> {
+    let instance = model.mesh_instances().find(|instance| instance.node == node);
+    let instance = instance.ok_or_else(|| {
+        let shown: Vec<String> =
+            model.mesh_instances().take(12).map(|at| describe_node(model, at.node)).collect();
+        format!("{} shows no mesh; these do: {}", describe_node(model, node), shown.join(", "))
+    })?;
+    let mesh = model.nodes.get(node).and_then(|node| model.meshes.get(node.mesh?));
+    let primitives = mesh.map_or(&[][..], |mesh| &mesh.primitives);
+    let primitive = primitives.get(primitive).ok_or_else(|| {
+        let name = describe_node(model, node);
+        format!("{name} shows {} primitives; there is no primitive {primitive}", primitives.len())
+    })?;
+    Ok((instance, primitive))
+}
+
+/// A node by its name and number.
+pub(super) fn describe_node(model: &Model, node: usize) -> String {
+    match model.nodes.get(node).and_then(|node| node.name.as_deref()) {
+        Some(name) => format!("node {node} `{name}`"),
+        None => format!("node {node}"),
+    }
+}
+
+pub(super) fn model_point(position: [f32; 3]) -> Point<ModelSpace> {
+    Point::from(position.map(f64::from))
+}

@@ -1,0 +1,65 @@
+//! The factors of a projection by their names: what shears, what scales, what maps the depth.
+
+use super::Step;
+use super::conventions::ApiConventions;
+use super::matrix::describe_projection;
+use homog::{Clip, Projective, View};
+use projection::{Classical, Decomposed, decompose};
+
+/// Adds what the projection is, and its factors in the order in which a point passes them.
+pub(super) fn add_projection_factors(
+    step: &mut Step,
+    view_to_clip: Projective<View, Clip>,
+    conventions: ApiConventions,
+) {
+    let volume = conventions.canonical_volume();
+    let Ok(found) = decompose(view_to_clip.raw(), volume) else { return };
+    step.formula = formula_ids_of_kind(&found.kind, conventions);
+    step.add_item("kind", "it is", describe_projection(&found.kind));
+    match found.kind {
+        Decomposed::Frustum(frustum) => {
+            let factors = frustum.factors(volume);
+            step.add_item(
+                "shear",
+                "shear, the centre line onto the line of sight",
+                factors.shear.rows(),
+            );
+            step.add_item("scale", "scale, sides to x, y = ±distance", factors.scale.rows());
+            step.add_item("depth", "depth, and w = distance", factors.depth.rows());
+        }
+        Decomposed::Classical { projection: Classical::Oblique(oblique), volume: prism } => {
+            let factors = oblique.factors(prism, volume);
+            step.add_item("shear", "shear, the projectors upright", factors.shear.rows());
+            step.add_item("fit", "fit, the box to the canonical volume", factors.fit.rows());
+        }
+        _ => {}
+    }
+}
+
+/// The formulas behind a projection of the pipeline's, as the chapter numbers them.
+pub(crate) fn formula_ids(view_to_clip: Projective<View, Clip>) -> Option<&'static str> {
+    let decomposition =
+        decompose(view_to_clip.raw(), ApiConventions::Alberti.canonical_volume()).ok()?;
+    formula_ids_of_kind(&decomposition.kind, ApiConventions::Alberti)
+}
+
+/// The formulas behind a projection in these conventions.
+fn formula_ids_of_kind(kind: &Decomposed, conventions: ApiConventions) -> Option<&'static str> {
+    let chapter = matches!(conventions, ApiConventions::Alberti | ApiConventions::Chapter);
+    match kind {
+        Decomposed::Frustum(_) if chapter => Some("PE-1, PE-3, VV-2"),
+        Decomposed::Frustum(_) => Some("GL-1, VV-2"),
+        Decomposed::Orthographic(_) if chapter => Some("OR-1"),
+        Decomposed::Orthographic(_) => Some("GL-3"),
+        Decomposed::Classical {
+            projection: Classical::Oblique(_) | Classical::Planometric(_),
+            ..
+        } => Some("OB-1, VV-1"),
+        Decomposed::Classical { projection: Classical::Axonometric(_), .. } => Some("AX-1"),
+        Decomposed::Classical { projection: Classical::Multiview(_), .. } => {
+            Some("MV-1, MV-2, MV-3")
+        }
+        Decomposed::NPoint(_) | Decomposed::Classical { .. } => Some("VN-1"),
+        _ => None,
+    }
+}

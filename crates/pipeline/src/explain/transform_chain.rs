@@ -1,0 +1,293 @@
+//! The chain of maps from the world to the screen, and what it does to points (PL-1).
+//!
+//! ```text
+//!  World ──T, R──► View ──projection──► Clip ──÷w──► Ndc ──M_vp──► Screen
+//! ```
+
+use super::conventions::ApiConventions;
+use super::plain_text::format_number;
+use super::projection_factors;
+use super::{Item, ItemValue, Step};
+use camera::Camera;
+use camera::ViewProjection;
+use clip::{Outcode, Volume};
+use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, Screen, View, World};
+use viewport::{Viewport, ViewportError};
+
+/// Camera, projection and viewport in somebody's conventions.
+#[derive(Clone, Copy, Debug)]
+pub struct TransformChain {
+    camera: Camera,
+    view_to_clip: Projective<View, Clip>,
+    conventions: ApiConventions,
+    viewport: Viewport,
+    /// Whether the window exchanges left and right, or bottom and top.
+    is_mirrored: bool,
+}
+
+/// A point of the world with the name it has in an explanation.
+pub(super) type NamedPoint<'a, P> = (&'a str, P);
+
+impl TransformChain {
+    /// The chain of a picture of so many pixels.
+    ///
+    /// # Errors
+    /// If the picture has no pixels.
+    pub fn new(
+        view_projection: &ViewProjection,
+        (width, height): (u32, u32),
+        conventions: ApiConventions,
+    ) -> Result<Self, ViewportError> {
+        let own_volume = ApiConventions::Alberti.canonical_volume();
+        Ok(Self {
+            camera: view_projection.camera,
+            view_to_clip: own_volume
+                .convert(conventions.canonical_volume(), view_projection.view_to_clip),
+            conventions,
+            viewport: conventions.viewport(width, height)?,
+            is_mirrored: view_projection.is_mirrored(),
+        })
+    }
+
+    /// From the world to view space, which looks along −z, or along +z where the conventions want it.
+    #[must_use]
+    pub fn world_to_view(&self) -> Affine<World, View> {
+        self.camera.world_to_view().then(self.view_flip())
+    }
+
+    /// From the world to clip space.
+    #[must_use]
+    pub fn world_to_clip(&self) -> Projective<World, Clip> {
+        self.world_to_view().then_project(self.view_to_clip)
+    }
+
+    /// From normalised device coordinates to pixels.
+    #[must_use]
+    pub fn ndc_to_screen(&self) -> Affine<Ndc, Screen> {
+        self.viewport.ndc_to_screen()
+    }
+
+    /// The volume that is visible, in clip space.
+    #[must_use]
+    pub fn clip_volume(&self) -> Volume {
+        match self.conventions {
+            ApiConventions::Alberti | ApiConventions::Chapter => Volume::CHAPTER,
+            ApiConventions::OpenGl => Volume::OPENGL,
+            ApiConventions::Vulkan | ApiConventions::Direct3d | ApiConventions::WebGpu => {
+                Volume::ZERO_ONE
+            }
+        }
+    }
+
+    /// Where a point of clip space is on the screen; `None` if it has no place there.
+    #[must_use]
+    pub fn project_to_screen(&self, point: HPoint<Clip>) -> Option<Point<Screen>> {
+        Some(self.ndc_to_screen().transform_point(point.divide()?))
+    }
+
+    /// Whether a triangle (a, b, c) shows the viewer the side on which its corners run counter-clockwise; `None` if it is seen
+    /// edge-on. Points and lines have no back.
+    pub(super) fn is_front_facing(&self, corners: &[HPoint<Clip>]) -> Option<bool> {
+        let &[a, b, c] = corners else { return Some(true) };
+        // The volume of (x, y, w) is positive if the corners run counter-clockwise in clip space with y up, also where w is
+        // negative for some (Olano and Greer, 1997).
+        let [a, b, c] = [a, b, c].map(|p| glam::DVec3::new(p.x(), p.y(), p.w()));
+        let volume = a.dot(b.cross(c));
+        let is_flipped = self.conventions.y_runs_down() != self.is_mirrored;
+        let upright_volume = if is_flipped { -volume } else { volume };
+        (upright_volume != 0.0).then_some(upright_volume > 0.0)
+    }
+
+    /// How near a point is to the viewer: its depth in the pipeline's own volume, larger if nearer.
+    pub(super) fn nearness(&self, place: Point<World>) -> f64 {
+        let own_volume = ApiConventions::Alberti.canonical_volume();
+        let to_own_volume = self.conventions.canonical_volume().clip_to_clip(own_volume);
+        let clip = to_own_volume.transform_hpoint(self.world_to_clip().transform_point(place));
+        clip.divide().map_or(f64::NEG_INFINITY, Point::z)
+    }
+
+    /// From view space to clip space.
+    pub(super) fn view_to_clip(&self) -> Projective<View, Clip> {
+        self.view_to_clip
+    }
+
+    /// Whether view space has the scene at positive z.
+    pub(super) fn looks_along_z(&self) -> bool {
+        self.conventions.looks_along_z()
+    }
+
+    /// The z of the near and of the far plane after the divide.
+    pub(super) fn depth_range(&self) -> [f64; 2] {
+        match self.conventions {
+            ApiConventions::Alberti | ApiConventions::Chapter => [1.0, -1.0],
+            ApiConventions::OpenGl => [-1.0, 1.0],
+            ApiConventions::Vulkan | ApiConventions::Direct3d | ApiConventions::WebGpu => {
+                [0.0, 1.0]
+            }
+        }
+    }
+
+    /// Width and height of the picture in pixels.
+    pub(super) fn image_size(&self) -> [f64; 2] {
+        [self.viewport.area().width(), self.viewport.area().height()]
+    }
+
+    /// A place on the screen in pixels from the upper left corner of the picture, rows running down.
+    pub(super) fn from_top_left(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let border = self.viewport.convention().centers.image_border();
+        let (x, y) = (x - border, y - border);
+        [x, if self.rows_run_up() { self.image_size()[1] - y } else { y }]
+    }
+
+    fn view_flip(&self) -> Affine<View, View> {
+        let z = if self.conventions.looks_along_z() { -1.0 } else { 1.0 };
+        Affine::scale(1.0, 1.0, z)
+    }
+
+    /// The camera's two factors, and the points in view space.
+    pub(super) fn camera_step(&self, points: &[NamedPoint<'_, Point<World>>]) -> Step {
+        let mut step =
+            Step::new("camera", "Camera: from the world to view space", Some("CA-1, CA-2"))
+                .with_item("eye", "eye", <[f64; 3]>::from(self.camera.eye()))
+                .with_item("gaze", "gaze", <[f64; 3]>::from(self.camera.gaze()))
+                .with_item(
+                    "translation",
+                    "T, the eye to the origin",
+                    self.camera.translation().rows(),
+                )
+                .with_item("rotation", "R, u v w to the axes", self.camera.rotation().rows());
+        if self.conventions.looks_along_z() {
+            step = step.with_item("turn", "z turned over", self.view_flip().rows());
+        }
+        step = step.with_item("world_to_view", "M_cam, the product", self.world_to_view().rows());
+        let ahead = if self.conventions.looks_along_z() { 1.0 } else { -1.0 };
+        for (name, point) in points {
+            let view = self.world_to_view().transform_point(*point);
+            step = step
+                .with_item(
+                    format!("view{}", id_suffix(name)),
+                    label_with_name("view", name),
+                    <[f64; 3]>::from(view),
+                )
+                .with_item(
+                    format!("distance{}", id_suffix(name)),
+                    label_with_name("distance ahead", name),
+                    ahead * view.z(),
+                );
+        }
+        step
+    }
+
+    /// The projection's factors, and the points in clip space with their outcodes.
+    pub(super) fn projection_step(&self, points: &[NamedPoint<'_, Point<World>>]) -> Step {
+        let mut step = Step::new("projection", "Projection: from view to clip space", None);
+        projection_factors::add_projection_factors(&mut step, self.view_to_clip, self.conventions);
+        step = step
+            .with_item("view_to_clip", "the whole projection", self.view_to_clip.rows())
+            .with_item("world_to_clip", "projection after M_cam", self.world_to_clip().rows());
+        for (name, point) in points {
+            let clip = self.world_to_clip().transform_point(*point);
+            step = step.with_item(
+                format!("clip{}", id_suffix(name)),
+                label_with_name("clip", name),
+                <[f64; 4]>::from(clip),
+            );
+        }
+        step
+    }
+
+    /// The outcodes of points of clip space.
+    pub(super) fn outcode_step(&self, points: &[NamedPoint<'_, HPoint<Clip>>]) -> Step {
+        let mut step =
+            Step::new("outcodes", "Outcodes: which planes each is outside of", Some("CL-1"));
+        for (name, point) in points {
+            let code = self.clip_volume().outcode(*point);
+            let words = format!("{:06b}, {}", code.bits(), describe_outcode(code));
+            step = step.with_item(
+                format!("outcode{}", id_suffix(name)),
+                label_with_name("outcode", name),
+                words,
+            );
+        }
+        step
+    }
+
+    /// The divide and the viewport, for points that are inside the view volume.
+    pub(super) fn screen_steps(&self, points: &[NamedPoint<'_, HPoint<Clip>>]) -> [Step; 2] {
+        let mut divide = Step::new("divide", "The divide by w", Some("HO-1"));
+        let mut screen = Step::new(
+            "viewport",
+            "Viewport: to pixels",
+            Some("VP-1, VP-2, VP-3, DP-1"),
+        )
+        .with_item("ndc_to_screen", "M_vp", self.ndc_to_screen().rows());
+        for (name, point) in points {
+            let Some(ndc) = point.divide() else {
+                divide.items.push(infinity_item(name));
+                continue;
+            };
+            let place = <[f64; 3]>::from(self.ndc_to_screen().transform_point(ndc));
+            divide = divide.with_item(
+                format!("ndc{}", id_suffix(name)),
+                label_with_name("ndc", name),
+                <[f64; 3]>::from(ndc),
+            );
+            screen = screen
+                .with_item(
+                    format!("screen{}", id_suffix(name)),
+                    label_with_name("x, y, depth", name),
+                    place,
+                )
+                .with_item(
+                    format!("pixel{}", id_suffix(name)),
+                    label_with_name("pixel", name),
+                    self.describe_pixel(place),
+                );
+        }
+        [divide, screen]
+    }
+
+    /// The pixel in words: column and row, as this program and image files count them.
+    fn describe_pixel(&self, [x, y, _]: [f64; 3]) -> String {
+        let pixels = self.viewport.convention();
+        let (border, height) = (pixels.centers.image_border(), self.viewport.area().height());
+        let (column, row) = (libm::floor(x - border), libm::floor(y - border));
+        let from_top = if self.rows_run_up() { height - 1.0 - row } else { row };
+        let side = if self.rows_run_up() { "; row 0 is the lowest here" } else { "" };
+        format!(
+            "column {}, row {} from the top{side}",
+            format_number(column),
+            format_number(from_top)
+        )
+    }
+
+    fn rows_run_up(&self) -> bool {
+        matches!(self.conventions, ApiConventions::Chapter | ApiConventions::OpenGl)
+    }
+}
+
+fn infinity_item(name: &str) -> Item {
+    let words = "w is 0: it is at infinity and has no place on the screen";
+    Item {
+        id: format!("ndc{}", id_suffix(name)),
+        name: label_with_name("ndc", name),
+        value: ItemValue::from(words),
+    }
+}
+
+/// The planes of an outcode in words.
+pub(super) fn describe_outcode(code: Outcode) -> String {
+    if code.is_inside() {
+        return "inside".to_owned();
+    }
+    let names: Vec<String> = code.planes().map(|plane| plane.to_string()).collect();
+    format!("outside of {}", names.join(", "))
+}
+
+fn id_suffix(name: &str) -> String {
+    if name.is_empty() { String::new() } else { format!("_{name}") }
+}
+
+fn label_with_name(what: &str, name: &str) -> String {
+    if name.is_empty() { what.to_owned() } else { format!("{what} of {name}") }
+}

@@ -1,0 +1,47 @@
+//! The places that a scene's geometry takes up: what framing and automatic depth ranges are made from.
+
+use camera::Camera;
+use homog::{Point, World};
+
+/// How far along the gaze the scene begins and ends.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct DepthSpan {
+    pub(super) nearest_depth: f64,
+    pub(super) farthest_depth: f64,
+}
+
+impl DepthSpan {
+    /// The span of `points` as seen by `camera`; from 0 to 1 if there are none.
+    pub(crate) fn from_points(points: &[Point<World>], camera: Camera) -> Self {
+        let world_to_view = camera.world_to_view();
+        let distances = points.iter().map(|&point| -world_to_view.transform_point(point).z());
+        let none = Self { nearest_depth: f64::INFINITY, farthest_depth: f64::NEG_INFINITY };
+        let span = distances.fold(none, |span, distance| Self {
+            nearest_depth: span.nearest_depth.min(distance),
+            farthest_depth: span.farthest_depth.max(distance),
+        });
+        if span.nearest_depth <= span.farthest_depth {
+            span
+        } else {
+            Self { nearest_depth: 0.0, farthest_depth: 1.0 }
+        }
+    }
+
+    /// Near and far planes for an eye in front of which the scene lies or which is inside it: tight, with a hundredth of
+    /// room, the near plane no nearer than what depth can still tell apart.
+    pub(crate) fn perspective_planes(self, near: Option<f64>, far: Option<f64>) -> (f64, f64) {
+        let farthest =
+            far.unwrap_or(if self.farthest_depth > 0.0 { self.farthest_depth * 1.01 } else { 1.0 });
+        let near = near.unwrap_or((self.nearest_depth * 0.99).max(farthest * 1e-5));
+        let far = far.unwrap_or(if farthest > near { farthest } else { near * 2.0 });
+        (near, far)
+    }
+
+    /// Near and far planes for a parallel projection; they may lie behind the eye.
+    pub(crate) fn parallel_planes(self, near: Option<f64>, far: Option<f64>) -> (f64, f64) {
+        let size = self.nearest_depth.abs().max(self.farthest_depth.abs());
+        let room = (self.farthest_depth - self.nearest_depth).max(size * 1e-6).max(1e-9) * 0.01;
+        let near_plane = near.unwrap_or(self.nearest_depth - room);
+        (near_plane, far.unwrap_or((self.farthest_depth + room).max(near_plane + room)))
+    }
+}

@@ -1,0 +1,160 @@
+//! Tokens put together: brackets with their items, each with its comment.
+
+use super::tokens::{Token, TokenKind};
+
+/// An element, a comment, or an element with a comment behind it on its line.
+#[derive(Debug, Default)]
+pub(super) struct Item {
+    pub(super) element: Option<Element>,
+    pub(super) comment: Option<String>,
+    pub(super) blank_before: bool,
+}
+
+/// A value, perhaps with the name of its field.
+#[derive(Debug, Default)]
+pub(super) struct Element {
+    pub(super) parts: Vec<Part>,
+}
+
+#[derive(Debug)]
+pub(super) enum Part {
+    /// Words with the blanks between them.
+    Text(String),
+    Group(Group),
+}
+
+/// A pair of brackets.
+#[derive(Debug)]
+pub(super) struct Group {
+    pub(super) open: char,
+    pub(super) close: char,
+    /// Whether a line break follows the opening bracket.
+    pub(super) multiline: bool,
+    pub(super) items: Vec<Item>,
+}
+
+/// The items of the whole text.
+pub(super) fn group_tokens(tokens: &[Token<'_>]) -> Vec<Item> {
+    ItemReader { tokens, at: 0 }.read_items()
+}
+
+struct ItemReader<'a> {
+    tokens: &'a [Token<'a>],
+    at: usize,
+}
+
+impl<'a> ItemReader<'a> {
+    fn next(&mut self) -> Option<Token<'a>> {
+        let token = self.tokens.get(self.at).copied()?;
+        self.at += 1;
+        Some(token)
+    }
+
+    fn peek(&self) -> Option<Token<'a>> {
+        self.tokens.get(self.at).copied()
+    }
+
+    /// The items up to the closing bracket, or to the end.
+    fn read_items(&mut self) -> Vec<Item> {
+        let mut items: Vec<Item> = Vec::new();
+        while let Some(token) = self.peek() {
+            match token.kind {
+                TokenKind::Close => return items,
+                TokenKind::Comma => self.at += 1,
+                TokenKind::Line => {
+                    self.at += 1;
+                    self.attach_comment(&mut items, token);
+                }
+                TokenKind::Block if self.ends_its_line() => {
+                    self.at += 1;
+                    self.attach_comment(&mut items, token);
+                }
+                _ => {
+                    let blank_before = token.line_breaks_before > 1;
+                    let (element, comments) = self.read_element();
+                    let own = |(number, text): (usize, &str)| Item {
+                        comment: Some(text.to_owned()),
+                        blank_before: blank_before && number == 0,
+                        ..Item::default()
+                    };
+                    let blank_before = blank_before && comments.is_empty();
+                    items.extend(comments.into_iter().enumerate().map(own));
+                    items.push(Item { element: Some(element), comment: None, blank_before });
+                }
+            }
+        }
+        items
+    }
+
+    /// A comment on the line of the item before it belongs to that; any other is an item.
+    fn attach_comment(&self, items: &mut Vec<Item>, token: Token<'_>) {
+        let text = token.text.to_owned();
+        match items.last_mut() {
+            Some(last) if token.line_breaks_before == 0 && last.comment.is_none() => {
+                last.comment = Some(text)
+            }
+            _ => {
+                let blank_before = token.line_breaks_before > 1;
+                items.push(Item { element: None, comment: Some(text), blank_before });
+            }
+        }
+    }
+
+    /// Whether the block comment that comes now ends its line.
+    fn ends_its_line(&self) -> bool {
+        let next = self.tokens.get(self.at + 1);
+        next.is_none_or(|next| next.line_breaks_before > 0 || next.kind == TokenKind::Close)
+    }
+
+    /// An element, and the line comments inside of it.
+    fn read_element(&mut self) -> (Element, Vec<&'a str>) {
+        let (mut parts, mut comments) = (Vec::new(), Vec::new());
+        let mut text = String::new();
+        while let Some(token) = self.peek() {
+            match token.kind {
+                TokenKind::Comma | TokenKind::Close => break,
+                // Behind the element, before its comma or instead of it.
+                TokenKind::Line if self.is_element_end() => break,
+                TokenKind::Line => comments.push(token.text),
+                TokenKind::Colon => text.push_str(": "),
+                TokenKind::Word | TokenKind::Block => {
+                    let glued = text.is_empty() || text.ends_with(' ');
+                    text.push_str(if glued { "" } else { " " });
+                    text.push_str(token.text);
+                }
+                TokenKind::Open => {
+                    self.at += 1;
+                    parts.push(Part::Text(std::mem::take(&mut text)));
+                    parts.push(Part::Group(self.read_group(token)));
+                    continue;
+                }
+            }
+            self.at += 1;
+        }
+        if !text.is_empty() {
+            parts.push(Part::Text(text));
+        }
+        (Element { parts }, comments)
+    }
+
+    /// Whether the line comments from here on are followed by the end of the element.
+    fn is_element_end(&self) -> bool {
+        let rest = self.tokens[self.at..].iter().find(|token| token.kind != TokenKind::Line);
+        rest.is_none_or(|token| matches!(token.kind, TokenKind::Comma | TokenKind::Close))
+    }
+
+    /// The group behind an opening bracket.
+    fn read_group(&mut self, open: Token<'_>) -> Group {
+        let broken = self.peek().is_some_and(|first| first.line_breaks_before > 0);
+        let items = self.read_items();
+        let close = self.next().and_then(|token| token.text.chars().next());
+        let open = open.text.chars().next().unwrap_or('(');
+        let usual = match open {
+            '[' => ']',
+            '{' => '}',
+            _ => ')',
+        };
+        let broken = broken && !items.is_empty();
+        Group { open, close: close.unwrap_or(usual), multiline: broken, items }
+    }
+}

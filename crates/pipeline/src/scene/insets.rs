@@ -1,0 +1,262 @@
+//! From the viewports and the pair of eyes of a scene file to scenes within the scene.
+//!
+//! ```text
+//!   ┌───────────────┬───────┐   Each is a scene of its own with the same models: its camera, its style, its
+//!   │               │ inset │   background, and a picture of the rectangle's size.
+//!   │  the scene    ├───────┘
+//!   └───────────────┘
+//! ```
+
+use super::file::{ImageFile, SceneFile, StereoFile, ViewportFile};
+use super::number::Positive;
+use super::source_span::PathStep::{Field, Index};
+use super::{Origin, ResolveError, Scene, SceneError};
+use camera::ViewProjection;
+use drawing::Ink;
+use glam::{DMat4, DVec4};
+use homog::PixelRect;
+use homog::{Bounds, Point, Projective};
+use model::ModelInstance;
+use model::world_points;
+use shade::color::parse_hex_srgb;
+use std::path::PathBuf;
+
+/// More viewports than this are a slip.
+const MAX_VIEWPORTS: usize = 256;
+/// The widest border in pixels.
+const MAX_BORDER_WIDTH: u32 = 1000;
+/// How many times as far away as the eyes are apart the plane of convergence is, if nothing is said: the usual rule of stereographers.
+const CONVERGENCE_PER_EYE_DISTANCE: f64 = 30.0;
+
+/// A rectangle of a picture with a view of its own.
+#[derive(Clone, Debug)]
+pub struct Inset {
+    /// Its pixels in the picture.
+    pub rect: PixelRect,
+    /// A border inside of it, and its width in pixels.
+    pub border: Option<(Ink, u32)>,
+    /// Whether only its green and blue are shown, over what is there.
+    pub cyan_only: bool,
+    /// What is seen in it; its picture has the rectangle's size.
+    pub scene: Scene,
+}
+
+/// The views of a scene file in their order.
+pub(super) fn resolve_insets(
+    origin: &Origin,
+    file: &SceneFile,
+    models: &[ModelInstance],
+    allowed: &[PathBuf],
+) -> Result<Vec<Inset>, ResolveError> {
+    if let Some(stereo) = file.stereo {
+        return resolve_stereo(origin, file, stereo, models, allowed);
+    }
+    if file.viewports.len() > MAX_VIEWPORTS {
+        let message = format!("{} viewports are more than {MAX_VIEWPORTS}", file.viewports.len());
+        return Err(origin.error_at(&[Field("viewports")], message, None).into());
+    }
+    let numbered = file.viewports.iter().enumerate();
+    let views = numbered.map(|(at, viewport)| {
+        let area = resolve_viewport_rect(origin, at, viewport, file.image.size)?;
+        let border = resolve_border(origin, at, viewport)?;
+        let inner = scene_in_viewport(file, viewport, (area.width, area.height));
+        let scene = Scene::resolve_without_insets(
+            &origin.for_viewport(at),
+            &inner,
+            models.to_vec(),
+            allowed,
+        )?;
+        Ok(Inset { rect: area, border, cyan_only: false, scene })
+    });
+    views.collect()
+}
+
+/// The scene as it is in a viewport of this size.
+fn scene_in_viewport(file: &SceneFile, viewport: &ViewportFile, size: (u32, u32)) -> SceneFile {
+    let background = viewport.background.as_ref().unwrap_or(&file.image.background).clone();
+    SceneFile {
+        camera: viewport.camera.as_ref().unwrap_or(&file.camera).clone(),
+        style: viewport.style.as_ref().unwrap_or(&file.style).clone(),
+        overlays: viewport.overlays.as_ref().unwrap_or(&file.overlays).clone(),
+        image: ImageFile { size, background, ..file.image.clone() },
+        models: Vec::new(),
+        viewports: Vec::new(),
+        ..file.clone()
+    }
+}
+
+fn resolve_viewport_rect(
+    origin: &Origin,
+    number: usize,
+    viewport: &ViewportFile,
+    (width, height): (u32, u32),
+) -> Result<PixelRect, SceneError> {
+    let place = |field: &'static str| [Field("viewports"), Index(number), Field(field)];
+    let (region, field) = match (viewport.at, viewport.pixels) {
+        (Some((x, y, w, h)), None) => {
+            let [x, y, w, h] = [x, y, w, h].map(super::number::Share::value);
+            // Rounded border by border, so that neighbours meet.
+            let run = |from: f64, length: f64, side: u32| {
+                let end = libm::round((from + length) * f64::from(side));
+                let start = libm::round(from * f64::from(side));
+                (start as u32, (end - start) as u32)
+            };
+            let ((x, w), (y, h)) = (run(x, w, width), run(y, h, height));
+            (PixelRect { x, y, width: w, height: h }, "at")
+        }
+        (None, Some((x, y, w, h))) => (PixelRect { x, y, width: w, height: h }, "pixels"),
+        (at, _) => {
+            let message = match at {
+                None => "nothing says where the viewport is",
+                Some(_) => "both `at` and `pixels` say where the viewport is",
+            };
+            let help = "write at: (0.7, 0, 0.3, 0.3): left, top, width and height";
+            let at = [Field("viewports"), Index(number)];
+            return Err(origin.error_at(&at, message, Some(help.to_owned())));
+        }
+    };
+    let fits = |from: u32, length: u32, side: u32| {
+        length > 0 && from.checked_add(length).is_some_and(|end| end <= side)
+    };
+    if fits(region.x, region.width, width) && fits(region.y, region.height, height) {
+        return Ok(region);
+    }
+    let PixelRect { x, y, width: across, height: down } = region;
+    let message = format!(
+        "the viewport of {across} x {down} pixels at ({x}, {y}) is empty or not in the picture of {width} x {height}"
+    );
+    let help =
+        "left, top, width and height; left and width together are 1 at most, as are top and height"
+            .to_owned();
+    Err(origin.error_at(&place(field), message, Some(help).filter(|_| field == "at")))
+}
+
+fn resolve_border(
+    origin: &Origin,
+    number: usize,
+    viewport: &ViewportFile,
+) -> Result<Option<(Ink, u32)>, SceneError> {
+    let Some(border) = &viewport.border else { return Ok(None) };
+    let place = |field| [Field("viewports"), Index(number), Field("border"), Field(field)];
+    if !(1..=MAX_BORDER_WIDTH).contains(&border.width) {
+        let message = format!("a border cannot be {} pixels wide", border.width);
+        let help = Some(format!("from 1 to {MAX_BORDER_WIDTH} are possible"));
+        return Err(origin.error_at(&place("width"), message, help));
+    }
+    let ink = parse_hex_srgb(&border.color).ok_or_else(|| {
+        let help = Some("write #rgb or #rrggbb, such as #1a1f26".to_owned());
+        origin.error_at(&place("color"), format!("`{}` is no colour", border.color), help)
+    })?;
+    Ok(Some((ink, border.width)))
+}
+
+/// What the left and the right eye see.
+fn resolve_stereo(
+    origin: &Origin,
+    file: &SceneFile,
+    stereo: StereoFile,
+    models: &[ModelInstance],
+    allowed: &[PathBuf],
+) -> Result<Vec<Inset>, ResolveError> {
+    let fault = |message: &str, help: &str| {
+        origin.error_at(&[Field("stereo")], message, Some(help.to_owned()))
+    };
+    if !file.viewports.is_empty() {
+        let help = "leave one of them out";
+        return Err(fault("a scene has viewports or is in stereo, and not both", help).into());
+    }
+    let (width, height) = file.image.size;
+    let (beside, apart, convergence) = match stereo {
+        StereoFile::SideBySide { eye_distance, convergence } => (true, eye_distance, convergence),
+        StereoFile::Anaglyph { eye_distance, convergence } => (false, eye_distance, convergence),
+    };
+    if beside && width < 2 {
+        return Err(fault("the picture is too narrow for two", "make it wider").into());
+    }
+    // Of an odd number of columns both have the one in the middle, and the right eye's is seen.
+    let half = if beside { width.div_ceil(2) } else { width };
+    let half = PixelRect { x: 0, y: 0, width: half, height };
+    let areas = [half, PixelRect { x: if beside { width - half.width } else { 0 }, ..half }];
+    let inner = scene_in_viewport(file, &ViewportFile::default(), (half.width, height));
+    let inner = SceneFile { stereo: None, ..inner };
+    let middle = Scene::resolve_without_insets(origin, &inner, models.to_vec(), allowed)?;
+    if middle.view_projection.viewer().raw().w == 0.0 {
+        let help = "choose one, such as Perspective(), or leave `stereo` out";
+        return Err(fault("eyes see the same in a parallel projection", help).into());
+    }
+    let plane = convergence.map_or_else(
+        || models_center_depth(middle.view_projection, models),
+        |all| Some(all.value()),
+    );
+    let Some(plane) = plane else {
+        let help = "say how far ahead the eyes converge: 2";
+        return Err(fault("the middle of the models is behind the camera", help).into());
+    };
+    let apart = apart.map_or(plane / CONVERGENCE_PER_EYE_DISTANCE, Positive::value);
+    let view = |(area, side): (PixelRect, f64)| {
+        let view_projection = shift_eye(middle.view_projection, side * apart, plane)
+            .ok_or_else(|| fault("the eyes are too far apart", "choose a smaller eye_distance"))?;
+        let scene = Scene { view_projection, ..middle.clone() };
+        Ok(Inset { rect: area, border: None, cyan_only: !beside && side > 0.0, scene })
+    };
+    areas.into_iter().zip([-0.5, 0.5]).map(view).collect()
+}
+
+/// How far ahead of the camera the middle of the models is; `None` if it is not.
+fn models_center_depth(view_projection: ViewProjection, models: &[ModelInstance]) -> Option<f64> {
+    let corners = Bounds::from_points(world_points(models))?.corners();
+    let middle = (corners[0].raw() + corners[7].raw()) * 0.5;
+    let depth =
+        -view_projection.camera.world_to_view().transform_point(Point::from_raw(middle)).z();
+    (depth > 0.0).then_some(depth)
+}
+
+/// The shot of an eye so far to the right of the camera, through a window that agrees with the camera's at a distance of `plane`: what
+/// the eye sees at a depth is moved as far as the eye was, times that depth over the plane's.
+fn shift_eye(view_projection: ViewProjection, aside: f64, plane: f64) -> Option<ViewProjection> {
+    let camera = view_projection.camera.moved(view_projection.camera.u() * aside).ok()?;
+    let slant =
+        DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::new(-aside / plane, 0.0, 1.0, 0.0), DVec4::W);
+    let view_to_clip = Projective::from_raw(view_projection.view_to_clip.raw() * slant);
+    Some(ViewProjection { camera, view_to_clip })
+}
+
+/// Which fields of the scene a viewport has too.
+pub(super) fn is_viewport_field(field: &str) -> bool {
+    matches!(field, "camera" | "style" | "overlays")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use camera::{Camera, StereoRig, Window};
+    use homog::Vector;
+    use projection::{Convention, Frustum};
+
+    #[test]
+    fn the_eyes_are_those_of_the_rig() {
+        let camera =
+            Camera::look_at(Point::new(4.0, 3.0, 6.0), Point::new(0.0, 1.0, 0.0), Vector::Y)
+                .expect("a camera");
+        let window = Window { left: -0.8, right: 1.0, bottom: -0.5, top: 0.5, distance: 1.0 };
+        let of = |window: Window| {
+            let Window { left, right, bottom, top, distance } = window;
+            let frustum =
+                Frustum::new(left, right, bottom, top, distance, 50.0).expect("a frustum");
+            frustum.view_to_clip(Convention::CHAPTER)
+        };
+        let view_projection = ViewProjection { camera, view_to_clip: of(window) };
+        let pair = StereoRig { interocular: 0.4, zero_parallax: 7.0 }.off_axis_pair(camera, window);
+        let pair = pair.expect("a pair");
+        for (aside, expected) in [(-0.2, pair.left), (0.2, pair.right)] {
+            let eye = shift_eye(view_projection, aside, 7.0).expect("an eye");
+            assert!((eye.camera.eye() - expected.camera.eye()).length() < 1e-12);
+            let wanted = of(expected.window).raw();
+            assert!(
+                eye.view_to_clip.raw().abs_diff_eq(wanted, 1e-12),
+                "{:?} {wanted:?}",
+                eye.view_to_clip.raw()
+            );
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! What makes sense in a scene and is still probably not meant: a camera inside of a model, a picture of nothing.
+//!
+//! Everything here is found by looking: the points, lines and triangles of the scene go through its camera and its view volume
+//! (CL-1), once, and what became of them is compared with what the file says.
+
+mod depth;
+mod visibility_survey;
+
+use super::file::{ProjectionFile, ViewFile};
+use super::source_span::PathStep::{Field, Index};
+use super::view_projection::select_lens;
+use super::{Origin, Scene, SceneError, SceneFile, Style};
+use clip::PlaneIndex;
+use homog::Point;
+use model::CameraProjection;
+use visibility_survey::VisibilitySurvey;
+
+/// Two shapes of pictures differ if their ratios do by more than this part.
+const ASPECT_TOLERANCE: f64 = 0.01;
+
+/// Something that is probably not meant.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Lint {
+    /// A name for programs, lower case with hyphens.
+    pub code: &'static str,
+    /// What it is, where, and what to do about it.
+    pub error: SceneError,
+}
+
+/// What is probably not meant in a scene that could be resolved.
+#[must_use]
+pub fn lint_scene(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint> {
+    let viewer = scene.view_projection.viewer().divide();
+    let surveys: Vec<VisibilitySurvey> = scene
+        .models
+        .iter()
+        .map(|placed| VisibilitySurvey::from_model(&scene.view_projection, placed, viewer))
+        .collect();
+    let adviser = Linter { origin, file, scene, surveys: &surveys };
+    let mut advice = Vec::new();
+    advice.extend(adviser.lint_visibility());
+    advice.extend(viewer.and_then(|eye| adviser.lint_camera_inside(eye)));
+    advice.extend(depth::lint_depth_clipping(&adviser));
+    advice.extend(depth::lint_depth_range(&adviser));
+    advice.extend(adviser.lint_aspect_ratio());
+    advice.extend(adviser.lint_missing_light());
+    advice.sort_by_key(|advice| advice.error.span.start);
+    advice
+}
+
+/// What advice is made from.
+struct Linter<'a> {
+    origin: &'a Origin,
+    file: &'a SceneFile,
+    scene: &'a Scene,
+    surveys: &'a [VisibilitySurvey],
+}
+
+impl Linter<'_> {
+    fn model_name(&self, model: usize) -> &str {
+        &self.scene.models[model].model.name
+    }
+
+    /// Models that are not in the picture, or one piece of advice if none is.
+    fn lint_visibility(&self) -> Vec<Lint> {
+        let is_unseen = |survey: &VisibilitySurvey| survey.total > 0 && survey.inside == 0;
+        if !self.surveys.is_empty() && self.surveys.iter().all(is_unseen) {
+            let whole =
+                self.surveys.iter().fold(VisibilitySurvey::default(), VisibilitySurvey::merge);
+            let message = format!("nothing is in the picture: {}", self.describe_rejection(&whole));
+            let help = self.suggest_visibility_fix(&whole);
+            let error = self.origin.error_at(&[Field("camera")], message, Some(help));
+            return vec![Lint { code: "nothing-visible", error }];
+        }
+        let unseen = self.surveys.iter().enumerate().filter(|(_, survey)| is_unseen(survey));
+        let advice = unseen.map(|(number, survey)| {
+            let what = self.describe_rejection(survey);
+            let message = format!("{} is not in the picture: {what}", self.model_name(number));
+            let help = "place it where the camera looks, or leave it out".to_owned();
+            let fault =
+                self.origin.error_at(&[Field("models"), Index(number)], message, Some(help));
+            Lint { code: "model-not-visible", error: fault }
+        });
+        advice.collect()
+    }
+
+    /// An eye inside of a closed model.
+    fn lint_camera_inside(&self, eye: Point<homog::World>) -> Option<Lint> {
+        let number = self.surveys.iter().position(VisibilitySurvey::encloses_eye)?;
+        let [x, y, z] = eye.raw().to_array();
+        let message =
+            format!("the eye at ({x:.3}, {y:.3}, {z:.3}) is inside of {}", self.model_name(number));
+        let help = "move the eye out; Frame(…) finds a place from which everything is seen";
+        let fault =
+            self.origin.error_at(&[Field("camera"), Field("view")], message, Some(help.to_owned()));
+        Some(Lint { code: "camera-inside", error: fault })
+    }
+
+    /// A picture of another shape than the camera or the window.
+    fn lint_aspect_ratio(&self) -> Option<Lint> {
+        let image = self.scene.image;
+        let picture = f64::from(image.width) / f64::from(image.height);
+        let (what, shape, place) = match (&self.file.camera.projection, &self.file.camera.view) {
+            (Some(ProjectionFile::Frustum { left, right, bottom, top, .. }), _) => {
+                let shape = (right.value() - left.value()) / (top.value() - bottom.value());
+                ("the window of the Frustum", shape.abs(), "projection")
+            }
+            (None, ViewFile::FromModel(choice)) => {
+                let lens = select_lens(self.origin, &self.scene.models, choice)?;
+                let shape = match lens.projection {
+                    CameraProjection::Perspective { aspect, .. } => aspect?,
+                    CameraProjection::Orthographic { half_width, half_height, .. } => {
+                        half_width / half_height
+                    }
+                };
+                ("the model's camera", shape, "view")
+            }
+            _ => return None,
+        };
+        if (picture / shape - 1.0).abs() <= ASPECT_TOLERANCE {
+            return None;
+        }
+        let effect = if place == "projection" {
+            "everything is stretched"
+        } else {
+            "it shows more, or less, at the sides"
+        };
+        let message =
+            format!("{what} is {shape:.3} : 1 and the picture {picture:.3} : 1: {effect}");
+        let width = libm::round(f64::from(image.height) * shape).max(1.0);
+        let help = format!("a picture of that shape: image: (size: ({width}, {}))", image.height);
+        let fault = self.origin.error_at(&[Field("camera"), Field(place)], message, Some(help));
+        Some(Lint { code: "aspect-mismatch", error: fault })
+    }
+
+    /// Surfaces that wait for light in vain.
+    fn lint_missing_light(&self) -> Option<Lint> {
+        let scene = self.scene;
+        let lit = matches!(scene.style, Style::Shaded | Style::Flat);
+        let shines =
+            |at: &model::Material| at.unlit || at.emissive.iter().any(|channel| *channel > 0.0);
+        let alone = scene.models.iter().flat_map(|placed| &placed.model.materials).any(shines);
+        if !lit || alone || !scene.lights.is_empty() || scene.environment.is_some() {
+            return None;
+        }
+        let message = "there is no light: surfaces will be black";
+        let help = "leave `lights` out, or add one: lights: [Sun(direction: (-1, -2, -1), lux: 3), Ambient(lux: 1)]";
+        let fault = self.origin.error_at(&[Field("lights")], message, Some(help.to_owned()));
+        Some(Lint { code: "no-light", error: fault })
+    }
+
+    /// Whether all of it is behind the eye of a perspective.
+    fn is_behind_eye(&self, survey: &VisibilitySurvey) -> bool {
+        let perspective = self.scene.view_projection.viewer().w() != 0.0;
+        perspective && survey.depth_range().is_some_and(|(_, far)| far <= 0.0)
+    }
+
+    /// Which planes everything is outside of, in words.
+    fn describe_rejection(&self, survey: &VisibilitySurvey) -> String {
+        if self.is_behind_eye(survey) {
+            return "all of it is behind the eye".to_owned();
+        }
+        let counts = PlaneIndex::BOX.iter().zip(survey.outside).filter(|(_, count)| *count > 0);
+        let whole = counts.clone().filter(|(_, count)| *count == survey.total);
+        let whole: Vec<String> = whole.map(|(plane, _)| plane.to_string()).collect();
+        match whole.as_slice() {
+            [] => {
+                let each = counts.map(|(plane, count)| format!("{count} outside of {plane}"));
+                let each = each.collect::<Vec<_>>().join(", ");
+                format!("of {} points, lines and triangles {each}", survey.total)
+            }
+            [plane] => format!("all of it is outside of the {plane} plane"),
+            [planes @ .., last] => {
+                format!(
+                    "all of it is outside of the {} and the {last} plane",
+                    planes.join(", the ")
+                )
+            }
+        }
+    }
+
+    /// What to do if nothing is seen.
+    fn suggest_visibility_fix(&self, survey: &VisibilitySurvey) -> String {
+        let of = |plane: PlaneIndex| survey.outside[plane.index()] == survey.total;
+        let span = survey.depth_range();
+        let in_depth = span.filter(|_| of(PlaneIndex::NEAR) || of(PlaneIndex::FAR));
+        match in_depth {
+            _ if self.is_behind_eye(survey) => "turn the camera round, or use Frame(…)".to_owned(),
+            Some((near, far)) => format!(
+                "it is {near:.4} to {far:.4} before the eye: leave `near` and `far` out, or set them around that"
+            ),
+            None => {
+                "look towards it, or use Frame(…), which finds the place to look from".to_owned()
+            }
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! Near and far planes that cut something off, or leave most of the depth range to nothing.
+
+use super::{Lint, Linter};
+use crate::scene::file::{ProjectionFile, ViewFile};
+use crate::scene::source_span::PathStep::{Field, Index};
+
+/// A near plane is wasteful if what is nearest is so many times farther away.
+const WASTEFUL_DEPTH_RATIO: f64 = 100.0;
+
+/// Models that the near or the far plane cuts off in the middle of the picture.
+pub(super) fn lint_depth_clipping(adviser: &Linter<'_>) -> Vec<Lint> {
+    let mut advice = Vec::new();
+    for (number, survey) in
+        adviser.surveys.iter().enumerate().filter(|(_, survey)| survey.inside > 0)
+    {
+        let sides = [("near", survey.before_near), ("far", survey.behind_far)];
+        for (plane, vertices) in sides.into_iter().filter(|(_, vertices)| *vertices > 0) {
+            let message = format!(
+                "the {plane} plane cuts off {vertices} vertices of {}",
+                adviser.model_name(number)
+            );
+            let (near, far) = survey.depth_range().unwrap_or_default();
+            let help = if plane == "near" {
+                format!("it begins {near:.4} before the eye: set `near` to less than that")
+            } else {
+                format!("it ends {far:.4} before the eye: leave `far` out, or set it to more")
+            };
+            let fault = adviser.origin.error_at(&plane_path(adviser, plane), message, Some(help));
+            let code = if plane == "near" { "cut-by-near" } else { "cut-by-far" };
+            advice.push(Lint { code, error: fault });
+        }
+    }
+    advice
+}
+
+/// A near plane of a perspective far before everything: depth is spent on empty space, for most of its steps are just behind
+/// the near plane (PE-6).
+pub(super) fn lint_depth_range(adviser: &Linter<'_>) -> Option<Lint> {
+    let near = near_distance(adviser)?;
+    let spans = adviser.surveys.iter().filter_map(super::VisibilitySurvey::depth_range);
+    let nearest = spans.map(|(nearest, _)| nearest).fold(f64::INFINITY, f64::min);
+    if !nearest.is_finite() || nearest < WASTEFUL_DEPTH_RATIO * near {
+        return None;
+    }
+    let times = nearest / near;
+    let message = format!(
+        "the near plane at {near} is {times:.0} times nearer than the nearest thing, at {nearest:.4}: that wastes depth"
+    );
+    let help = format!("leave `near` out, or set it to {:.4}", 0.99 * nearest);
+    let fault = adviser.origin.error_at(&plane_path(adviser, "near"), message, Some(help));
+    Some(Lint { code: "wasteful-depth-range", error: fault })
+}
+
+/// The distance of the near plane, if the projection is a perspective that looks straight ahead.
+fn near_distance(adviser: &Linter<'_>) -> Option<f64> {
+    let rows = adviser.scene.view_projection.view_to_clip.rows();
+    let [.., [_, _, z, depth], last] = rows;
+    // Where z = w: depth - z·n = n.
+    (last == [0.0, 0.0, -1.0, 0.0]).then(|| depth / (1.0 + z))
+}
+
+/// Where the plane is written, or the camera that brings it.
+fn plane_path<'a>(
+    adviser: &Linter<'_>,
+    plane: &'a str,
+) -> Vec<crate::scene::source_span::PathStep<'a>> {
+    let given = matches!(
+        adviser.file.camera.projection,
+        Some(
+            ProjectionFile::Perspective { .. }
+                | ProjectionFile::Orthographic { .. }
+                | ProjectionFile::Frustum { .. }
+        )
+    );
+    match adviser.file.camera.view {
+        _ if given => vec![Field("camera"), Field("projection"), Field(plane)],
+        ViewFile::FromModel(_) => vec![Field("camera"), Field("view"), Index(0)],
+        _ => vec![Field("camera")],
+    }
+}

@@ -1,0 +1,172 @@
+//! What a scene file changes of a model's materials, once it is loaded and posed.
+
+use super::file::{AlphaModeFile, MaterialFile, MaterialsFile};
+use super::messages::suggest_name;
+use super::source_span::PathStep::{self, Field, Index};
+use super::{Origin, SceneError};
+use model::{AlphaMode, Emission, Material, Model};
+use shade::color::parse_hex_color;
+
+/// Changes the materials of the model with this number in the scene.
+pub(super) fn override_materials(
+    origin: &Origin,
+    number: usize,
+    changes: &[MaterialFile],
+    model: &mut Model,
+) -> Result<(), SceneError> {
+    for (at, change) in changes.iter().enumerate() {
+        let place = OverridePath {
+            origin,
+            path: [Field("models"), Index(number), Field("materials"), Index(at)],
+        };
+        let change = MaterialOverride::from_file(&place, change)?;
+        for material in select_materials(&place, &change.file.of, model)? {
+            change.apply_to(&mut model.materials[material]);
+        }
+    }
+    Ok(())
+}
+
+/// Where a change is written.
+struct OverridePath<'a> {
+    origin: &'a Origin,
+    path: [PathStep<'a>; 4],
+}
+
+impl OverridePath<'_> {
+    fn error_at(&self, field: &str, message: String, help: Option<String>) -> SceneError {
+        self.origin.error_at(&[&self.path[..], &[Field(field)]].concat(), message, help)
+    }
+
+    fn parse_color(
+        &self,
+        field: &str,
+        text: Option<&String>,
+    ) -> Result<Option<[f32; 3]>, SceneError> {
+        let Some(text) = text else { return Ok(None) };
+        parse_hex_color(text).map(Some).ok_or_else(|| {
+            let help = Some("write #rgb or #rrggbb, such as #c9a227".to_owned());
+            self.error_at(field, format!("`{text}` is no colour"), help)
+        })
+    }
+}
+
+/// The numbers of the materials that are meant.
+fn select_materials(
+    place: &OverridePath<'_>,
+    of: &MaterialsFile,
+    model: &mut Model,
+) -> Result<Vec<usize>, SceneError> {
+    let count = model.materials.len();
+    let (found, wanted): (Vec<usize>, _) = match of {
+        MaterialsFile::All => {
+            assign_missing_materials(model);
+            return Ok((0..model.materials.len()).collect());
+        }
+        MaterialsFile::Index(at) => ((0..count).filter(|n| n == at).collect(), at.to_string()),
+        MaterialsFile::Name(name) => {
+            let is_meant = |n: &usize| model.materials[*n].name.as_ref() == Some(name);
+            ((0..count).filter(is_meant).collect(), name.clone())
+        }
+    };
+    if !found.is_empty() {
+        return Ok(found);
+    }
+    let message = format!("the model {} has no material `{wanted}`", model.name);
+    let mut names: Vec<String> = match of {
+        MaterialsFile::Index(_) => (0..count).map(|n| n.to_string()).collect(),
+        _ => model.materials.iter().filter_map(|material| material.name.clone()).collect(),
+    };
+    names.dedup();
+    let help = match (names.is_empty(), count) {
+        (true, 0) => "it has no materials: use of: All".to_owned(),
+        (true, _) => {
+            format!("its materials have no names: use of: Index(0) to Index({})", count - 1)
+        }
+        _ => suggest_name(&wanted, &names).unwrap_or_default(),
+    };
+    Err(place.error_at("of", message, Some(help)))
+}
+
+/// Surfaces that name no material get one that can be changed.
+fn assign_missing_materials(model: &mut Model) {
+    let new = model.materials.len();
+    let primitives = model.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives);
+    let mut without = primitives.filter(|primitive| primitive.material.is_none()).peekable();
+    if without.peek().is_some() {
+        without.for_each(|primitive| primitive.material = Some(new));
+        model.materials.push(Material::default());
+    }
+}
+
+/// A change whose colours have been read.
+struct MaterialOverride<'a> {
+    file: &'a MaterialFile,
+    base_color: Option<[f32; 3]>,
+    emissive: Option<[f32; 3]>,
+}
+
+impl<'a> MaterialOverride<'a> {
+    fn from_file(place: &OverridePath<'_>, file: &'a MaterialFile) -> Result<Self, SceneError> {
+        Ok(Self {
+            file,
+            base_color: place.parse_color("base_color", file.base_color.as_ref())?,
+            emissive: place.parse_color("emissive", file.emissive.as_ref())?,
+        })
+    }
+
+    fn apply_to(&self, material: &mut Material) {
+        let Self { file, .. } = self;
+        if let Some([r, g, b]) = self.base_color {
+            material.base_color = [r, g, b, material.base_color[3]];
+        }
+        if let Some(alpha) = file.alpha {
+            material.base_color[3] = alpha.value() as f32;
+        }
+        if let Some(metallic) = file.metallic {
+            material.metallic = metallic.value() as f32;
+        }
+        if let Some(roughness) = file.roughness {
+            material.roughness = roughness.value() as f32;
+        }
+        self.apply_emission(material);
+        if let Some(mode) = file.alpha_mode {
+            material.alpha_mode = match mode {
+                AlphaModeFile::Opaque => AlphaMode::Opaque,
+                AlphaModeFile::Mask { cutoff } => AlphaMode::Mask { cutoff: cutoff.value() as f32 },
+                AlphaModeFile::Blend => AlphaMode::Blend,
+            };
+        }
+        material.double_sided = file.double_sided.unwrap_or(material.double_sided);
+        material.unlit = file.unlit.unwrap_or(material.unlit);
+        if !file.keep_textures {
+            self.remove_overridden_textures(material);
+        }
+    }
+
+    fn apply_emission(&self, material: &mut Material) {
+        let strength = self.file.emissive_strength.map(|strength| strength.value() as f32);
+        if let Some(color) = self.emissive {
+            material.emission = Emission { color, strength: 1.0 };
+        }
+        if let Some(strength) = strength {
+            material.emission.strength = strength;
+        }
+        if self.emissive.is_some() || strength.is_some() {
+            material.emissive = material.emission.scaled_color();
+        }
+    }
+
+    /// Textures of what is given.
+    fn remove_overridden_textures(&self, material: &mut Material) {
+        if self.base_color.is_some() {
+            material.base_color_texture = None;
+        }
+        if self.file.metallic.is_some() || self.file.roughness.is_some() {
+            material.metallic_roughness_texture = None;
+        }
+        if self.emissive.is_some() {
+            material.emissive_texture = None;
+        }
+    }
+}

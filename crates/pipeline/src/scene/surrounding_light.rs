@@ -1,0 +1,170 @@
+//! From the surroundings that a scene file asks for to what shading needs; made once for each content and kept.
+
+use super::file::{EnvironmentFile, Finite, SceneFile};
+use super::hdr::Panorama;
+use super::source_span::PathStep::{self, Field};
+use super::{Origin, SceneError};
+use model::ModelInstance;
+use shade::{Environment, PreethamSky, studio_radiance};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The longest file that is read, in bytes.
+const MAX_FILE_BYTES: u64 = 256 << 20;
+/// How many environments are kept.
+const MAX_CACHED_ENVIRONMENTS: usize = 4;
+
+impl SceneFile {
+    /// The surroundings that a scene has. A bare model without lights of its own stands in the studio: metals show nothing but what
+    /// is around them.
+    pub(super) fn effective_environment(
+        &self,
+        origin: &Origin,
+        models: &[ModelInstance],
+    ) -> Option<EnvironmentFile> {
+        let is_lit = || models.iter().any(|placed| placed.model.scene_lights().next().is_some());
+        let is_bare = origin.text.is_empty() && self.lights.is_none() && !is_lit();
+        let environment = self.environment.clone();
+        let environment = environment.or_else(|| is_bare.then_some(EnvironmentFile::STUDIO));
+        environment.filter(|environment| *environment != EnvironmentFile::Dark)
+    }
+}
+
+/// What an environment is made of: its kind, all its numbers, and the sum of a file's bytes.
+type EnvironmentKey = (u8, [u64; 4]);
+
+static CACHE: Mutex<Vec<(EnvironmentKey, Arc<Environment>)>> = Mutex::new(Vec::new());
+
+/// The environment with this content: one that was made before, or a new one.
+fn cached_environment(key: EnvironmentKey, make: impl FnOnce() -> Environment) -> Arc<Environment> {
+    let mut cache = CACHE.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, known)) = cache.iter().find(|(known, _)| *known == key) {
+        return Arc::clone(known);
+    }
+    let made = Arc::new(make());
+    if cache.len() == MAX_CACHED_ENVIRONMENTS {
+        cache.remove(0);
+    }
+    cache.push((key, Arc::clone(&made)));
+    made
+}
+
+/// The environment of a scene, if it asks for one. Files may lie below the scene's folder and those that are allowed.
+pub(super) fn resolve_environment(
+    origin: &Origin,
+    file: &SceneFile,
+    models: &[ModelInstance],
+    allowed: &[PathBuf],
+) -> Result<Option<Arc<Environment>>, SceneError> {
+    let Some(environment) = file.effective_environment(origin, models) else { return Ok(None) };
+    let degrees = |angle: Option<Finite>| angle.map_or(0.0, Finite::value);
+    Ok(Some(match &environment {
+        EnvironmentFile::Dark => return Ok(None),
+        EnvironmentFile::Studio { strength, rotate_degrees } => {
+            let turn = EnvironmentRotation::new(strength.value(), degrees(*rotate_degrees));
+            cached_environment(turn.cache_key(0, 0), || {
+                Environment::from_radiance(|way| turn.rotated_radiance(way, studio_radiance))
+            })
+        }
+        EnvironmentFile::Sky { sun, strength } => {
+            let sun = normalize_direction(sun.0).ok_or_else(|| {
+                let at = [Field("environment"), Field("sun")];
+                let help = Some("such as (1, 1, 1): to the right, above and before".to_owned());
+                origin.error_at(&at, "the sun's direction is (0, 0, 0), which is none", help)
+            })?;
+            let strength = strength.value() as f32;
+            let bits = sun.map(|c| u64::from(c.to_bits()));
+            let key = (1, [bits[0], bits[1], bits[2], u64::from(strength.to_bits())]);
+            let sky = PreethamSky::new(sun);
+            cached_environment(key, || {
+                Environment::from_radiance(|way| sky.radiance(way).map(|c| c * strength))
+            })
+        }
+        EnvironmentFile::Uniform { strength, color } => {
+            let light = color.0.map(|c| (c * strength.value()).max(0.0) as f32);
+            let bits = light.map(|c| u64::from(c.to_bits()));
+            cached_environment((2, [bits[0], bits[1], bits[2], 0]), || {
+                Environment::from_radiance(|_| light)
+            })
+        }
+        EnvironmentFile::File { path, strength, rotate_degrees } => {
+            let at = [Field("environment"), Field("path")];
+            let bytes = read_image_bytes(origin, &at, path, allowed)?;
+            let panorama = Panorama::decode_hdr(&bytes)
+                .map_err(|problem| environment_error(origin, format!("{path}: {problem}"), None))?;
+            let turn = EnvironmentRotation::new(strength.value(), degrees(*rotate_degrees));
+            cached_environment(turn.cache_key(3, fnv1a_hash(&bytes)), || {
+                Environment::from_radiance(|way| {
+                    turn.rotated_radiance(way, |way| panorama.sample_direction(way))
+                })
+            })
+        }
+    }))
+}
+
+fn environment_error(origin: &Origin, message: String, help: Option<String>) -> SceneError {
+    origin.error_at(&[Field("environment"), Field("path")], message, help)
+}
+
+/// The bytes of a file that the scene names at `at`: below its folder or one that is allowed, and not too long.
+pub(super) fn read_image_bytes(
+    origin: &Origin,
+    at: &[PathStep<'_>],
+    path: &str,
+    allowed: &[PathBuf],
+) -> Result<Vec<u8>, SceneError> {
+    if !origin.allows_path(Path::new(path), allowed) {
+        let help =
+            "keep pictures below the scene's folder, or allow another with --allow-outside DIR";
+        let message = format!("the path \"{path}\" leads out of the scene's folder");
+        return Err(origin.error_at(at, message, Some(help.to_owned())));
+    }
+    let full = origin.folder.join(path);
+    let unreadable = |cause: std::io::Error| {
+        let help = "check the path: it begins at the folder of the scene".to_owned();
+        origin.error_at(at, format!("cannot read {path}: {cause}"), Some(help))
+    };
+    let about = std::fs::metadata(&full).map_err(unreadable)?;
+    if !about.is_file() || about.len() > MAX_FILE_BYTES {
+        let message = format!("{path} is no file of at most {MAX_FILE_BYTES} bytes");
+        return Err(origin.error_at(at, message, None));
+    }
+    std::fs::read(&full).map_err(unreadable)
+}
+
+/// A turn about y and a factor.
+struct EnvironmentRotation {
+    strength: f32,
+    degrees: f64,
+    cosine: f32,
+    sine: f32,
+}
+
+impl EnvironmentRotation {
+    fn new(strength: f64, degrees: f64) -> Self {
+        let angle = degrees.to_radians();
+        let (sine, cosine) = (libm::sin(angle) as f32, libm::cos(angle) as f32);
+        Self { strength: strength as f32, degrees, cosine, sine }
+    }
+
+    fn cache_key(&self, kind: u8, content: u64) -> EnvironmentKey {
+        (kind, [content, self.degrees.to_bits(), u64::from(self.strength.to_bits()), 0])
+    }
+
+    /// The light from a direction after the surroundings were turned counter-clockwise, seen from above.
+    fn rotated_radiance(&self, [x, y, z]: [f32; 3], of: impl Fn([f32; 3]) -> [f32; 3]) -> [f32; 3] {
+        let before = [x * self.cosine - z * self.sine, y, x * self.sine + z * self.cosine];
+        of(before).map(|c| c * self.strength)
+    }
+}
+
+fn normalize_direction(v: [f64; 3]) -> Option<[f32; 3]> {
+    let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    (length > 0.0 && length.is_finite()).then(|| v.map(|c| (c / length) as f32))
+}
+
+/// A sum that depends on every byte (Fowler, Noll and Vo).
+fn fnv1a_hash(bytes: &[u8]) -> u64 {
+    let mix = |sum: u64, byte: &u8| (sum ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325 ^ bytes.len() as u64, mix)
+}

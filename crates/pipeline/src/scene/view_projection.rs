@@ -1,0 +1,309 @@
+//! Camera and projection of a scene: given, framed, or taken from the model.
+
+use super::depth_span::DepthSpan;
+use super::file::{CameraChoice, CameraFile, FromFile, ProjectionFile, ViewFile};
+use super::messages::suggest_name;
+use super::source_span::PathStep::{self, Field};
+use super::{ImageSpec, Origin, SceneError};
+use camera::ViewProjection;
+use camera::{Basis, Camera, NamedView, Slopes, frame_parallel, frame_perspective};
+use homog::{Point, Vector, World};
+use model::ModelInstance;
+use model::world_points;
+use model::{CameraProjection, MeshInstance, ModelCamera};
+use projection::{Convention, Fov, Frustum, Orthographic, Perspective, ProjectionError};
+
+const VIEW_FIELD: PathStep<'static> = Field("view");
+const CAMERA_FIELD: PathStep<'static> = Field("camera");
+const PROJECTION_PATH: [PathStep<'static>; 2] = [CAMERA_FIELD, Field("projection")];
+
+/// Everything that camera and projection are resolved from.
+pub(super) struct CameraResolver<'a> {
+    origin: &'a Origin,
+    models: &'a [ModelInstance],
+    pub(super) points: Vec<Point<World>>,
+    pub(super) aspect: f64,
+}
+
+/// Camera and projection of a scene.
+pub(super) fn resolve_view_projection(
+    origin: &Origin,
+    file: &CameraFile,
+    models: &[ModelInstance],
+    image: ImageSpec,
+) -> Result<ViewProjection, SceneError> {
+    let aspect = f64::from(image.width) / f64::from(image.height);
+    let points = world_points(models);
+    let resolver = CameraResolver { origin, models, points, aspect };
+    let projection = file.projection.as_ref();
+    let or_usual = projection.unwrap_or(&ProjectionFile::PERSPECTIVE);
+    match &file.view {
+        ViewFile::LookAt { eye, target, up } => {
+            let camera = Camera::look_at(eye.0.into(), target.0.into(), up.0.into());
+            let camera = camera.map_err(|error| resolver.camera_error(&error))?;
+            resolver.project_from_camera(camera, or_usual, None)
+        }
+        ViewFile::LookTo { eye, gaze, up } => {
+            let camera = Camera::look_to(eye.0.into(), gaze.0.into(), up.0.into());
+            let camera = camera.map_err(|error| resolver.camera_error(&error))?;
+            resolver.project_from_camera(camera, or_usual, None)
+        }
+        ViewFile::Frame { from, padding_percent } => {
+            resolver.frame_models(from.as_ref(), padding_percent.value() / 100.0, or_usual)
+        }
+        ViewFile::FromModel(choice) => resolver.project_from_model_camera(choice, projection),
+    }
+}
+
+/// The lens of the camera that is chosen; `None` if there is no such camera.
+pub(super) fn select_lens<'a>(
+    origin: &'a Origin,
+    models: &'a [ModelInstance],
+    choice: &CameraChoice,
+) -> Option<&'a ModelCamera> {
+    let resolver = CameraResolver { origin, models, points: Vec::new(), aspect: 1.0 };
+    Some(resolver.select_model_camera(choice).ok()?.2)
+}
+
+impl<'a> CameraResolver<'a> {
+    pub(super) fn camera_error(&self, error: &camera::CameraError) -> SceneError {
+        self.view_error(error.to_string(), None)
+    }
+
+    pub(super) fn view_error(
+        &self,
+        message: impl Into<String>,
+        help: Option<String>,
+    ) -> SceneError {
+        self.origin.error_at(&[CAMERA_FIELD, VIEW_FIELD], message, help)
+    }
+
+    pub(super) fn projection_error(&self, error: &ProjectionError) -> SceneError {
+        self.projection_error_with(error.to_string(), None)
+    }
+
+    /// A fault of the projection as a whole.
+    pub(super) fn projection_error_with(
+        &self,
+        message: impl Into<String>,
+        help: Option<String>,
+    ) -> SceneError {
+        self.origin.error_at(&PROJECTION_PATH, message, help)
+    }
+
+    pub(super) fn framing_error(&self, error: &camera::FramingError) -> SceneError {
+        if matches!(error, camera::FramingError::NoPoints) {
+            return self.nothing_to_draw_error();
+        }
+        self.view_error(error.to_string(), None)
+    }
+
+    pub(super) fn nothing_to_draw_error(&self) -> SceneError {
+        // What the importer left out is the likely reason.
+        let warnings = self.models.iter().flat_map(|placed| &placed.model.warnings).next();
+        let help = warnings.map(|warning| format!("{}: {}", warning.pointer, warning.message));
+        let message = "there is nothing to draw: the models have no points, lines or triangles";
+        self.view_error(message, help)
+    }
+
+    /// The middle of the box around everything.
+    pub(super) fn bounds_center(&self) -> Option<Point<World>> {
+        homog::Bounds::from_points(self.points.iter().copied()).map(homog::Bounds::center)
+    }
+
+    /// A camera in its place with a projection; `height` is that of a parallel window whose file leaves it open.
+    fn project_from_camera(
+        &self,
+        camera: Camera,
+        projection: &ProjectionFile,
+        height: Option<f64>,
+    ) -> Result<ViewProjection, SceneError> {
+        let span = DepthSpan::from_points(&self.points, camera);
+        let view_to_clip = match *projection {
+            ProjectionFile::Perspective { fov_y_degrees, near, far } => {
+                let (near, far) = span.perspective_planes(
+                    near.map(super::number::Positive::value),
+                    far.map(super::number::Positive::value),
+                );
+                let fov = Fov::Vertical(fov_y_degrees.value().to_radians());
+                Perspective::new(fov, self.aspect, near, far)
+                    .map(|p| p.view_to_clip(Convention::CHAPTER))
+            }
+            ProjectionFile::Orthographic { height: given, near, far } => {
+                let (near, far) = span.parallel_planes(
+                    near.map(super::number::Finite::value),
+                    far.map(super::number::Finite::value),
+                );
+                let height = given.map(super::number::Positive::value).or(height);
+                let half = 0.5 * height.unwrap_or_else(|| self.fitting_window_height(camera));
+                let right = half * self.aspect;
+                Orthographic::new(-right, right, -half, half, near, far)
+                    .map(|p| p.view_to_clip(Convention::CHAPTER))
+            }
+            ProjectionFile::Frustum { left, right, bottom, top, near, far } => {
+                let far = span
+                    .perspective_planes(Some(near.value()), far.map(super::number::Positive::value))
+                    .1;
+                let [l, r, b, t] = [left, right, bottom, top].map(super::number::Finite::value);
+                Frustum::new(l, r, b, t, near.value(), far)
+                    .map(|p| p.view_to_clip(Convention::CHAPTER))
+            }
+            _ => return self.project_classical(camera, projection),
+        };
+        let view_to_clip = view_to_clip.map_err(|error| self.projection_error(&error))?;
+        Ok(ViewProjection { camera, view_to_clip })
+    }
+
+    /// The height of the window, centred on the line of sight, into which the whole scene fits.
+    fn fitting_window_height(&self, camera: Camera) -> f64 {
+        let world_to_view = camera.world_to_view();
+        let reach = self.points.iter().map(|&point| {
+            let point = world_to_view.transform_point(point);
+            point.y().abs().max(point.x().abs() / self.aspect)
+        });
+        let reach = reach.fold(0.0, f64::max);
+        if reach > 0.0 { 2.1 * reach } else { 1.0 }
+    }
+
+    /// A camera that looks in a given direction from where everything just fits.
+    fn frame_models(
+        &self,
+        from: Option<&FromFile>,
+        padding: f64,
+        projection: &ProjectionFile,
+    ) -> Result<ViewProjection, SceneError> {
+        let usual =
+            if projection.is_classical() { FromFile::Front } else { FromFile::ThreeQuarter };
+        let basis = self.view_basis(from.unwrap_or(&usual))?;
+        let points = self.points.iter().copied();
+        let fault = |error: camera::FramingError| self.framing_error(&error);
+        let slopes = match *projection {
+            ProjectionFile::Orthographic { .. } => {
+                let framed = frame_parallel(points, basis, self.aspect, padding).map_err(fault)?;
+                return self.project_from_camera(
+                    framed.camera,
+                    projection,
+                    Some(framed.top - framed.bottom),
+                );
+            }
+            ProjectionFile::Perspective { fov_y_degrees, .. } => {
+                let angle = fov_y_degrees.value().to_radians();
+                Slopes::vertical_angle(angle, self.aspect).map_err(fault)?
+            }
+            ProjectionFile::Frustum { left, right, bottom, top, near, .. } => {
+                let slope = |side: super::number::Finite| side.value() / near.value();
+                Slopes {
+                    left: slope(left),
+                    right: slope(right),
+                    bottom: slope(bottom),
+                    top: slope(top),
+                }
+            }
+            _ => return self.frame_classical(from, padding, projection),
+        };
+        let framed = frame_perspective(points, basis, slopes, padding).map_err(fault)?;
+        self.project_from_camera(framed.camera, projection, None)
+    }
+
+    pub(super) fn view_basis(&self, from: &FromFile) -> Result<Basis, SceneError> {
+        let named = match from {
+            FromFile::Front => NamedView::Front,
+            FromFile::Back => NamedView::Back,
+            FromFile::Left => NamedView::Left,
+            FromFile::Right => NamedView::Right,
+            FromFile::Top => NamedView::Top,
+            FromFile::Bottom => NamedView::Bottom,
+            FromFile::ThreeQuarter => NamedView::ThreeQuarter,
+            FromFile::Isometric => NamedView::Isometric,
+            FromFile::Dimetric => NamedView::Dimetric,
+            FromFile::Trimetric => NamedView::Trimetric,
+            FromFile::Direction(direction) => {
+                let gaze = -Vector::from(direction.0);
+                return Basis::from_gaze_or_fallback(gaze, Vector::Y)
+                    .map_err(|error| self.camera_error(&error));
+            }
+        };
+        Ok(named.basis())
+    }
+
+    /// The view, and unless the scene has its own the projection, of a camera in a model.
+    fn project_from_model_camera(
+        &self,
+        choice: &CameraChoice,
+        projection: Option<&ProjectionFile>,
+    ) -> Result<ViewProjection, SceneError> {
+        let (placed, instance, lens) = self.select_model_camera(choice)?;
+        let to_world = instance.node_to_model.then(placed.model_to_world);
+        // Only where a node stands and where it points matter to a camera, not how it is scaled.
+        let eye = to_world.transform_point(Point::ORIGIN);
+        let gaze = to_world.transform_vector(-Vector::Z);
+        let up = to_world.transform_vector(Vector::Y);
+        let camera = Camera::look_to(eye, gaze, up).map_err(|error| self.camera_error(&error))?;
+        match projection {
+            Some(projection) => self.project_from_camera(camera, projection, None),
+            None => self.project_through_lens(camera, lens),
+        }
+    }
+
+    fn project_through_lens(
+        &self,
+        camera: Camera,
+        lens: &ModelCamera,
+    ) -> Result<ViewProjection, SceneError> {
+        let view_to_clip = match lens.projection {
+            CameraProjection::Perspective { fov_y, near, far, .. } => {
+                Perspective::new(Fov::Vertical(fov_y), self.aspect, near, far)
+                    .map(|p| p.view_to_clip(Convention::CHAPTER))
+            }
+            CameraProjection::Orthographic { half_width, half_height, near, far } => {
+                let top = half_height.max(half_width / self.aspect);
+                let right = top * self.aspect;
+                Orthographic::new(-right, right, -top, top, near, far)
+                    .map(|p| p.view_to_clip(Convention::CHAPTER))
+            }
+        };
+        let view_to_clip = view_to_clip.map_err(|error| self.projection_error(&error))?;
+        Ok(ViewProjection { camera, view_to_clip })
+    }
+
+    /// The first shown node that carries the camera.
+    fn select_model_camera(
+        &self,
+        choice: &CameraChoice,
+    ) -> Result<(&'a ModelInstance, MeshInstance, &'a ModelCamera), SceneError> {
+        let mut names = Vec::new();
+        for placed in self.models {
+            for instance in placed.model.node_instances() {
+                let node = &placed.model.nodes[instance.node];
+                let Some(number) = node.camera else { continue };
+                let lens = &placed.model.cameras[number];
+                let is_chosen = match choice {
+                    CameraChoice::Index(wanted) => *wanted == number,
+                    CameraChoice::Name(wanted) => {
+                        [&lens.name, &node.name].into_iter().flatten().any(|name| name == wanted)
+                    }
+                };
+                if is_chosen {
+                    return Ok((placed, instance, lens));
+                }
+                names.extend(lens.name.clone().or_else(|| node.name.clone()));
+                names.push(number.to_string());
+            }
+        }
+        Err(self.unknown_camera_error(choice, &names))
+    }
+
+    fn unknown_camera_error(&self, choice: &CameraChoice, names: &[String]) -> SceneError {
+        let wanted = match choice {
+            CameraChoice::Index(index) => index.to_string(),
+            CameraChoice::Name(name) => name.clone(),
+        };
+        let (message, help) = if names.is_empty() {
+            let help = "leave it out, or choose a view: Frame(from: Front) in a scene, --view front as a flag";
+            ("the models have no camera".to_owned(), Some(help.to_owned()))
+        } else {
+            (format!("the models have no camera `{wanted}`"), suggest_name(&wanted, names))
+        };
+        self.origin.error_at(&[CAMERA_FIELD, VIEW_FIELD], message, help)
+    }
+}

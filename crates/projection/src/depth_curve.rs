@@ -1,0 +1,254 @@
+//! How distance becomes depth, and how finely depth can tell distances apart (ZP-1).
+//!
+//! ```text
+//! depth 1 ┤            ________      perspective spends half of the depth range on the stretch
+//!         │      ___---              from N to 2FN/(F+N), about twice the near distance
+//!       ½ ┤   .-´
+//!         │  /
+//!       0 ┼─┴──┬────────────────►
+//!           N  2FN/(F+N)         D
+//! ```
+
+use crate::error::{check_finite, check_positive};
+use crate::frustum::check_planes;
+use crate::matrix::DepthRow;
+use crate::{Convention, Frustum, Orthographic, Perspective, ProjectionError};
+
+/// How depth values are stored.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum DepthFormat {
+    /// As whole numbers of the given number of bits, 1 to 64, spread evenly from the near to the
+    /// far depth.
+    FixedPoint(u32),
+    /// As 32-bit floating point numbers, in the convention's own range.
+    Float32,
+}
+
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum CurveShape {
+    Central,
+    Parallel,
+}
+
+/// The map from distance ahead of the eye to depth after the divide, and back (C56, C67).
+///
+/// ```
+/// use projection::{Convention, DepthCurve};
+/// let curve = DepthCurve::perspective(2.0, 40.0, Convention::OPENGL)?;
+/// assert_eq!(curve.depth(2.0), Some(-1.0));
+/// assert_eq!(curve.half_range_distance(), 80.0 / 21.0); // the lesson rounds it to 3.8
+/// # Ok::<(), projection::ProjectionError>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct DepthCurve {
+    near: f64,
+    far: f64,
+    convention: Convention,
+    shape: CurveShape,
+}
+
+impl DepthCurve {
+    /// The curve of a perspective; `far` may be infinite.
+    ///
+    /// # Errors
+    /// If not 0 < near < far.
+    pub fn perspective(
+        near: f64,
+        far: f64,
+        convention: Convention,
+    ) -> Result<Self, ProjectionError> {
+        check_planes(near, far)?;
+        Ok(Self { near, far, convention, shape: CurveShape::Central })
+    }
+
+    /// The straight line of a parallel projection.
+    ///
+    /// # Errors
+    /// If a distance is not finite or both are equal.
+    pub fn parallel(near: f64, far: f64, convention: Convention) -> Result<Self, ProjectionError> {
+        let volume = Orthographic::new(-1.0, 1.0, -1.0, 1.0, near, far)?;
+        Ok(volume.depth_curve(convention))
+    }
+
+    /// (a, b) of depth = a + b/D for a perspective, of depth = a D + b for a parallel projection.
+    ///
+    /// For OpenGL these are the lesson's c2 = (F+N)/(F−N) and c1 = 2FN/(N−F) (C67).
+    #[must_use]
+    pub fn coefficients(self) -> (f64, f64) {
+        let row = match self.shape {
+            CurveShape::Central => DepthRow::central(self.near, self.far, self.convention),
+            CurveShape::Parallel => DepthRow::parallel(self.near, self.far, self.convention),
+        };
+        (row.factor, row.offset)
+    }
+
+    /// The depth of points at `distance`; `None` where there is none: at the eye's own plane, for
+    /// NaN, and for results too large to represent.
+    #[must_use]
+    pub fn depth(self, distance: f64) -> Option<f64> {
+        let (at_near, at_far) = (self.convention.near_depth(), self.convention.far_depth());
+        let t = self.depth_fraction(distance);
+        let depth = at_near + (at_far - at_near) * t;
+        depth.is_finite().then_some(depth)
+    }
+
+    /// How much of the depth range lies between the near plane and `distance`: 0 at near, 1 at far.
+    fn depth_fraction(self, distance: f64) -> f64 {
+        let (near, far) = (self.near, self.far);
+        match self.shape {
+            CurveShape::Central if far == f64::INFINITY => 1.0 - near / distance,
+            CurveShape::Central => (distance - near) / (far - near) * (far / distance),
+            CurveShape::Parallel => (distance - near) / (far - near),
+        }
+    }
+
+    /// The distance at which points have the given depth: linearises a depth buffer.
+    ///
+    /// `None` where no finite distance has it, as the far depth of an infinite projection.
+    #[must_use]
+    pub fn distance(self, depth: f64) -> Option<f64> {
+        let (at_near, at_far) = (self.convention.near_depth(), self.convention.far_depth());
+        // Both parts are exact differences where it matters, near the planes.
+        let (from_near, to_far) =
+            ((depth - at_near) / (at_far - at_near), (at_far - depth) / (at_far - at_near));
+        let distance = match self.shape {
+            CurveShape::Central => self.near / (to_far + from_near * (self.near / self.far)),
+            CurveShape::Parallel => self.near * to_far + self.far * from_near,
+        };
+        distance.is_finite().then_some(distance)
+    }
+
+    /// The change of depth per change of distance, d depth/dD; `None` at the eye's own plane.
+    #[must_use]
+    pub fn slope(self, distance: f64) -> Option<f64> {
+        let (a, b) = self.coefficients();
+        let slope = match self.shape {
+            CurveShape::Central => -b / distance / distance,
+            CurveShape::Parallel => a,
+        };
+        (slope.is_finite() && distance.is_finite()).then_some(slope)
+    }
+
+    /// The distance at which half of the depth range is used up: 2FN/(F+N) for a perspective, 2N
+    /// without far plane.
+    #[must_use]
+    pub fn half_range_distance(self) -> f64 {
+        let (near, far) = (self.near, self.far);
+        match self.shape {
+            CurveShape::Central => 2.0 * near / (1.0 + near / far),
+            CurveShape::Parallel => 0.5 * near + 0.5 * far,
+        }
+    }
+
+    /// The smallest step away from `distance`, towards the far plane, that gives another stored
+    /// depth.
+    ///
+    /// # Errors
+    /// If the distance is not finite or, for a perspective, not above 0; or the format has not 1 to
+    /// 64 bits.
+    pub fn resolution(self, distance: f64, format: DepthFormat) -> Result<f64, ProjectionError> {
+        match self.shape {
+            CurveShape::Central => check_positive("distance", distance)?,
+            CurveShape::Parallel => check_finite("distance", distance)?,
+        };
+        let lost = ProjectionError::Unrepresentable { what: "depth at this distance" };
+        let step = match format {
+            DepthFormat::FixedPoint(bits) => self.fixed_step(distance, bits)?,
+            DepthFormat::Float32 => self.float_step(distance).ok_or(lost)?,
+        };
+        step.is_finite().then_some(step).ok_or(lost)
+    }
+
+    /// One part of the range in 2^bits − 1, divided by the slope.
+    fn fixed_step(self, distance: f64, bits: u32) -> Result<f64, ProjectionError> {
+        if !(1..=64).contains(&bits) {
+            let allowed = "1 to 64";
+            return Err(ProjectionError::OutOfRange {
+                parameter: "bits",
+                value: f64::from(bits),
+                allowed,
+            });
+        }
+        let parts = libm::ldexp(1.0, bits.cast_signed()) - 1.0;
+        let range = (self.convention.far_depth() - self.convention.near_depth()).abs();
+        let slope = self.slope(distance).unwrap_or(0.0).abs();
+        Ok(range / parts / slope)
+    }
+
+    /// The distance between the stored depth, rounded to f32, and its neighbour towards far.
+    #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is the subject")]
+    fn float_step(self, distance: f64) -> Option<f64> {
+        let here = self.depth(distance)? as f32;
+        let towards =
+            if self.convention.far_depth() > self.convention.near_depth() { 1.0 } else { -1.0 };
+        let next = if towards > 0.0 { here.next_up() } else { here.next_down() };
+        let gap = f64::from(next) - f64::from(here);
+        match self.shape {
+            CurveShape::Central => {
+                let ends = self.distance(f64::from(here))? * self.distance(f64::from(next))?;
+                Some((gap / self.coefficients().1).abs() * ends.abs())
+            }
+            CurveShape::Parallel => Some((gap / self.coefficients().0).abs()),
+        }
+    }
+
+    /// (distance, depth) for each of the distances: the lesson's table (LW-3, C68).
+    pub fn table(
+        self,
+        distances: impl IntoIterator<Item = f64>,
+    ) -> impl Iterator<Item = (f64, Option<f64>)> {
+        distances.into_iter().map(move |distance| (distance, self.depth(distance)))
+    }
+}
+
+impl Perspective {
+    /// How this projection turns distance into depth.
+    #[must_use]
+    pub fn depth_curve(self, convention: Convention) -> DepthCurve {
+        DepthCurve { near: self.near(), far: self.far(), convention, shape: CurveShape::Central }
+    }
+}
+
+impl Frustum {
+    /// How this projection turns distance into depth.
+    #[must_use]
+    pub fn depth_curve(self, convention: Convention) -> DepthCurve {
+        DepthCurve { near: self.near(), far: self.far(), convention, shape: CurveShape::Central }
+    }
+}
+
+impl Orthographic {
+    /// How this projection turns distance into depth.
+    #[must_use]
+    pub fn depth_curve(self, convention: Convention) -> DepthCurve {
+        DepthCurve { near: self.near(), far: self.far(), convention, shape: CurveShape::Parallel }
+    }
+}
+
+/// A and B of the third row (0, 0, A, B) over w = z, such that A + B/z is `at_1` for z = `z_1` and
+/// `at_2` for z = `z_2`.
+///
+/// This is how the third row of P is found (exercise 3, C40): with z kept on n and f, A = n + f and
+/// B = −nf. With −1 at z = −N and +1 at z = −F it gives the OpenGL row (C56), its sign turned.
+///
+/// # Errors
+/// If a number is not finite, a z is 0, or both z are equal.
+pub fn third_row(
+    (z_1, at_1): (f64, f64),
+    (z_2, at_2): (f64, f64),
+) -> Result<(f64, f64), ProjectionError> {
+    for (parameter, value) in [("z_1", z_1), ("z_2", z_2)] {
+        if check_finite(parameter, value)? == 0.0 {
+            return Err(ProjectionError::OutOfRange { parameter, value, allowed: "not 0" });
+        }
+    }
+    check_finite("at_1", at_1)?;
+    check_finite("at_2", at_2)?;
+    if z_1 == z_2 {
+        return Err(ProjectionError::EmptyDepth { value: z_1 });
+    }
+    let a = (z_1 * at_1 - z_2 * at_2) / (z_1 - z_2);
+    let b = (at_1 - at_2) * z_1 * z_2 / (z_2 - z_1);
+    let usable = a.is_finite() && b.is_finite();
+    usable.then_some((a, b)).ok_or(ProjectionError::Unrepresentable { what: "depth range" })
+}

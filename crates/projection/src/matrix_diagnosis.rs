@@ -1,0 +1,389 @@
+//! The matrix doctor: which misprint is this, and what should have been there.
+//!
+//! Books, lessons and slides that teach these matrices print some of them wrongly, and programs
+//! copy them. Two questions can be answered: [`misprint_of`] compares a matrix with all known slips
+//! of the projection that was wanted, and is certain; [`symptoms`] looks at sixteen numbers alone
+//! and tells what is suspicious about them.
+
+use crate::placement::{is_negligible, is_perpendicular, unit_vector};
+use crate::{
+    ApexMovedFrustum, Convention, Decomposed, Frustum, Orthographic, Perspective, decompose,
+};
+use glam::{DMat4, DVec4};
+
+/// A known slip: its number among M1 to M28, and in brackets its row in the formula collection's
+/// table of misprints.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Misprint {
+    /// M4 (7): P is left out of M_vp M_orth P M_cam; w stays 1 and nothing is foreshortened.
+    PerspectiveLeftOut,
+    /// M8 (16): the textbook's depth (near +1) where OpenGL's (near −1) is meant, or the other way
+    /// round.
+    DepthReversed,
+    /// M8, PE-3: the textbook's raw sign, w < 0 in front of the eye.
+    NegativeW,
+    /// M11 (18): the third row of M_cam's translation is (0, 0, 0, −z_e); every z becomes the same.
+    ThirdRowFlat,
+    /// M12 (32): the offsets stand in the fourth column: another projection, its apex moved (LW-1),
+    /// not glFrustum.
+    ApexMoved,
+    /// M14 (26): the bottom row is (0, 0, −1, 1) instead of (0, 0, −1, 0).
+    BottomRowOne,
+    /// M15 (33): the depth offset of Ortho has the wrong sign; near and far land outside of [−1,
+    /// 1].
+    OrthoOffsetSign,
+    /// M16 (34): (right − left)/(right − left) = 1 instead of (right + left)/(right − left).
+    FrustumOffsetOne,
+    /// M17 (35): tan(fovy)/2 instead of tan(fovy/2).
+    HalfOfTangent,
+    /// M19 (43): degrees where radians are due.
+    Degrees,
+    /// (24): the matrix is for row vectors; here they are columns.
+    Transposed,
+}
+
+/// The projection that was wanted, in OpenGL's convention.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum IntendedProjection {
+    /// glFrustum.
+    Frustum(Frustum),
+    /// gluPerspective.
+    Perspective(Perspective),
+    /// glOrtho.
+    Orthographic(Orthographic),
+}
+
+impl Misprint {
+    /// All of them.
+    pub const ALL: [Self; 11] = [
+        Self::PerspectiveLeftOut,
+        Self::DepthReversed,
+        Self::NegativeW,
+        Self::ThirdRowFlat,
+        Self::ApexMoved,
+        Self::BottomRowOne,
+        Self::OrthoOffsetSign,
+        Self::FrustumOffsetOne,
+        Self::HalfOfTangent,
+        Self::Degrees,
+        Self::Transposed,
+    ];
+
+    /// Its number among the misprints M1 to M28; `None` for what has none.
+    #[must_use]
+    pub const fn id(self) -> Option<&'static str> {
+        match self {
+            Self::PerspectiveLeftOut => Some("M4"),
+            Self::DepthReversed | Self::NegativeW => Some("M8"),
+            Self::ThirdRowFlat => Some("M11"),
+            Self::ApexMoved => Some("M12"),
+            Self::BottomRowOne => Some("M14"),
+            Self::OrthoOffsetSign => Some("M15"),
+            Self::FrustumOffsetOne => Some("M16"),
+            Self::HalfOfTangent => Some("M17"),
+            Self::Degrees => Some("M19"),
+            Self::Transposed => None,
+        }
+    }
+
+    /// What is wrong, in one sentence.
+    #[must_use]
+    pub const fn description(self) -> &'static str {
+        match self {
+            Self::PerspectiveLeftOut => {
+                "P is missing: w stays 1, so that dividing by it foreshortens nothing"
+            }
+            Self::DepthReversed => {
+                "x and y are right, but near and far have changed places in depth"
+            }
+            Self::NegativeW => "w is negative in front of the eye",
+            Self::ThirdRowFlat => {
+                "the third row ignores z: every point gets the same depth, and there is no inverse"
+            }
+            Self::ApexMoved => {
+                "the offsets stand in the last column: the apex moves behind the window's centre"
+            }
+            Self::BottomRowOne => {
+                "the bottom row is (0, 0, −1, 1), so that w is the distance plus 1"
+            }
+            Self::OrthoOffsetSign => {
+                "the depth offset has the wrong sign: the box seems to lie behind the eye"
+            }
+            Self::FrustumOffsetOne => "the x offset is 1, right only for a window that begins at 0",
+            Self::HalfOfTangent => "the tangent was halved instead of the angle",
+            Self::Degrees => "the angle was read as radians but is in degrees",
+            Self::Transposed => "rows and columns are exchanged: this matrix is for row vectors",
+        }
+    }
+
+    /// What to do, in one sentence.
+    #[must_use]
+    pub const fn remedy(self) -> &'static str {
+        match self {
+            Self::PerspectiveLeftOut => "use M_per = M_orth P in place of M_orth",
+            Self::DepthReversed => {
+                "multiply by diag(1, 1, −1, 1) on the left, or name the convention meant"
+            }
+            Self::NegativeW => {
+                "multiply the matrix by −1 before clipping; as a map it stays the same"
+            }
+            Self::ThirdRowFlat => "the translation's third row is (0, 0, 1, −z)",
+            Self::ApexMoved => {
+                "for an eye at the origin put (right+left)/(right−left) into the third column; \
+                keep the matrix if the apex is meant to move"
+            }
+            Self::BottomRowOne => "set the last entry to 0",
+            Self::OrthoOffsetSign => "the third row ends with −(far+near)/(far−near)",
+            Self::FrustumOffsetOne => "the first row's third entry is (right+left)/(right−left)",
+            Self::HalfOfTangent => "the entries are 1/(aspect tan(fovy/2)) and 1/tan(fovy/2)",
+            Self::Degrees => "convert first: radians = degrees π/180",
+            Self::Transposed => "transpose the matrix",
+        }
+    }
+
+    /// The wanted matrix with this slip in it; `None` where the slip does not apply.
+    #[must_use]
+    pub fn misprinted_matrix(self, wanted: IntendedProjection) -> Option<DMat4> {
+        let right = wanted.correct_matrix();
+        match (self, wanted) {
+            (Self::Transposed, _) => Some(right.transpose()),
+            (Self::DepthReversed, _) => {
+                Some(DMat4::from_diagonal(DVec4::new(1.0, 1.0, -1.0, 1.0)) * right)
+            }
+            (Self::OrthoOffsetSign, IntendedProjection::Orthographic(_)) => {
+                Some(with_entry(right, 2, 3, -right.w_axis.z))
+            }
+            (_, IntendedProjection::Orthographic(_)) => None,
+            (Self::HalfOfTangent, IntendedProjection::Perspective(lens)) => {
+                with_half_tangent(lens, right)
+            }
+            (Self::Degrees, IntendedProjection::Perspective(lens)) => {
+                with_degrees_as_radians(lens, right)
+            }
+            (Self::NegativeW, _) => Some(-right),
+            (Self::BottomRowOne, _) => Some(with_entry(right, 3, 3, 1.0)),
+            (Self::PerspectiveLeftOut, _) => without_p(wanted.frustum()?),
+            (Self::ApexMoved, _) => apex_moved(wanted.frustum()?),
+            (Self::FrustumOffsetOne, IntendedProjection::Frustum(_)) => {
+                Some(with_entry(right, 0, 2, 1.0))
+            }
+            (
+                Self::ThirdRowFlat
+                | Self::FrustumOffsetOne
+                | Self::HalfOfTangent
+                | Self::Degrees
+                | Self::OrthoOffsetSign,
+                _,
+            ) => None,
+        }
+    }
+}
+
+impl IntendedProjection {
+    /// The right matrix, in OpenGL's convention.
+    #[must_use]
+    pub fn correct_matrix(self) -> DMat4 {
+        let c = Convention::OPENGL;
+        match self {
+            Self::Frustum(frustum) => frustum.view_to_clip(c).raw(),
+            Self::Perspective(lens) => lens.view_to_clip(c).raw(),
+            Self::Orthographic(volume) => volume.view_to_clip(c).raw(),
+        }
+    }
+
+    fn frustum(self) -> Option<Frustum> {
+        match self {
+            Self::Frustum(frustum) => Some(frustum),
+            Self::Perspective(lens) => Some(lens.to_frustum()),
+            Self::Orthographic(_) => None,
+        }
+    }
+}
+
+fn with_entry(matrix: DMat4, row: usize, column: usize, value: f64) -> DMat4 {
+    let mut changed = matrix;
+    changed.col_mut(column)[row] = value;
+    changed
+}
+
+fn with_scale(matrix: DMat4, scale_x: f64, scale_y: f64) -> DMat4 {
+    with_entry(with_entry(matrix, 0, 0, scale_x), 1, 1, scale_y)
+}
+
+fn with_half_tangent(lens: Perspective, right: DMat4) -> Option<DMat4> {
+    let half = libm::tan(lens.fov_y()) / 2.0;
+    let printed = with_scale(right, 1.0 / (half * lens.aspect()), 1.0 / half);
+    printed.is_finite().then_some(printed)
+}
+
+fn with_degrees_as_radians(lens: Perspective, right: DMat4) -> Option<DMat4> {
+    let half = libm::tan(0.5 * lens.fov_y().to_degrees());
+    let printed = with_scale(right, 1.0 / (half * lens.aspect()), 1.0 / half);
+    printed.is_finite().then_some(printed)
+}
+
+fn without_p(frustum: Frustum) -> Option<DMat4> {
+    let volume = Orthographic::from_window(frustum.window(), frustum.near(), frustum.far()).ok()?;
+    Some(volume.view_to_clip(Convention::OPENGL).raw())
+}
+
+fn apex_moved(frustum: Frustum) -> Option<DMat4> {
+    let (w, near, far) = (frustum.window(), frustum.near(), frustum.far());
+    let lesson = ApexMovedFrustum::new(w.left(), w.right(), w.bottom(), w.top(), near, far).ok()?;
+    Some(lesson.view_to_clip(Convention::OPENGL).raw())
+}
+
+/// The slip that turns what was wanted into `matrix`; `None` if the matrix is right, up to a
+/// positive factor, or wrong in a way nobody printed. Entries may differ by one part in a million,
+/// as those of f32 programs do.
+///
+/// ```
+/// use projection::{Misprint, Orthographic, Wanted, misprint_of};
+/// let wanted = Wanted::Orthographic(Orthographic::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0)?);
+/// let mut slide = wanted.matrix();
+/// slide.w_axis.z = 2.0; // + (far + near)/(far − near)
+/// assert_eq!(misprint_of(slide, wanted), Some(Misprint::OrthoOffsetSign));
+/// # Ok::<(), projection::ProjectionError>(())
+/// ```
+#[must_use]
+pub fn misprint_of(matrix: DMat4, wanted: IntendedProjection) -> Option<Misprint> {
+    if nearly_equal(matrix, wanted.correct_matrix()) {
+        return None;
+    }
+    Misprint::ALL.into_iter().find(|misprint| {
+        misprint.misprinted_matrix(wanted).is_some_and(|printed| nearly_equal(matrix, printed))
+    })
+}
+
+/// Equal up to a positive factor and one part in a million.
+fn nearly_equal(ours: DMat4, theirs: DMat4) -> bool {
+    let size =
+        |m: DMat4| m.to_cols_array().iter().fold(0.0, |size: f64, entry| size.max(entry.abs()));
+    let (a, b) = (ours * (1.0 / size(ours)), theirs * (1.0 / size(theirs)));
+    a.is_finite() && (a - b).to_cols_array().iter().all(|gap| gap.abs() < 1e-6)
+}
+
+/// Something suspicious about a matrix of which nothing else is known.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Symptom {
+    /// The slip it looks like.
+    pub misprint: Misprint,
+    /// The matrix that was probably meant; `None` where the numbers that are missing cannot be had
+    /// back.
+    pub remedied: Option<DMat4>,
+}
+
+/// What is suspicious about the matrix, in OpenGL's convention unless it can be told otherwise.
+///
+/// A symptom is no proof: every such matrix is also the right matrix of something less likely.
+/// Nothing is found in what the builders of this crate make for usual volumes.
+pub fn symptoms(matrix: DMat4) -> impl Iterator<Item = Symptom> {
+    let tests: [fn(DMat4) -> Option<Symptom>; 8] = [
+        detect_transposed,
+        detect_negative_w,
+        detect_flat_third_row,
+        detect_moved_apex,
+        detect_bottom_row_one,
+        detect_ortho_offset_sign,
+        detect_frustum_offset_one,
+        detect_degrees,
+    ];
+    let finite = matrix.is_finite();
+    tests.into_iter().filter_map(move |test| if finite { test(matrix) } else { None })
+}
+
+fn verify_remedy(misprint: Misprint, remedied: DMat4) -> Option<Symptom> {
+    Some(Symptom { misprint, remedied: Some(remedied) })
+}
+
+fn decompose_any(matrix: DMat4) -> Option<Decomposed> {
+    decompose(matrix, Convention::OPENGL).ok().map(|found| found.kind)
+}
+
+/// The last column instead of the last row is (0, 0, ±1, 0) or, beside a translation, (0, 0, 0, 1).
+fn detect_transposed(matrix: DMat4) -> Option<Symptom> {
+    let (row, column) = (matrix.row(3), matrix.w_axis);
+    let central = column.abs() == DVec4::Z
+        && row.truncate() != glam::DVec3::ZERO
+        && row.x == 0.0
+        && row.y == 0.0;
+    let affine = column == DVec4::W && row.truncate() != glam::DVec3::ZERO && row.w == 1.0;
+    let turned = decompose(matrix.transpose(), Convention::OPENGL).is_ok()
+        || decompose(matrix.transpose(), Convention::DIRECT3D).is_ok();
+    if (central || affine) && turned {
+        verify_remedy(Misprint::Transposed, matrix.transpose())
+    } else {
+        None
+    }
+}
+
+/// w = z with the scales of x and y negative: M_per as printed.
+fn detect_negative_w(matrix: DMat4) -> Option<Symptom> {
+    let raw = matrix.row(3) == DVec4::Z && matrix.x_axis.x < 0.0 && matrix.y_axis.y < 0.0;
+    if raw { verify_remedy(Misprint::NegativeW, -matrix) } else { None }
+}
+
+/// A rigid motion whose z is lost.
+fn detect_flat_third_row(matrix: DMat4) -> Option<Symptom> {
+    let (x, y, z) = (matrix.x_axis.truncate(), matrix.y_axis.truncate(), matrix.z_axis);
+    let rigid = unit_vector(x)?.distance(x) < 1e-6
+        && unit_vector(y)?.distance(y) < 1e-6
+        && is_perpendicular(x, y);
+    if matrix.row(3) != DVec4::W || z != DVec4::ZERO || !rigid || matrix.w_axis.z == 0.0 {
+        return None;
+    }
+    let mut remedied = matrix;
+    remedied.z_axis = x.cross(y).extend(0.0);
+    verify_remedy(Misprint::ThirdRowFlat, remedied)
+}
+
+fn detect_moved_apex(matrix: DMat4) -> Option<Symptom> {
+    let Decomposed::ApexMoved(lesson) = decompose_any(matrix)? else { return None };
+    let through = Frustum::from_window(lesson.window(), lesson.near(), lesson.far()).ok()?;
+    verify_remedy(Misprint::ApexMoved, through.view_to_clip(Convention::OPENGL).raw())
+}
+
+/// (0, 0, −1, 1) below a depth row with an offset.
+fn detect_bottom_row_one(matrix: DMat4) -> Option<Symptom> {
+    let printed = matrix.row(3) == DVec4::new(0.0, 0.0, -1.0, 1.0) && matrix.w_axis.z != 0.0;
+    let remedied = with_entry(matrix, 3, 3, 0.0);
+    if printed && matches!(decompose_any(remedied)?, Decomposed::Frustum(_)) {
+        return verify_remedy(Misprint::BottomRowOne, remedied);
+    }
+    None
+}
+
+/// A box that lies behind the eye as a whole.
+fn detect_ortho_offset_sign(matrix: DMat4) -> Option<Symptom> {
+    let Decomposed::Orthographic(volume) = decompose_any(matrix)? else { return None };
+    let behind = volume.near() < volume.far() && volume.far() < 0.0;
+    if behind {
+        verify_remedy(Misprint::OrthoOffsetSign, with_entry(matrix, 2, 3, -matrix.w_axis.z))
+    } else {
+        None
+    }
+}
+
+/// A window that begins exactly at 0, but is not as far below as above in the same way.
+fn detect_frustum_offset_one(matrix: DMat4) -> Option<Symptom> {
+    let Decomposed::Frustum(_) = decompose_any(matrix)? else { return None };
+    let one = matrix.z_axis.x == 1.0 && matrix.z_axis.y != 1.0;
+    one.then_some(Symptom { misprint: Misprint::FrustumOffsetOne, remedied: None })
+}
+
+/// A scale that a whole number of degrees gives when taken for radians.
+fn detect_degrees(matrix: DMat4) -> Option<Symptom> {
+    let (x, y) = (matrix.x_axis.x, matrix.y_axis.y);
+    let central = matrix.row(3) == DVec4::new(0.0, 0.0, -1.0, 0.0);
+    if !central
+        || !is_negligible(glam::DVec3::new(matrix.z_axis.x, matrix.z_axis.y, 0.0), DVec4::ONE)
+    {
+        return None;
+    }
+    let degrees = (2..=34_u32).map(|fives| f64::from(fives * 5)).find(|degrees| {
+        let half = libm::tan(0.5 * degrees);
+        (y * half - 1.0).abs() < 1e-6
+    })?;
+    let scale = 1.0 / libm::tan(0.5 * degrees.to_radians());
+    verify_remedy(Misprint::Degrees, with_scale(matrix, scale * (x / y), scale))
+}

@@ -1,0 +1,125 @@
+//! Vertices on the screen, snapped to the grid on which coverage is exact.
+//!
+//! Coverage is decided by integers: a vertex is moved to the nearest multiple of 1/256 pixel once, and from there on
+//! every edge function is exact. Vertices that triangles share are snapped alike, so no gap can open between them.
+
+use core::num::NonZeroU32;
+use homog::{Point, Screen};
+
+/// The bits of a coordinate behind the binary point: the grid is 1/256 pixel.
+pub const SUBPIXEL_BITS: u32 = 8;
+/// Grid steps per pixel.
+pub const SUBPIXELS: i32 = 1 << SUBPIXEL_BITS;
+/// The least and the greatest coordinate, in pixels, that a vertex may have: beyond it the caller clips.
+///
+/// It leaves a guard band of 8192 pixels around a picture of [`MAX_SIDE`](crate::MAX_SIDE) (CL-4). No triangle is then wider
+/// or higher than 32768 pixels, and its edge functions step by less than 2³⁰ across a tile.
+pub const GUARD_BAND: core::ops::RangeInclusive<f64> = -8192.0..=24576.0;
+
+/// [`GUARD_BAND`] in grid steps.
+pub(crate) const GRID_RANGE: core::ops::RangeInclusive<i32> = -8192 * SUBPIXELS..=24576 * SUBPIXELS;
+
+/// The greatest size of a depth. With it no step in the evaluation of a depth plane overflows.
+const MAX_DEPTH: f32 = 1_048_576.0;
+
+/// A vertex after the viewport: x to the right and y down in 1/256 pixel, depth, and 1/w. Always one that can be drawn.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ScreenVertex {
+    pub(crate) x: i32,
+    pub(crate) y: i32,
+    pub(crate) depth: f32,
+    /// The bits of 1/w: it is positive, so they are not all 0, and `None` needs no room of its own.
+    inv_w: NonZeroU32,
+}
+
+impl ScreenVertex {
+    /// A vertex on the grid; `None` if it cannot be drawn: it lies outside of [`GUARD_BAND`], its depth is beyond ±2²⁰, or
+    /// 1/w is not positive and finite.
+    #[inline]
+    #[must_use]
+    pub fn new(x: i32, y: i32, depth: f32, inv_w: f32) -> Option<Self> {
+        let on_grid = GRID_RANGE.contains(&x) & GRID_RANGE.contains(&y);
+        Self::new_if_drawable(on_grid, x, y, depth, inv_w)
+    }
+
+    /// A vertex, if it is `on_grid` and otherwise drawable. Without a branch, so that many are made at once.
+    #[inline(always)]
+    pub(crate) fn new_if_drawable(
+        on_grid: bool,
+        x: i32,
+        y: i32,
+        depth: f32,
+        inv_w: f32,
+    ) -> Option<Self> {
+        let is_drawable =
+            on_grid & (depth.abs() <= MAX_DEPTH) & (inv_w > 0.0) & (inv_w < f32::INFINITY);
+        let bits = if is_drawable { inv_w.to_bits() } else { 0 };
+        NonZeroU32::new(bits).map(|inv_w| Self { x, y, depth, inv_w })
+    }
+
+    /// Snaps a point of the screen (pixels, y down; z is the depth) with the clip-space w it was divided by.
+    ///
+    /// `None` if the point cannot be drawn: a coordinate is not finite, lies outside of [`GUARD_BAND`], the depth is beyond
+    /// ±2²⁰, or w is not positive. Geometry that was clipped to the view volume and a guard band always can.
+    #[must_use]
+    pub fn snap(point: Point<Screen>, w: f64) -> Option<Self> {
+        let (x, y) = (snap_coordinate(point.x())?, snap_coordinate(point.y())?);
+        Self::new(x, y, point.z() as f32, (1.0 / w) as f32)
+    }
+
+    /// Grid steps from the left border of the picture.
+    #[must_use]
+    pub const fn x(&self) -> i32 {
+        self.x
+    }
+
+    /// Grid steps from the top border of the picture.
+    #[must_use]
+    pub const fn y(&self) -> i32 {
+        self.y
+    }
+
+    /// The depth: 1 at the near plane, 0 at the far plane; larger is nearer.
+    #[must_use]
+    pub const fn depth(&self) -> f32 {
+        self.depth
+    }
+
+    /// One over the clip-space w: makes weights perspective-correct (IN-2). Always 1 in parallel projections.
+    #[inline(always)]
+    #[must_use]
+    pub const fn inv_w(&self) -> f32 {
+        f32::from_bits(self.inv_w.get())
+    }
+}
+
+/// The nearest grid step; halves go up, so that moving a picture by whole pixels moves its grid with it.
+fn snap_coordinate(pixels: f64) -> Option<i32> {
+    let step = || (pixels * f64::from(SUBPIXELS) + 0.5).floor() as i32;
+    GUARD_BAND.contains(&pixels).then(step)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn snapping_rounds_to_the_nearest_grid_step_and_moves_with_whole_pixels() {
+        let x_of = |x| ScreenVertex::snap(Point::new(x, 0.0, 0.5), 2.0).map(|v| v.x);
+        assert_eq!(x_of(1.0), Some(256));
+        assert_eq!(x_of(1.0 + 0.5 / 256.0), Some(257));
+        assert_eq!(x_of(-1.0 + 0.5 / 256.0), Some(-255), "halves go up on both sides of 0");
+        assert_eq!(x_of(-1.0 - 0.4 / 256.0), Some(-256));
+    }
+
+    #[test]
+    fn what_cannot_be_drawn_is_no_vertex() {
+        for x in [f64::NAN, f64::INFINITY, -8192.1, 24576.1] {
+            assert_eq!(ScreenVertex::snap(Point::new(x, 0.0, 0.0), 1.0), None, "x = {x}");
+            assert_eq!(ScreenVertex::snap(Point::new(0.0, x, 0.0), 1.0), None, "y = {x}");
+        }
+        assert_eq!(ScreenVertex::snap(Point::new(0.0, 0.0, f64::NAN), 1.0), None);
+        assert_eq!(ScreenVertex::snap(Point::new(0.0, 0.0, 0.0), 0.0), None);
+        assert_eq!(ScreenVertex::snap(Point::new(0.0, 0.0, 0.0), f64::NAN), None);
+    }
+}

@@ -1,0 +1,120 @@
+//! The nearest surface of each pixel as a plane: what shadow maps and ambient occlusion read.
+
+use crate::sample_plane::pixel_index;
+use crate::tile_loop::FilledTile;
+use crate::triangle_setup::clamped_depth_slopes;
+use crate::{Frame, Surface};
+
+/// How near the nearest surface is at a pixel's centre, and how that changes from pixel to pixel.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct SurfaceDepth {
+    /// Depth: 1 at the near plane, 0 at the far plane; −∞ where nothing is seen.
+    pub depth: f32,
+    /// What depth grows by from pixel to pixel to the right, on the surface's plane. It is cut off at the difference between the
+    /// nearest and the farthest corner: beside a triangle smaller than a pixel its plane means nothing.
+    pub dx: f32,
+    /// The same from pixel to pixel downwards.
+    pub dy: f32,
+}
+
+impl SurfaceDepth {
+    /// No surface.
+    pub const EMPTY: Self = Self { depth: f32::NEG_INFINITY, dx: 0.0, dy: 0.0 };
+}
+
+impl Frame {
+    /// Finds the nearest surface at the first sample of each pixel, with its depth at the pixel's centre, rows from the top: `width` ×
+    /// `height` of them. Masked primitives count where `surface` keeps them, translucent ones not at all. Uses up to `threads`
+    /// threads, whose number does not matter.
+    pub fn surface_depths<S: Surface>(
+        &self,
+        surface: &S,
+        threads: usize,
+        target: &mut [SurfaceDepth],
+    ) {
+        let first = self.samples.sample_offset(0);
+        let to_center = [first.0, first.1].map(|at| 0.5 - at as f32 / 256.0);
+        let begin = |band: &mut [SurfaceDepth]| band.fill(SurfaceDepth::EMPTY);
+        self.for_each_tile(
+            surface,
+            threads,
+            target,
+            begin,
+            |FilledTile { tile, rect, band, .. }| {
+                // Neighbours are most often of one piece.
+                let (mut last, mut slope) = (None, [0.0; 2]);
+                for (y, x) in (rect.top..rect.bottom)
+                    .flat_map(|y| (rect.left..rect.right).map(move |x| (y, x)))
+                {
+                    let at = pixel_index(x as usize, y as usize);
+                    let number = tile.triangle(0, at);
+                    let Some(piece) = self.triangles.get(number) else { continue };
+                    if last != Some(number) {
+                        (last, slope) = (Some(number), clamped_depth_slopes(piece));
+                    }
+                    let place = (y - rect.top) as usize * self.region.width as usize
+                        + (rect.x + x - self.region.x) as usize;
+                    if let Some(nearest) = band.get_mut(place) {
+                        let [dx, dy] = slope;
+                        let depth =
+                            tile.sample_depth(0, at) + dx * to_center[0] + dy * to_center[1];
+                        *nearest = SurfaceDepth { depth, dx, dy };
+                    }
+                }
+            },
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Fragment, Opacity, Samples, ScreenVertex};
+    use homog::Point;
+
+    /// Keeps the left half.
+    struct Left;
+
+    impl Surface for Left {
+        fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
+            fragment.x < 50
+        }
+        fn shade(&self, _: &Fragment<'_>) -> [f32; 4] {
+            [0.0; 4]
+        }
+    }
+
+    fn sloped(cover: Opacity) -> Frame {
+        let mut frame = Frame::new(100, 70, Samples::One).expect("a frame");
+        // Depth 0.1 + x / 200 + y / 400 over all of it.
+        let corner = |x: f64, y: f64| {
+            let depth = 0.1 + x / 200.0 + y / 400.0;
+            ScreenVertex::snap(Point::new(x, y, depth), 1.0).expect("a corner")
+        };
+        frame.add_triangle([corner(0.0, 0.0), corner(0.0, 200.0), corner(200.0, 0.0)], 3, cover);
+        frame
+    }
+
+    #[test]
+    fn planes_are_those_of_the_triangles_for_any_number_of_threads() {
+        let mut target = vec![SurfaceDepth::EMPTY; 7000];
+        let mut other = target.clone();
+        sloped(Opacity::Opaque).surface_depths(&Left, 1, &mut target);
+        sloped(Opacity::Opaque).surface_depths(&Left, 3, &mut other);
+        assert!(target == other);
+        for (at, nearest) in target.iter().enumerate() {
+            let (x, y) = ((at % 100) as f32 + 0.5, (at / 100) as f32 + 0.5);
+            assert!((nearest.depth - (0.1 + x / 200.0 + y / 400.0)).abs() < 1e-6);
+            assert!((nearest.dx - 0.005).abs() < 1e-7 && (nearest.dy - 0.0025).abs() < 1e-7);
+        }
+    }
+
+    #[test]
+    fn holes_and_glass_are_not_seen() {
+        let mut target = vec![SurfaceDepth::EMPTY; 7000];
+        sloped(Opacity::Masked).surface_depths(&Left, 1, &mut target);
+        assert!((0..7000).all(|at| (target[at].depth > 0.0) == (at % 100 < 50)));
+        sloped(Opacity::Translucent).surface_depths(&Left, 1, &mut target);
+        assert!(target.iter().all(|nearest| *nearest == SurfaceDepth::EMPTY));
+    }
+}

@@ -1,0 +1,281 @@
+//! Eight small triangles prepared for a tile at once.
+//!
+//! In fine meshes most of the work on a triangle is its set-up. Triangles near the tile fit 32-bit arithmetic throughout, and
+//! eight of them are prepared by the same instructions. The numbers are those of [`Setup`](crate::setup::Setup), bit for
+//! bit: edges are exact in both, and depth goes through the same steps. All is plain loops over the eight, which
+//! become vector instructions in the function that they are made part of.
+
+use crate::primitive::ScreenTriangle;
+use crate::screen_vertex::{SUBPIXEL_BITS, SUBPIXELS};
+use crate::tile_grid::TileRect;
+use crate::triangle_setup::{SampleStart, TriangleFunctions};
+
+/// Triangles prepared at once.
+pub(crate) const BATCH_SIZE: usize = 8;
+/// The least and the greatest coordinate, in grid steps from the tile's corner, of a triangle that counts as small. A side is then
+/// shorter than 2¹⁵ steps, and products of sides and coordinates fit 32 bits.
+const SMALL_RANGE: (i32, i32) = (-32 * SUBPIXELS, 95 * SUBPIXELS);
+
+type Ints = [i32; BATCH_SIZE];
+type Floats = [f32; BATCH_SIZE];
+type Doubles = [f64; BATCH_SIZE];
+
+/// Eight triangles as one tile sees them: for each function and corner the eight values.
+pub(crate) struct TriangleBatch {
+    /// The corners, in grid steps from the tile's corner.
+    x: [Ints; 3],
+    y: [Ints; 3],
+    first_depth: Floats,
+    is_small: [bool; BATCH_SIZE],
+    /// See [`Functions`].
+    a: [Ints; 3],
+    b: [Ints; 3],
+    bounds: [Ints; 4],
+    depth_gradient: [Doubles; 2],
+    /// The same per pixel.
+    depth_step: [Floats; 2],
+    min_depth: Floats,
+    max_depth: Floats,
+}
+
+/// Where the functions of eight triangles start in one plane of samples: see [`Start`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BatchStarts {
+    edges: [Ints; 3],
+    depth: Floats,
+}
+
+impl BatchStarts {
+    pub(crate) const ZERO: Self = Self { edges: [[0; BATCH_SIZE]; 3], depth: [0.0; BATCH_SIZE] };
+
+    #[inline(always)]
+    pub(crate) fn lane_start(&self, lane: usize) -> SampleStart {
+        let [p, q, r] = &self.edges;
+        SampleStart { edges: [p[lane], q[lane], r[lane]], z: self.depth[lane] }
+    }
+}
+
+impl TriangleBatch {
+    /// Prepares eight triangles; `reach` is the least and the greatest offset of a sample from its pixel's borders.
+    #[inline(always)]
+    pub(crate) fn new(
+        pieces: [&ScreenTriangle; BATCH_SIZE],
+        tile: TileRect,
+        reach: (i32, i32),
+    ) -> Self {
+        let (left, top) = (tile.x as i32 * SUBPIXELS, tile.y as i32 * SUBPIXELS);
+        let mut x = [[0; BATCH_SIZE]; 3];
+        let mut y = [[0; BATCH_SIZE]; 3];
+        let mut z = [[0.0; BATCH_SIZE]; 3];
+        for (lane, piece) in pieces.iter().enumerate() {
+            for (k, corner) in piece.corners.iter().enumerate() {
+                x[k][lane] = corner.x - left;
+                y[k][lane] = corner.y - top;
+                z[k][lane] = corner.depth;
+            }
+        }
+        let (min_x, max_x) = coordinate_extents(&x);
+        let (min_y, max_y) = coordinate_extents(&y);
+        let mut is_small = [false; BATCH_SIZE];
+        for (lane, small) in is_small.iter_mut().enumerate() {
+            let near = min_x[lane].min(min_y[lane]) >= SMALL_RANGE.0;
+            *small = near && max_x[lane].max(max_y[lane]) <= SMALL_RANGE.1;
+        }
+        let bounds = pixel_bounds([min_x, min_y, max_x, max_y], tile, reach);
+        let (a, b) = (edge_differences(&y, false), edge_differences(&x, true));
+        let depth_gradient = depth_gradients(&x, &y, &z);
+        let depth_step =
+            depth_gradient.map(|slope| slope.map(|slope| (slope * f64::from(SUBPIXELS)) as f32));
+        let (min_depth, max_depth) = depth_extents(&z);
+        Self {
+            x,
+            y,
+            first_depth: z[0],
+            is_small,
+            a,
+            b,
+            bounds,
+            depth_gradient,
+            depth_step,
+            min_depth,
+            max_depth,
+        }
+    }
+
+    /// Whether the triangle was prepared; if not, it is too large.
+    #[inline(always)]
+    pub(crate) const fn is_prepared(&self, lane: usize) -> bool {
+        self.is_small[lane]
+    }
+
+    /// Whether the triangle's bounds hold none of the tile's samples.
+    #[inline(always)]
+    pub(crate) const fn is_outside(&self, lane: usize) -> bool {
+        let [x0, y0, x1, y1] = &self.bounds;
+        x0[lane] >= x1[lane] || y0[lane] >= y1[lane]
+    }
+
+    #[inline(always)]
+    pub(crate) fn lane_functions(&self, lane: usize) -> TriangleFunctions {
+        let Self { a, b, bounds: [x0, y0, x1, y1], depth_step: [dx, dy], .. } = self;
+        TriangleFunctions {
+            a: [a[0][lane], a[1][lane], a[2][lane]],
+            b: [b[0][lane], b[1][lane], b[2][lane]],
+            x0: x0[lane],
+            y0: y0[lane],
+            x1: x1[lane],
+            y1: y1[lane],
+            dx: dx[lane],
+            dy: dy[lane],
+            min_depth: self.min_depth[lane],
+            max_depth: self.max_depth[lane],
+        }
+    }
+
+    /// Where the functions start for the samples at `offset` (grid steps) from the upper left corners of their pixels.
+    #[inline(always)]
+    pub(crate) fn sample_starts(&self, offset: (i64, i64)) -> BatchStarts {
+        let Self { x, y, a, b, bounds: [x0, y0, _, _], depth_gradient: [dx, dy], .. } = self;
+        let (right, down) = (offset.0 as i32, offset.1 as i32);
+        let mut starts = BatchStarts::ZERO;
+        for (k, e) in starts.edges.iter_mut().enumerate() {
+            for (lane, e) in e.iter_mut().enumerate() {
+                let (a, b) = (a[k][lane], b[k][lane]);
+                let along = a.wrapping_mul(right - x[k][lane]);
+                let value = along.wrapping_add(b.wrapping_mul(down - y[k][lane]));
+                let owns_border = (a > 0) | ((a == 0) & (b > 0));
+                *e = value.wrapping_sub(i32::from(!owns_border)) >> SUBPIXEL_BITS;
+            }
+        }
+        for (lane, z) in starts.depth.iter_mut().enumerate() {
+            let away_x = f64::from(right + x0[lane] * SUBPIXELS - x[0][lane]);
+            let away_y = f64::from(down + y0[lane] * SUBPIXELS - y[0][lane]);
+            *z = (f64::from(self.first_depth[lane]) + dx[lane] * away_x + dy[lane] * away_y) as f32;
+        }
+        starts
+    }
+}
+
+/// The least and the greatest coordinate of each triangle.
+#[inline(always)]
+fn coordinate_extents([p, q, r]: &[Ints; 3]) -> (Ints, Ints) {
+    let (mut low, mut high) = ([0; BATCH_SIZE], [0; BATCH_SIZE]);
+    for lane in 0..BATCH_SIZE {
+        low[lane] = p[lane].min(q[lane]).min(r[lane]);
+        high[lane] = p[lane].max(q[lane]).max(r[lane]);
+    }
+    (low, high)
+}
+
+/// The pixels that may have a sample within the bounds: see [`Setup::new`](crate::setup::Setup::new).
+#[inline(always)]
+fn pixel_bounds(extent: [Ints; 4], tile: TileRect, reach: (i32, i32)) -> [Ints; 4] {
+    let [mut x0, mut y0, mut x1, mut y1] = extent;
+    for low in [&mut x0, &mut y0] {
+        for low in low {
+            *low = ((*low - reach.1 + 255) >> SUBPIXEL_BITS).max(0);
+        }
+    }
+    for (high, end) in [(&mut x1, tile.right), (&mut y1, tile.bottom)] {
+        for high in high {
+            *high = (((*high - reach.0) >> SUBPIXEL_BITS) + 1).min(end as i32);
+        }
+    }
+    [x0, y0, x1, y1]
+}
+
+/// For each side the difference of its ends' coordinates: start − end, or end − start.
+#[inline(always)]
+fn edge_differences(c: &[Ints; 3], forward: bool) -> [Ints; 3] {
+    let mut sides = [[0; BATCH_SIZE]; 3];
+    for (k, side) in sides.iter_mut().enumerate() {
+        let end = (k + 1) % 3;
+        for lane in 0..BATCH_SIZE {
+            let backward = c[k][lane] - c[end][lane];
+            side[lane] = if forward { -backward } else { backward };
+        }
+    }
+    sides
+}
+
+/// The steps of depth per grid step, as `DepthPlane` of `setup` has them.
+#[inline(always)]
+fn depth_gradients(x: &[Ints; 3], y: &[Ints; 3], z: &[Floats; 3]) -> [Doubles; 2] {
+    let mut slopes = [[0.0; BATCH_SIZE]; 2];
+    for lane in 0..BATCH_SIZE {
+        let along = |c: &[Ints; 3], k: usize| f64::from(c[k][lane] - c[0][lane]);
+        let (qx, qy, qz) =
+            (along(x, 1), along(y, 1), f64::from(z[1][lane]) - f64::from(z[0][lane]));
+        let (rx, ry, rz) =
+            (along(x, 2), along(y, 2), f64::from(z[2][lane]) - f64::from(z[0][lane]));
+        let per_area = 1.0 / (qx * ry - qy * rx);
+        slopes[0][lane] = (qz * ry - rz * qy) * per_area;
+        slopes[1][lane] = (rz * qx - qz * rx) * per_area;
+    }
+    slopes
+}
+
+#[inline(always)]
+fn depth_extents([p, q, r]: &[Floats; 3]) -> (Floats, Floats) {
+    let (mut least, mut greatest) = ([0.0; BATCH_SIZE], [0.0; BATCH_SIZE]);
+    for lane in 0..BATCH_SIZE {
+        let (low, high) = if p[lane] < q[lane] { (p[lane], q[lane]) } else { (q[lane], p[lane]) };
+        least[lane] = if r[lane] < low { r[lane] } else { low };
+        greatest[lane] = if r[lane] > high { r[lane] } else { high };
+    }
+    (least, greatest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::primitive::WeightSource;
+    use crate::triangle_setup::TriangleSetup;
+    use crate::{Opacity, Samples, ScreenVertex, signed_area};
+    use proptest::prelude::*;
+
+    fn piece() -> impl Strategy<Value = ScreenTriangle> {
+        let corner = (-40.0..110.0_f64, -40.0..110.0_f64, 0.0..1.0_f64);
+        let size = prop_oneof![Just(1.0), Just(0.05), Just(0.01)];
+        let corners = (prop::array::uniform3(corner), size).prop_filter_map("flat", |(c, size)| {
+            let place = |k: usize| {
+                let at = |of: f64, from: f64| from + (of - from) * size;
+                let point = homog::Point::new(at(c[k].0, c[0].0), at(c[k].1, c[0].1), c[k].2);
+                ScreenVertex::snap(point, 1.0)
+            };
+            let [p, q, r] = [place(0)?, place(1)?, place(2)?];
+            match signed_area([p, q, r]) {
+                0 => None,
+                1.. => Some([p, q, r]),
+                _ => Some([p, r, q]),
+            }
+        });
+        corners.prop_map(|corners| ScreenTriangle {
+            corners,
+            id: 0,
+            source: WeightSource::Unclipped,
+            opacity: Opacity::Opaque,
+        })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(20_000))]
+
+        #[test]
+        fn eight_at_once_are_the_same_as_one_by_one(piece in piece(), count in 0..4_usize) {
+            let tile = TileRect { x: 0, y: 0, left: 0, top: 0, right: 64, bottom: 56 };
+            let samples = [Samples::One, Samples::Four, Samples::Eight, Samples::Sixteen][count];
+            let batch = TriangleBatch::new([&piece; BATCH_SIZE], tile, samples.offset_range());
+            let setup = TriangleSetup::new(&piece, tile, samples.offset_range());
+            if !batch.is_prepared(3) {
+                return Ok(());
+            }
+            prop_assert_eq!(batch.is_outside(3), setup.is_none());
+            let Some(setup) = setup else { return Ok(()) };
+            prop_assert_eq!(batch.lane_functions(3), setup.functions);
+            for offset in samples.sample_offsets() {
+                prop_assert_eq!(batch.sample_starts(offset).lane_start(3), setup.sample_start(offset));
+            }
+        }
+    }
+}

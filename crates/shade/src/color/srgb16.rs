@@ -1,0 +1,112 @@
+//! Linear light to 16-bit sRGB: the nearest of 65,536 codes, exactly.
+//!
+//! The borders between codes are a table. A float's exponent and the first seven bits of its mantissa name one of 128 steps of
+//! each octave, and a second table says where among the borders the step begins: at most some 180 are left to search.
+
+use super::srgb_to_linear;
+use raster::Encode;
+use std::sync::OnceLock;
+
+/// Half of the first code is 2⁻²⁰·⁷ of light.
+const MIN_LIGHT_BITS: u32 = (127 - 21) << 23;
+/// The steps from there to 1.
+const STEP_COUNT: usize = 21 * 128 + 1;
+
+/// Finds the nearest 16-bit sRGB value of linear light.
+#[derive(Debug)]
+pub struct Srgb16Encoder {
+    /// For each code but the first, the least light whose code it is.
+    thresholds: Box<[f32]>,
+    /// For each step, the code of its beginning.
+    step_codes: Box<[u16]>,
+}
+
+impl Srgb16Encoder {
+    /// The encoder; made once.
+    #[must_use]
+    pub fn shared() -> &'static Self {
+        static ENCODER: OnceLock<Srgb16Encoder> = OnceLock::new();
+        ENCODER.get_or_init(Self::new)
+    }
+
+    fn new() -> Self {
+        let border = |code: u32| srgb_to_linear((f64::from(code) - 0.5) / 65_535.0) as f32;
+        let thresholds: Box<[f32]> = (1..=65_535).map(border).collect();
+        let start = |step: usize| {
+            let light = f32::from_bits(MIN_LIGHT_BITS + ((step as u32) << 16));
+            thresholds.partition_point(|&least| least <= light) as u16
+        };
+        let step_codes = (0..STEP_COUNT).map(start).collect();
+        Self { thresholds, step_codes }
+    }
+
+    /// The nearest 16-bit sRGB value; light beyond [0, 1] (and NaN, as 0) is cut off.
+    #[must_use]
+    pub fn encode(&self, light: f32) -> u16 {
+        let least = f32::from_bits(MIN_LIGHT_BITS);
+        let light = if light > least { light.min(1.0) } else { return 0 };
+        let step = ((light.to_bits() - MIN_LIGHT_BITS) >> 16) as usize;
+        let from = self.step_codes[step];
+        let to = self.step_codes.get(step + 1).copied().unwrap_or(u16::MAX);
+        let left = &self.thresholds[usize::from(from)..usize::from(to)];
+        from + left.partition_point(|&least| least <= light) as u16
+    }
+}
+
+impl Encode<[u16; 4]> for &Srgb16Encoder {
+    fn encode_pixel(&self, [r, g, b, alpha]: [f32; 4]) -> [u16; 4] {
+        // As the encoder of 8 bits has it: NaN and below are nothing.
+        if alpha.is_nan() || alpha <= 0.0 {
+            return [0; 4];
+        }
+        let straight = |channel: f32| if alpha < 1.0 { channel / alpha } else { channel };
+        let [r, g, b] = [r, g, b].map(|channel| self.encode(straight(channel)));
+        [r, g, b, (alpha.min(1.0) * 65_535.0 + 0.5) as u16]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::SrgbEncoder;
+    use super::*;
+
+    #[test]
+    fn every_code_survives_the_way_to_light_and_back() {
+        let encoder = Srgb16Encoder::shared();
+        for code in 0..=65_535_u16 {
+            let light = srgb_to_linear(f64::from(code) / 65_535.0) as f32;
+            assert_eq!(encoder.encode(light), code);
+        }
+        assert_eq!([f32::NAN, -1.0, 0.0, 2.0].map(|l| encoder.encode(l)), [0, 0, 0, 65_535]);
+    }
+
+    #[test]
+    fn codes_change_at_their_borders_and_nowhere_else() {
+        let encoder = Srgb16Encoder::shared();
+        for (code, &least) in (1..=65_535).zip(&encoder.thresholds) {
+            let below = f32::from_bits(least.to_bits() - 1);
+            assert_eq!([encoder.encode(below), encoder.encode(least)], [code - 1, code]);
+        }
+    }
+
+    #[test]
+    fn eight_bits_are_the_nearest_of_sixteen() {
+        let (deep, flat) = (Srgb16Encoder::shared(), SrgbEncoder::shared());
+        for step in 0..=100_000 {
+            let light = step as f32 / 100_000.0;
+            let fine = f64::from(deep.encode(light)) / 257.0;
+            let coarse = f64::from(flat.encode(light));
+            // Half a code of 8 bits, and half a code of 16.
+            assert!((fine - coarse).abs() <= 0.5 + 0.5 / 257.0 + 1e-9, "{light}: {fine} {coarse}");
+        }
+    }
+
+    #[test]
+    fn pixels_have_straight_alpha() {
+        let encoder = Srgb16Encoder::shared();
+        let half = encoder.encode(0.5);
+        assert_eq!(encoder.encode_pixel([0.25, 0.5, 0.0, 0.5]), [half, 65_535, 0, 32_768]);
+        assert_eq!(encoder.encode_pixel([0.5; 4].map(|c: f32| -c)), [0; 4]);
+        assert_eq!(encoder.encode_pixel([0.5, 0.5, 0.5, f32::NAN]), [0; 4]);
+    }
+}

@@ -1,0 +1,72 @@
+//! Depth: from the canonical volume's z to what a depth buffer stores (DP-1).
+
+use crate::ViewportError;
+use crate::error::{check_finite, check_interval};
+
+/// A linear map of depth, by the images of two depths.
+///
+/// | map | of z | puts near, far at |
+/// | --- | --- | --- |
+/// | [`DepthRange::KEEP`] | z | where they are (VP-1) |
+/// | [`DepthRange::ZERO_ONE`] | (1 + z)/2 | 1, 0 in the chapter's volume (near at +1); 0, 1 in OpenGL's |
+/// | [`DepthRange::ZERO_ONE_FLIPPED`] | (1 − z)/2 | 0, 1 in the chapter's volume; 1, 0 in OpenGL's |
+///
+/// The last two are easily confused (misprint M22): which is right depends on where the volume has its near plane.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct DepthRange {
+    scale: f64,
+    offset: f64,
+}
+
+impl DepthRange {
+    /// z as it is.
+    pub const KEEP: Self = Self { scale: 1.0, offset: 0.0 };
+    /// (1 + z)/2: [−1, 1] to [0, 1].
+    pub const ZERO_ONE: Self = Self { scale: 0.5, offset: 0.5 };
+    /// (1 − z)/2: [−1, 1] to [1, 0].
+    pub const ZERO_ONE_FLIPPED: Self = Self { scale: -0.5, offset: 0.5 };
+    /// −z: from the chapter's volume to OpenGL's and back, the matrix diag(1, 1, −1, 1).
+    pub const NEGATED: Self = Self { scale: -1.0, offset: 0.0 };
+
+    /// The map that takes the two depths `ndc` to the two depths `screen`, in this order (LI-1).
+    ///
+    /// `glDepthRange(n, f)` is `DepthRange::new([-1.0, 1.0], [n, f])`, Direct3D's `MinDepth` and `MaxDepth` are
+    /// `DepthRange::new([0.0, 1.0], [min, max])`.
+    ///
+    /// # Errors
+    /// If a number is not finite or the two depths of a pair are the same.
+    pub fn new(ndc: [f64; 2], screen: [f64; 2]) -> Result<Self, ViewportError> {
+        let ([a, b], [c, d]) =
+            (check_interval("ndc depth", ndc)?, check_interval("screen depth", screen)?);
+        let scale = check_finite("depth scale", (d - c) / (b - a))?;
+        let offset = check_finite("depth offset", (c * b - d * a) / (b - a))?;
+        if !(1.0 / scale).is_finite() || !(offset / scale).is_finite() {
+            return Err(ViewportError::OutOfRange { name: "depth scale" });
+        }
+        Ok(Self { scale, offset })
+    }
+
+    /// The factor of z, never 0.
+    #[must_use]
+    pub const fn scale(self) -> f64 {
+        self.scale
+    }
+
+    /// What is added after the factor.
+    #[must_use]
+    pub const fn offset(self) -> f64 {
+        self.offset
+    }
+
+    /// The depth of z.
+    #[must_use]
+    pub fn ndc_to_depth(self, z: f64) -> f64 {
+        self.scale * z + self.offset
+    }
+
+    /// The z that has this depth.
+    #[must_use]
+    pub fn depth_to_ndc(self, depth: f64) -> f64 {
+        (depth - self.offset) / self.scale
+    }
+}

@@ -1,0 +1,76 @@
+//! Grid indices to the square [−1, 1]² (WV-4): the points of a height field.
+//!
+//! ```text
+//!   columns ► z          4 by 3 points: the indices end at count − 1,
+//!   ·───·───·  x = −1    so that is what they are divided by
+//!   ·───·───·
+//!   ·───·───·
+//!   ·───·───·  x = +1
+//!   rows ▼
+//! ```
+
+use crate::ViewportError;
+
+/// A grid of points over [−1, 1]².
+///
+/// ```
+/// use viewport::Grid;
+/// let grid = Grid::new(5, 3)?;
+/// assert_eq!(grid.xz(0, 0), Some([-1.0, -1.0]));
+/// assert_eq!(grid.xz(4, 2), Some([1.0, 1.0]));
+/// assert_eq!(grid.xz(5, 0), None); // the last row is number 4
+/// # Ok::<(), viewport::ViewportError>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct PointGrid {
+    rows: usize,
+    columns: usize,
+}
+
+impl PointGrid {
+    /// The grid with this many points in each direction.
+    ///
+    /// # Errors
+    /// If there are fewer than two rows or columns.
+    pub fn new(rows: usize, columns: usize) -> Result<Self, ViewportError> {
+        const LEAST: usize = 2;
+        for (name, count) in [("rows", rows), ("columns", columns)] {
+            if count < LEAST {
+                return Err(ViewportError::TooFew { name, count, least: LEAST });
+            }
+        }
+        Ok(Self { rows, columns })
+    }
+
+    /// The number of rows, at least 2.
+    #[must_use]
+    pub const fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// The number of columns, at least 2.
+    #[must_use]
+    pub const fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// The point at an index: x = 2·row/(rows − 1) − 1, z = 2·column/(columns − 1) − 1; `None` beyond the last.
+    #[must_use]
+    pub fn xz(&self, row: usize, column: usize) -> Option<[f64; 2]> {
+        let inside = row < self.rows && column < self.columns;
+        inside.then(|| [grid_coordinate(row, self.rows), grid_coordinate(column, self.columns)])
+    }
+
+    /// All points, row by row.
+    pub fn points(&self) -> impl Iterator<Item = [f64; 2]> + use<> {
+        let Self { rows, columns } = *self;
+        (0..rows).flat_map(move |row| {
+            (0..columns)
+                .map(move |column| [grid_coordinate(row, rows), grid_coordinate(column, columns)])
+        })
+    }
+}
+
+fn grid_coordinate(index: usize, count: usize) -> f64 {
+    2.0 * index as f64 / (count - 1) as f64 - 1.0
+}

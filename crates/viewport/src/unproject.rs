@@ -1,0 +1,145 @@
+//! From pixels back to the world: points (UN-1), rays (UN-2) and the narrow view around a pixel.
+//!
+//! ```text
+//!                     near          far
+//!                      │             │         All depths of a pixel are one line. Between the
+//!   centre ●───────────┼─────────────┼──►      near and the far plane it is the pixel's ray;
+//!                    pixel           │         beyond all depths it runs through the centre of
+//!                      │             │         projection, or is parallel if there is none.
+//! ```
+
+use crate::error::check_finite;
+use crate::{Rectangle, Viewport, ViewportError};
+use glam::{DMat4, DVec4};
+use homog::{Clip, HPoint, Point, Projective, Screen, Space, Vector};
+
+/// The way back from pixels and depth to a space `S`: that of the world, of a model or of the camera.
+///
+/// ```
+/// use homog::{Clip, Point, Projective, View};
+/// use viewport::Viewport;
+/// // P of the chapter, times −1 (PE-3), for n = −1 and f = −3.
+/// let rows = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 4.0, 3.0], [0.0, 0.0, -1.0, 0.0]];
+/// let view_to_clip = Projective::<View, Clip>::from_raw(glam::DMat4::from_cols_array_2d(&rows).transpose());
+/// let clip_to_view = view_to_clip.inverse().expect("regular");
+/// let back = Viewport::image(200, 100)?.unprojector(clip_to_view);
+/// let ray = back.ray([100.0, 50.0], [1.0, -1.0]).expect("the middle of the picture");
+/// assert_eq!(ray.direction.z(), -1.0);
+/// # Ok::<(), viewport::ViewportError>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Unprojector<S: Space> {
+    viewport: Viewport,
+    screen_to_source: Projective<Screen, S>,
+}
+
+/// The line of all points that have their image at one place of the picture.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Ray<S: Space> {
+    /// Where the ray starts: the centre of projection, or the point on the near plane for a parallel projection.
+    pub origin: Point<S>,
+    /// Away from the viewer, length 1.
+    pub direction: Vector<S>,
+    /// The point on the near plane.
+    pub near: Point<S>,
+    /// The point on the far plane, not divided: with w = 0 it is at infinity.
+    pub far: HPoint<S>,
+}
+
+impl Viewport {
+    /// The whole chain from a space to the screen, M_vp · M (PL-1), not divided.
+    #[must_use]
+    pub fn source_to_screen<S: Space>(
+        &self,
+        source_to_clip: Projective<S, Clip>,
+    ) -> Projective<S, Screen> {
+        Projective::from_raw(self.ndc_to_screen().raw() * source_to_clip.raw())
+    }
+
+    /// The way back, given the inverse of the chain up to clip space. The closed-form inverses of camera and projection
+    /// lose the fewest digits.
+    #[must_use]
+    pub fn unprojector<S: Space>(&self, clip_to_source: Projective<Clip, S>) -> Unprojector<S> {
+        let raw = clip_to_source.raw() * self.screen_to_ndc().raw();
+        Unprojector { viewport: *self, screen_to_source: Projective::from_raw(raw) }
+    }
+
+    /// The map to put after the projection so that `area`, in pixels of this viewport's convention, fills the whole
+    /// view: a pick matrix, as gluPickMatrix makes it, or the sub-view of a tile. What is outside of the area is
+    /// outside of the volume then.
+    ///
+    /// # Errors
+    /// If the area is so small against the viewport that the factors are no finite numbers.
+    pub fn pick_matrix(&self, area: Rectangle) -> Result<Projective<Clip, Clip>, ViewportError> {
+        let to_ndc = self.screen_to_ndc();
+        let [a, b] = [
+            Point::new(area.x(), area.y(), 0.0),
+            Point::new(area.x() + area.width(), area.y() + area.height(), 0.0),
+        ]
+        .map(|corner| to_ndc.transform_point(corner));
+        let (width, height) = ((b.x() - a.x()).abs(), (b.y() - a.y()).abs());
+        let sx = check_finite("horizontal factor", 2.0 / width)?;
+        let sy = check_finite("vertical factor", 2.0 / height)?;
+        let dx = check_finite("horizontal offset", -(a.x() + b.x()) / width)?;
+        let dy = check_finite("vertical offset", -(a.y() + b.y()) / height)?;
+        Ok(Projective::from_raw(DMat4::from_cols(
+            DVec4::new(sx, 0.0, 0.0, 0.0),
+            DVec4::new(0.0, sy, 0.0, 0.0),
+            DVec4::Z,
+            DVec4::new(dx, dy, 0.0, 1.0),
+        )))
+    }
+}
+
+impl<S: Space> Unprojector<S> {
+    /// The map itself, M⁻¹ (UN-1), not divided.
+    #[must_use]
+    pub const fn screen_to_source(&self) -> Projective<Screen, S> {
+        self.screen_to_source
+    }
+
+    /// The point with its image at this place and depth (UN-1); `None` if it is at infinity.
+    #[must_use]
+    pub fn unproject_point(&self, screen: Point<Screen>) -> Option<Point<S>> {
+        divide_point(self.screen_to_source.transform_point(screen))
+    }
+
+    /// The centre of projection. With w = 0 it is at infinity: the projection is parallel, and this is its direction.
+    #[must_use]
+    pub fn center_of_projection(&self) -> HPoint<S> {
+        self.screen_to_source.transform_direction(Vector::Z)
+    }
+
+    /// The ray of a place in the picture (UN-2), given the canonical depths of the near and the far plane: `[1.0,
+    /// -1.0]` in the chapter's volume, `[-1.0, 1.0]` in OpenGL's, `[0.0, 1.0]` in Direct3D's.
+    ///
+    /// `None` where there is no such ray: the map is singular or something is not finite.
+    #[must_use]
+    pub fn pick_ray(&self, [x, y]: [f64; 2], near_far: [f64; 2]) -> Option<Ray<S>> {
+        let at = |z: f64| {
+            let depth = self.viewport.depth().ndc_to_depth(z);
+            self.screen_to_source.transform_point(Point::new(x, y, depth))
+        };
+        let [near_z, far_z] = near_far;
+        let (near, far) = (divide_point(at(near_z))?, at(far_z));
+        // The far plane may be at infinity; half-way in depth is a place in any case.
+        let beyond = match divide_point(far) {
+            Some(far) => far,
+            None => divide_point(at(near_z * 0.5 + far_z * 0.5))?,
+        };
+        let direction = (beyond - near).normalized()?;
+        let origin =
+            if self.is_parallel() { near } else { divide_point(self.center_of_projection())? };
+        far.is_finite().then_some(Ray { origin, direction, near, far })
+    }
+
+    /// Rounding must not turn a parallel projection into one from very far away.
+    fn is_parallel(&self) -> bool {
+        let raw = self.screen_to_source.raw();
+        raw.z_axis.w.abs() <= 1e-14 * raw.z_axis.abs().max_element()
+    }
+}
+
+fn divide_point<S: Space>(point: HPoint<S>) -> Option<Point<S>> {
+    point.divide().map(|place| Point::from_raw(place.raw()))
+}

@@ -1,0 +1,165 @@
+//! The viewport: from the canonical square to a rectangle of pixels (VP-1 to VP-3).
+
+use crate::error::check_positive;
+use crate::{DepthRange, PixelConvention, Rectangle, ViewportError, YAxis};
+use homog::{Affine, Ndc, Point, Screen, Vector};
+
+/// A rectangle of pixels on which the canonical square [−1, 1]² is drawn, and the range depth goes to.
+///
+/// The rectangle is counted in whole pixels from the image's corner: `x = 10, width = 5` are pixels 10 to 14,
+/// whatever the convention. The convention decides the coordinates: those five pixels cover [10, 15] with
+/// half-integer centres and [9½, 14½] with integer ones. y counts from the lowest row if it runs up, from the topmost
+/// if it runs down; in both cases y = +1 of the canonical square is at the upper border of the picture.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Viewport {
+    area: Rectangle,
+    convention: PixelConvention,
+    depth: DepthRange,
+}
+
+impl Viewport {
+    /// The viewport on `area`.
+    #[must_use]
+    pub const fn new(area: Rectangle, convention: PixelConvention, depth: DepthRange) -> Self {
+        Self { area, convention, depth }
+    }
+
+    /// The whole of an image as the pipeline counts it: half-integer centres, y down, and depth 1 at the near, 0 at the
+    /// far plane of the chapter's canonical volume (near at z = +1).
+    ///
+    /// # Errors
+    /// If the image has no pixels.
+    pub fn image(width: u32, height: u32) -> Result<Self, ViewportError> {
+        let area = Rectangle::from_size(width.into(), height.into())?;
+        Ok(Self::new(area, PixelConvention::IMAGE, DepthRange::ZERO_ONE))
+    }
+
+    /// The whole of an image of `nx` by `ny` pixels as the chapter counts it: integer centres, y up, z kept (VP-1).
+    ///
+    /// # Errors
+    /// If the image has no pixels.
+    pub fn chapter(nx: u32, ny: u32) -> Result<Self, ViewportError> {
+        let area = Rectangle::new(
+            0.0,
+            0.0,
+            check_positive("nx", nx.into())?,
+            check_positive("ny", ny.into())?,
+        )?;
+        Ok(Self::new(area, PixelConvention::CHAPTER, DepthRange::KEEP))
+    }
+
+    /// The same with pixels counted in another way.
+    #[must_use]
+    pub const fn with_convention(self, convention: PixelConvention) -> Self {
+        Self { convention, ..self }
+    }
+
+    /// The same with another range of depth.
+    #[must_use]
+    pub const fn with_depth(self, depth: DepthRange) -> Self {
+        Self { depth, ..self }
+    }
+
+    /// The rectangle, in whole pixels from the image's corner.
+    #[must_use]
+    pub const fn area(&self) -> Rectangle {
+        self.area
+    }
+
+    /// How pixels are counted.
+    #[must_use]
+    pub const fn convention(&self) -> PixelConvention {
+        self.convention
+    }
+
+    /// The range of depth.
+    #[must_use]
+    pub const fn depth(&self) -> DepthRange {
+        self.depth
+    }
+
+    /// The map M_vp (VP-1 to VP-3, DP-1).
+    ///
+    /// ```text
+    /// [ w/2   0   0  x + w/2 + c ]      c = −½ for integer centres, 0 for half-integer ones;
+    /// [  0  ±h/2  0  y + h/2 + c ]      + for y up, − for y down;
+    /// [  0    0   s       o      ]      s, o of the depth range
+    /// [  0    0   0       1      ]
+    /// ```
+    #[must_use]
+    pub fn ndc_to_screen(&self) -> Affine<Ndc, Screen> {
+        let [sx, sy] = self.pixel_scale();
+        let [ox, oy] = self.pixel_center();
+        Affine::from_frame(
+            Vector::new(sx, 0.0, 0.0),
+            Vector::new(0.0, sy, 0.0),
+            Vector::new(0.0, 0.0, self.depth.scale()),
+            Point::new(ox, oy, self.depth.offset()),
+        )
+    }
+
+    /// The inverse map in closed form (WV-3): from pixels and depth to the canonical volume.
+    #[must_use]
+    pub fn screen_to_ndc(&self) -> Affine<Screen, Ndc> {
+        let [sx, sy] = self.pixel_scale();
+        let [ox, oy] = self.pixel_center();
+        let (sz, oz) = (self.depth.scale(), self.depth.offset());
+        Affine::from_frame(
+            Vector::new(1.0 / sx, 0.0, 0.0),
+            Vector::new(0.0, 1.0 / sy, 0.0),
+            Vector::new(0.0, 0.0, 1.0 / sz),
+            Point::new(-ox / sx, -oy / sy, -oz / sz),
+        )
+    }
+
+    fn pixel_scale(&self) -> [f64; 2] {
+        let up = match self.convention.y {
+            YAxis::Up => 0.5,
+            YAxis::Down => -0.5,
+        };
+        [self.area.width() * 0.5, self.area.height() * up]
+    }
+
+    fn pixel_center(&self) -> [f64; 2] {
+        let border = self.convention.centers.image_border();
+        self.area.center().map(|middle| middle + border)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::PixelCenters;
+
+    #[test]
+    fn the_square_fills_the_image_in_every_convention() {
+        // (y, centres, image of the lower left corner of the square, of the upper right one) for 640 by 480
+        let table = [
+            (YAxis::Up, PixelCenters::Integer, [-0.5, -0.5], [639.5, 479.5]),
+            (YAxis::Up, PixelCenters::Half, [0.0, 0.0], [640.0, 480.0]),
+            (YAxis::Down, PixelCenters::Integer, [-0.5, 479.5], [639.5, -0.5]),
+            (YAxis::Down, PixelCenters::Half, [0.0, 480.0], [640.0, 0.0]),
+        ];
+        let image = Viewport::chapter(640, 480).expect("has pixels");
+        for (y, centres, low, high) in table {
+            let map =
+                image.with_convention(PixelConvention { y, centers: centres }).ndc_to_screen();
+            assert_eq!(
+                map.transform_point(Point::new(-1.0, -1.0, 0.5)),
+                Point::new(low[0], low[1], 0.5)
+            );
+            assert_eq!(
+                map.transform_point(Point::new(1.0, 1.0, 0.5)),
+                Point::new(high[0], high[1], 0.5)
+            );
+        }
+    }
+
+    #[test]
+    fn near_is_one_and_far_is_zero_in_the_pipelines_image() {
+        let map = Viewport::image(4, 2).expect("has pixels").ndc_to_screen();
+        assert_eq!(map.transform_point(Point::new(-1.0, 1.0, 1.0)), Point::new(0.0, 0.0, 1.0));
+        assert_eq!(map.transform_point(Point::new(1.0, -1.0, -1.0)), Point::new(4.0, 2.0, 0.0));
+        assert!(Viewport::image(0, 2).is_err());
+    }
+}

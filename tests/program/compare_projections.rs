@@ -1,0 +1,116 @@
+//! `alberti compare-projections`: the whole family on one page.
+
+use crate::drawings::{PROJECTIONS, assert_succeeds, read_drawing, write_box};
+use crate::sandbox::Sandbox;
+use crate::vector_files::{Layers, layer_bounds, parse_pdf};
+
+const COMMAND: &str = "compare-projections";
+
+/// Width and height of the lines of a projection's panel.
+fn layer_size(layers: &Layers, name: &str) -> [f64; 2] {
+    let [low, high] = layer_bounds(layers, |id| id.starts_with(&format!("{name}-visible-")));
+    [high[0] - low[0], high[1] - low[1]]
+}
+
+#[test]
+fn a_subject_is_drawn_in_every_projection() {
+    let bench = Sandbox::new("compare_all");
+    bench.copy_model("house.glb");
+    assert_succeeds(&bench, &[COMMAND, "house.glb"]);
+    let (page, layers) = read_drawing(&bench, "projections.svg");
+    for name in PROJECTIONS {
+        let [low, high] = layer_bounds(&layers, |id| id.starts_with(&format!("{name}-visible-")));
+        assert!(low[0] > 0.0 && low[1] > 0.0 && high[0] < page[0] && high[1] < page[1], "{name}");
+        // Framed: the drawing takes most of its 84.7 × 63.5 mm, and no more.
+        let [w, h] = layer_size(&layers, name);
+        assert!(w < 84.7 && h < 63.5 && (w > 70.0 || h > 52.0), "{name}: {w} x {h}");
+    }
+    let text = std::fs::read_to_string(bench.path_of("projections.svg")).expect("an SVG");
+    assert!(text.contains("<g id=\"names.two-point\">\n<title>two point</title>"));
+}
+
+/// A box of 4 × 3 × 2: what the textbooks say its pictures measure.
+#[test]
+fn oblique_boxes_measure_as_the_textbooks_say() {
+    let bench = Sandbox::new("compare_box");
+    write_box(&bench, "box", [4.0, 3.0, 2.0]);
+    let flags = ["--projections", "multiview,cavalier,cabinet,isometric", "--columns", "2"];
+    assert_succeeds(&bench, &[&[COMMAND, "box.gltf", "-o", "out.svg"][..], &flags].concat());
+    let (_, layers) = read_drawing(&bench, "out.svg");
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let slant = 3_f64.sqrt() / 2.0 * (2_f64 / 3.0).sqrt();
+    for (name, width, height) in [
+        ("multiview", 4.0, 3.0),
+        ("cavalier", 4.0 + 2.0 * half, 3.0 + 2.0 * half),
+        ("cabinet", 4.0 + half, 3.0 + half),
+        // Both across at 30°, the height upright, all by √(2/3).
+        ("isometric", 6.0 * slant, (3.0 + 0.5 * 6.0) * (2_f64 / 3.0).sqrt()),
+    ] {
+        let [w, h] = layer_size(&layers, name);
+        assert!((w / h - width / height).abs() < 1e-3, "{name}: {w} x {h}");
+    }
+    assert!(!layers.keys().any(|id| id.starts_with("military")));
+}
+
+#[test]
+fn every_format_shows_the_same() {
+    let bench = Sandbox::new("compare_formats");
+    write_box(&bench, "box", [4.0, 3.0, 2.0]);
+    let flags = ["--projections", "cavalier,two-point,cavalier", "--size", "200x150"];
+    for name in ["out.svg", "out.pdf", "out.png", "out.html"] {
+        assert_succeeds(&bench, &[&[COMMAND, "box.gltf", "-o", name][..], &flags].concat());
+    }
+    let (page, layers) = read_drawing(&bench, "out.svg");
+    let pages = parse_pdf(&std::fs::read(bench.path_of("out.pdf")).expect("a PDF"));
+    let [(size, lines)] = &pages[..] else { panic!("one page") };
+    assert!((size[0] - page[0]).abs() < 0.001 && (size[1] - page[1]).abs() < 0.001);
+    assert_eq!(lines.len(), layers.values().map(Vec::len).sum::<usize>());
+    let (width, height, _) = bench.read_picture("out.png");
+    let dots = [page[0], page[1]].map(|side| side / 25.4 * 150.0);
+    assert!(
+        (f64::from(width) - dots[0]).abs() <= 1.0 && (f64::from(height) - dots[1]).abs() <= 1.0
+    );
+    let html = std::fs::read_to_string(bench.path_of("out.html")).expect("a page");
+    assert_eq!(html.matches("<figure").count(), 2, "each projection is there once");
+    assert!(html.contains("formulas OB-1, VV-1") && html.contains("z 1 at 225°"), "{html}");
+    assert!(html.contains("formulas VN-1, PE-1, PE-3, VV-2") && html.contains("x to (-3.2, 0.4)"));
+    assert!(!html.contains("href") && !html.contains("src="), "the page needs no other file");
+}
+
+#[test]
+fn threads_and_repetition_change_no_byte() {
+    let bench = Sandbox::new("compare_threads");
+    bench.copy_model("teapot.glb");
+    for flags in [
+        &["-o", "out.svg"][..],
+        &["-o", "out.svg", "--style", "shaded", "--projections", "cabinet"],
+    ] {
+        let bytes = |threads: &str| {
+            assert_succeeds(
+                &bench,
+                &[&[COMMAND, "teapot.glb", "--threads", threads], flags].concat(),
+            );
+            std::fs::read(bench.path_of("out.svg")).expect("a drawing")
+        };
+        let first = bytes("1");
+        assert!(first == bytes("1") && first == bytes("3"), "{flags:?}");
+    }
+}
+
+#[test]
+fn errors_are_reported_and_leave_no_file() {
+    let bench = Sandbox::new("compare_mistakes");
+    write_box(&bench, "box", [1.0, 1.0, 1.0]);
+    let run = bench.run(&[COMMAND, "box.gltf", "--projections", "isometrik"]);
+    assert!(run.code == 2 && run.stderr.contains("isometric"), "{}", run.stderr);
+    let run = bench.run(&[COMMAND, "box.gltf", "-o", "out.txt"]);
+    let told = "the output out.txt does not end in .svg, .pdf, .png or .html";
+    assert!(run.code == 1 && run.stderr.contains(told), "{}", run.stderr);
+    let run = bench.run(&[COMMAND, "none.gltf"]);
+    assert!(run.code == 1 && run.stderr.contains("none.gltf"), "{}", run.stderr);
+    for wrong in [["--columns", "0"], ["--size", "10"], ["--style", "oil"], ["--threads", "0"]] {
+        let run = bench.run(&[&[COMMAND, "box.gltf"][..], &wrong].concat());
+        assert!(run.code == 2 && run.stderr.contains(wrong[0]), "{wrong:?}: {}", run.stderr);
+    }
+    assert_eq!(bench.file_names(), ["box.bin", "box.gltf"]);
+}

@@ -1,0 +1,204 @@
+//! Animations as the program poses them, held against the formulas of glTF 2.0 (appendix C), and against the keys in real
+//! files. `info --json` tells the pose in numbers.
+
+use crate::gltf_builder::GltfBuilder;
+use crate::sandbox::Sandbox;
+use serde_json::{Value, json};
+
+/// What `info --json` says of a file.
+fn info_json(bench: &Sandbox, arguments: &[&str]) -> Value {
+    let run = bench.run(&[&["info", "--json"][..], arguments].concat());
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{arguments:?}");
+    serde_json::from_str(&run.stdout).expect("JSON")
+}
+
+fn json_numbers(value: &Value) -> Vec<f64> {
+    let list = value.as_array().expect("a list of numbers");
+    list.iter().map(|number| number.as_f64().expect("a number")).collect()
+}
+
+fn assert_near(actual: &Value, expected: &[f64], what: &str) {
+    let found = json_numbers(actual);
+    let near = found.len() == expected.len()
+        && found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6);
+    assert!(near, "{what}: {found:?} instead of {expected:?}");
+}
+
+/// A square whose node moves by a line, turns by a line and grows by a cubic spline, whose second node steps, and
+/// whose weights, material, light and camera change too.
+fn write_animated_model(bench: &Sandbox) {
+    let mut document = GltfBuilder::square();
+    let [zero_to_two, steps] =
+        [[0.0, 2.0], [0.5, 1.0]].map(|times| document.add_floats("SCALAR", &times));
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    let samplers = [
+        (zero_to_two, "LINEAR", document.add_floats("VEC3", &[0.0, 0.0, 0.0, 4.0, 8.0, -2.0])),
+        // From rest to a quarter about y.
+        (
+            zero_to_two,
+            "LINEAR",
+            document.add_floats("VEC4", &[0.0, 0.0, 0.0, 1.0, 0.0, half, 0.0, half]),
+        ),
+        // x² from 0 to 2, so that its slopes are 0 and 4; y and z stay 1.
+        (
+            zero_to_two,
+            "CUBICSPLINE",
+            document.add_floats(
+                "VEC3",
+                &[
+                    9.0, 9.0, 9.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 4.0, 1.0, 1.0, 9.0,
+                    9.0, 9.0,
+                ],
+            ),
+        ),
+        (steps, "STEP", document.add_floats("VEC3", &[1.0, 0.0, 0.0, 2.0, 0.0, 0.0])),
+        (zero_to_two, "LINEAR", document.add_floats("SCALAR", &[0.0, 1.0, 1.0, 0.5])),
+        (
+            zero_to_two,
+            "LINEAR",
+            document.add_floats("VEC4", &[1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0]),
+        ),
+        (zero_to_two, "LINEAR", document.add_floats("SCALAR", &[100.0, 0.0])),
+        (zero_to_two, "LINEAR", document.add_floats("SCALAR", &[0.5, 1.5])),
+    ];
+    let samplers: Vec<Value> = samplers.iter().map(|(input, interpolation, output)| {
+        json!({"input": input, "interpolation": interpolation, "output": output})
+    }).collect();
+    let node = |node: usize, path: &str| json!({"node": node, "path": path});
+    let pointer = |to: &str| json!({"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": to}}});
+    let targets = [
+        node(0, "translation"),
+        node(0, "rotation"),
+        node(0, "scale"),
+        node(1, "translation"),
+        node(0, "weights"),
+        pointer("/materials/0/pbrMetallicRoughness/baseColorFactor"),
+        pointer("/extensions/KHR_lights_punctual/lights/0/intensity"),
+        pointer("/cameras/0/perspective/yfov"),
+    ];
+    let channels: Vec<Value> = targets
+        .iter()
+        .enumerate()
+        .map(|(sampler, target)| json!({"sampler": sampler, "target": target}))
+        .collect();
+    document.json["animations"] =
+        json!([{"name": "all", "samplers": samplers, "channels": channels}]);
+    add_camera_and_light(&mut document);
+    document.write_file(bench, "moving");
+}
+
+/// Gives the square morph targets and a second node, which carries a light and a camera.
+fn add_camera_and_light(document: &mut GltfBuilder) {
+    let morph = document.add_floats("VEC3", &[0.0; 12]);
+    document.json["meshes"][0]["primitives"][0]["targets"] =
+        json!([{"POSITION": morph}, {"POSITION": morph}]);
+    document.json["extensionsUsed"] =
+        json!(["KHR_animation_pointer", "KHR_lights_punctual", "KHR_materials_unlit"]);
+    document.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [{"type": "point"}]}});
+    document.json["cameras"] =
+        json!([{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}]);
+    document.push_item(
+        "/nodes",
+        json!({"mesh": 0, "camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}}),
+    );
+}
+
+#[test]
+fn poses_are_those_of_the_specification() {
+    let bench = Sandbox::new("poses");
+    write_animated_model(&bench);
+    // A cubic with these ends and slopes is x²; at a quarter of the turn the angle is a quarter of a right angle.
+    for (time, part, step) in [
+        ("0.25", 0.125, 1.0),
+        ("0.5", 0.25, 1.0),
+        ("1.5", 0.75, 2.0),
+        ("9", 1.0, 2.0),
+        ("-1", 0.0, 1.0),
+    ] {
+        let info = info_json(&bench, &["moving.gltf", "--time", time]);
+        let what = |of: &str| format!("{of} at {time}");
+        let transform = &info["nodes"][0]["transform"];
+        assert_near(
+            &transform["translation"],
+            &[4.0 * part, 8.0 * part, -2.0 * part],
+            &what("translation"),
+        );
+        let angle = std::f64::consts::FRAC_PI_4 * part;
+        assert_near(
+            &transform["rotation"],
+            &[0.0, libm::sin(angle), 0.0, libm::cos(angle)],
+            &what("rotation"),
+        );
+        let seconds = 2.0 * part;
+        assert_near(&transform["scale"], &[seconds * seconds, 1.0, 1.0], &what("scale"));
+        assert_near(
+            &info["nodes"][1]["transform"]["translation"],
+            &[step, 0.0, 0.0],
+            &what("step"),
+        );
+        assert_near(&info["nodes"][0]["weights"], &[part, 1.0 - 0.5 * part], &what("weights"));
+        assert_near(
+            &info["materials"][0]["base_color"],
+            &[1.0 - part, part, 0.0, 1.0],
+            &what("colour"),
+        );
+        assert_near(
+            &json!([info["lights"][0]["intensity"]]),
+            &[100.0 * (1.0 - part)],
+            &what("light"),
+        );
+        assert_near(&json!([info["cameras"][0]["fov_y"]]), &[0.5 + part], &what("camera"));
+        assert_eq!(info["shown"]["time"], json!(time.parse::<f64>().expect("a number")));
+    }
+    let described = info_json(&bench, &["moving.gltf"]);
+    assert_eq!(described["animations"][0]["duration"], json!(2.0));
+    assert_eq!(
+        described["animations"][0]["channels"][5]["target"],
+        json!("/materials/0/pbrMetallicRoughness/baseColorFactor")
+    );
+    assert_eq!(described["materials"][0]["base_color"], json!([1.0, 0.0, 0.0, 1.0]), "at rest");
+}
+
+#[test]
+fn animation_pointers_to_nothing_are_reported_and_skipped() {
+    let bench = Sandbox::new("lost_pointers");
+    write_animated_model(&bench);
+    let text = std::fs::read_to_string(bench.path_of("moving.gltf")).expect("the file");
+    for lost in [
+        "/materials/7/alphaCutoff",
+        "/materials/0/alphaCutoff",
+        "/nodes/0/extras",
+        "yfov",
+        "",
+        "/cameras/0/orthographic/xmag",
+    ] {
+        bench.write_file("lost.gltf", text.replace("/cameras/0/perspective/yfov", lost));
+        let info = info_json(&bench, &["lost.gltf", "--time", "1"]);
+        assert_eq!(info["animations"][0]["channels"].as_array().map(Vec::len), Some(7), "{lost}");
+        let at = "/animations/0/channels/7/target/extensions/KHR_animation_pointer/pointer";
+        let warnings = info["warnings"].as_array().expect("a list");
+        assert!(warnings.iter().any(|warning| warning["pointer"] == at), "{lost}: {warnings:?}");
+    }
+}
+
+#[test]
+fn the_picture_shows_the_pose() {
+    let bench = Sandbox::new("posed_picture");
+    write_animated_model(&bench);
+    let flags = ["--size", "32x32", "--view", "front", "--samples", "1", "--animation", "all"];
+    for (time, red, green) in [("0.5", 225, 137), ("1", 188, 188), ("1.5", 137, 225)] {
+        let run = bench.run(
+            &[&["render", "moving.gltf", "-o", "out.png", "--time", time], &flags[..]].concat(),
+        );
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        let (_, _, pixels) = bench.read_picture("out.png");
+        let seen = pixels.iter().filter(|pixel| pixel[3] == 255);
+        // Linear 0.75 and 0.25, 0.5 and 0.5, 0 and 1 in sRGB.
+        assert!(seen.clone().count() > 20, "at {time}");
+        assert!(
+            seen.clone().all(|pixel| pixel[..3] == [red, green, 0]),
+            "at {time}: {:?}",
+            seen.clone().next()
+        );
+    }
+}

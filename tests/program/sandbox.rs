@@ -1,0 +1,98 @@
+//! A place to run the program in: an empty folder of its own for each test.
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::sync::OnceLock;
+
+/// An empty folder, and the program to run in it.
+pub(crate) struct Sandbox {
+    folder: PathBuf,
+}
+
+/// How a run ended.
+pub(crate) struct RunResult {
+    pub(crate) code: i32,
+    pub(crate) stdout: String,
+    pub(crate) stderr: String,
+}
+
+fn program() -> &'static Path {
+    static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
+    PROGRAM.get_or_init(|| alberti_tests::program_path().expect("the program"))
+}
+
+impl Sandbox {
+    /// A folder with the name of the test.
+    pub(crate) fn new(name: &str) -> Self {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        let _ = std::fs::remove_dir_all(&folder);
+        std::fs::create_dir_all(&folder).expect("a folder for the test");
+        Self { folder }
+    }
+
+    /// Runs the program here.
+    pub(crate) fn run(&self, arguments: &[&str]) -> RunResult {
+        let mut command = Command::new(program());
+        let output = command.args(arguments).current_dir(&self.folder).output();
+        let output = output.expect("the program starts");
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes UTF-8");
+        RunResult {
+            code: output.status.code().expect("no signal ends the program"),
+            stdout: text(output.stdout),
+            stderr: text(output.stderr),
+        }
+    }
+
+    /// Runs the program here with bytes on its standard input; gives its code and what it wrote to its standard output.
+    pub(crate) fn run_with_input(&self, arguments: &[&str], input: &[u8]) -> (i32, Vec<u8>) {
+        let output = self.spawn_with_input(arguments, input);
+        (output.status.code().expect("no signal ends the program"), output.stdout)
+    }
+
+    /// Runs the program here with bytes on its standard input; gives what it told.
+    pub(crate) fn stderr_with_input(&self, arguments: &[&str], input: &[u8]) -> String {
+        String::from_utf8(self.spawn_with_input(arguments, input).stderr)
+            .expect("the program writes UTF-8")
+    }
+
+    fn spawn_with_input(&self, arguments: &[&str], input: &[u8]) -> Output {
+        let mut command = Command::new(program());
+        let pipes = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child =
+            pipes.args(arguments).current_dir(&self.folder).spawn().expect("the program starts");
+        // One that has read enough may close it.
+        let _ = child.stdin.take().expect("a pipe").write_all(input);
+        child.wait_with_output().expect("the program ends")
+    }
+
+    pub(crate) fn path_of(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    pub(crate) fn write_file(&self, name: &str, content: impl AsRef<[u8]>) {
+        std::fs::write(self.path_of(name), content).expect("a file for the test");
+    }
+
+    /// Brings a model of `scenes/models` here.
+    pub(crate) fn copy_model(&self, model: &str) {
+        let from = alberti_tests::project_root().join("scenes/models").join(model);
+        std::fs::copy(from, self.path_of(model)).expect("a committed model");
+    }
+
+    /// The names of the files that are here, sorted.
+    pub(crate) fn file_names(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(&self.folder).expect("the folder");
+        let name = |entry: std::io::Result<std::fs::DirEntry>| {
+            entry.expect("an entry").file_name().into_string().expect("a UTF-8 name")
+        };
+        let mut names: Vec<String> = entries.map(name).collect();
+        names.sort();
+        names
+    }
+
+    /// Width, height and RGBA pixels of a PNG that is here.
+    pub(crate) fn read_picture(&self, name: &str) -> (u32, u32, Vec<[u8; 4]>) {
+        alberti_tests::read_png(&self.path_of(name)).expect("a picture")
+    }
+}
