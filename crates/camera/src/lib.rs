@@ -21,7 +21,7 @@
 //!
 //! // A camera by hand …
 //! let camera = Camera::look_at(Point::new(4.0, 3.0, 6.0), Point::ORIGIN, Vector::Y)?;
-//! let ahead = camera.world_to_view().point(Point::ORIGIN);
+//! let ahead = camera.world_to_view().transform_point(Point::ORIGIN);
 //! assert!((ahead.z() + 61_f64.sqrt()).abs() < 1e-15);
 //!
 //! // … and one that finds its own place, with 5 per cent of the picture free on every side.
@@ -40,9 +40,9 @@
 //! | front, top, isometric … by name | [`NamedView`] |
 //! | so that all is in the picture | [`frame_perspective`], [`frame_parallel`], [`frame_oblique`] |
 //! | round a target, or on a turntable | [`Orbit`] |
-//! | yaw, pitch and roll | [`Attitude`] |
+//! | yaw, pitch and roll | [`Orientation`] |
 //! | a node of a scene | [`Camera::from_frame`] |
-//! | two eyes | [`StereoRig`], and [`apex_moved`] to see how not to |
+//! | two eyes | [`StereoRig`], and [`apex_moved_view`] to see how not to |
 //! | before a screen that stands in the world | [`ScreenCorners`] |
 //!
 //! and [`Rays`] goes the other way, from the pixels of a picture into the world.

@@ -37,7 +37,7 @@ impl ScreenCorners {
     /// The camera at `eye` and the window, on the screen's plane, through which it sees the world
     /// in the right places.
     ///
-    /// [`Window::at`] brings the window to the near plane wanted.
+    /// [`Window::at_distance`] brings the window to the near plane wanted.
     ///
     /// # Errors
     /// Corners or an eye that are not finite; a side of no length; sides that are not at right

@@ -14,7 +14,7 @@
 //! windows are off the axis instead: for an eye that is e to the right of the middle, each side is at
 //! l − e · distance/zero_parallax on the plane at that distance.
 //!
-//! [`apex_moved`] is what one lesson's `createFrustum` does with an off-axis window instead (LW-1,
+//! [`apex_moved_view`] is what one lesson's `createFrustum` does with an off-axis window instead (LW-1,
 //! misprint M12): it moves the eye to the window's middle and keeps the frustum symmetric. The two
 //! agree on the window's plane and nowhere else, and a stereo pair made so has no plane of zero
 //! parallax where it was asked for. It is here to be compared.
@@ -63,7 +63,7 @@ impl StereoRig {
     /// use homog::Point;
     /// let middle = Camera::new(Point::ORIGIN, Basis::WORLD)?;
     /// let window = Window { left: -1.0, right: 1.0, bottom: -1.0, top: 1.0, distance: 2.0 };
-    /// let pair = StereoRig { interocular: 0.5, zero_parallax: 4.0 }.pair(middle, window)?;
+    /// let pair = StereoRig { interocular: 0.5, zero_parallax: 4.0 }.off_axis_pair(middle, window)?;
     /// assert_eq!(pair.left.camera.eye(), Point::new(-0.25, 0.0, 0.0));
     /// assert_eq!((pair.left.window.left, pair.left.window.right), (-0.875, 1.125));
     /// # Ok::<(), camera::CameraError>(())
@@ -78,14 +78,14 @@ impl StereoRig {
         })
     }
 
-    /// The pair of [`pair`](Self::pair) with each frustum's apex moved to the middle of its window
+    /// The pair of [`off_axis_pair`](Self::off_axis_pair) with each frustum's apex moved to the middle of its window
     /// (LW-1).
     ///
     /// For comparison only: the eyes then are closer together than asked for, and their pictures
     /// meet elsewhere.
     ///
     /// # Errors
-    /// As [`pair`](Self::pair).
+    /// As [`off_axis_pair`](Self::off_axis_pair).
     pub fn pair_apex_moved(
         self,
         middle: Camera,

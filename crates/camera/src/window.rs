@@ -39,7 +39,7 @@ impl Window {
     /// ```
     /// use camera::Window;
     /// let window = Window { left: -1.0, right: 3.0, bottom: -1.0, top: 1.0, distance: 2.0 };
-    /// assert_eq!(window.at(1.0)?.right, 1.5);
+    /// assert_eq!(window.at_distance(1.0)?.right, 1.5);
     /// # Ok::<(), camera::CameraError>(())
     /// ```
     pub fn at_distance(self, distance: f64) -> Result<Self, CameraError> {
@@ -59,7 +59,7 @@ impl Window {
     /// The slopes of the four sides: the window on the plane at distance 1.
     ///
     /// # Errors
-    /// As [`at`](Self::at).
+    /// As [`at_distance`](Self::at_distance).
     pub fn slopes(self) -> Result<Slopes, CameraError> {
         let Self { left, right, bottom, top, .. } = self.at_distance(1.0)?;
         Ok(Slopes { left, right, bottom, top })
@@ -86,7 +86,7 @@ impl Window {
         Ok(())
     }
 
-    /// As [`check`](Self::check), and the window must be in front of the eye.
+    /// As [`check_edges`](Self::check_edges), and the window must be in front of the eye.
     pub(crate) fn check_perspective(self) -> Result<(), CameraError> {
         self.check_edges()?;
         check_positive("distance of the window", self.distance)

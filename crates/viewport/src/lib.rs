@@ -22,14 +22,14 @@
 //! | what | by |
 //! | --- | --- |
 //! | the map M_vp and its inverse | [`Viewport::ndc_to_screen`], [`Viewport::screen_to_ndc`] (VP-1 to VP-3, WV-3) |
-//! | from one pixel convention to another | [`PixelConvention::to`] (VP-4) |
+//! | from one pixel convention to another | [`PixelConvention::convert_to`] (VP-4) |
 //! | window to viewport in the plane, by both methods | [`WindowToViewport`] (WV-1, WV-2) |
-//! | pictures of one shape in places of another | [`Fit`] |
-//! | several viewports on a page | [`Rectangle::grid`], [`Rectangle::inset`], [`Rectangle::shrunk`] |
+//! | pictures of one shape in places of another | [`FitPolicy`] |
+//! | several viewports on a page | [`Rectangle::split_grid`], [`Rectangle::inset_rectangle`], [`Rectangle::shrink`] |
 //! | millimetres, dots per inch, scale 1:n | [`Paper`], [`Resolution`], [`DrawingScale`] |
 //! | large images in parts | [`tiles`], [`Viewport::for_tile`] |
-//! | what is under a pixel | [`Viewport::unprojector`], [`Unprojector::ray`] (UN-1, UN-2), [`Viewport::pick_matrix`] |
-//! | the points of a height field | [`Grid`] (WV-4) |
+//! | what is under a pixel | [`Viewport::unprojector`], [`Unprojector::pick_ray`] (UN-1, UN-2), [`Viewport::pick_matrix`] |
+//! | the points of a height field | [`PointGrid`] (WV-4) |
 //!
 //! # Example
 //! The same corner of the view in two conventions, and the way back:
@@ -39,15 +39,15 @@
 //! let corner = Point::new(-1.0, 1.0, -1.0); // upper left, far
 //!
 //! let image = Viewport::image(640, 480)?;
-//! assert_eq!(image.ndc_to_screen().point(corner), Point::new(0.0, 0.0, 0.0));
+//! assert_eq!(image.ndc_to_screen().transform_point(corner), Point::new(0.0, 0.0, 0.0));
 //!
 //! let chapter = Viewport::chapter(640, 480)?;
-//! let seen = chapter.ndc_to_screen().point(corner);
+//! let seen = chapter.ndc_to_screen().transform_point(corner);
 //! assert_eq!(seen, Point::new(-0.5, 479.5, -1.0));
-//! assert!((chapter.screen_to_ndc().point(seen) - corner).length() < 1e-15);
+//! assert!((chapter.screen_to_ndc().transform_point(seen) - corner).length() < 1e-15);
 //!
-//! let convert = PixelConvention::CHAPTER.to(PixelConvention::IMAGE, 480.0)?;
-//! assert_eq!(convert.point(seen).y(), 0.0);
+//! let convert = PixelConvention::CHAPTER.convert_to(PixelConvention::IMAGE, 480.0)?;
+//! assert_eq!(convert.transform_point(seen).y(), 0.0);
 //! # Ok::<(), viewport::ViewportError>(())
 //! ```
 //!

@@ -77,9 +77,9 @@ impl PixelConvention {
     /// ```
     /// use homog::Point;
     /// use viewport::PixelConvention;
-    /// let map = PixelConvention::CHAPTER.to(PixelConvention::IMAGE, 480.0)?;
+    /// let map = PixelConvention::CHAPTER.convert_to(PixelConvention::IMAGE, 480.0)?;
     /// // The centre of the lowest left pixel.
-    /// assert_eq!(map.point(Point::ORIGIN), Point::new(0.5, 479.5, 0.0));
+    /// assert_eq!(map.transform_point(Point::ORIGIN), Point::new(0.5, 479.5, 0.0));
     /// # Ok::<(), viewport::ViewportError>(())
     /// ```
     ///

@@ -23,7 +23,7 @@ use homog::{Clip, HPoint, Point, Projective, Screen, Space, Vector};
 /// let view_to_clip = Projective::<View, Clip>::from_raw(glam::DMat4::from_cols_array_2d(&rows).transpose());
 /// let clip_to_view = view_to_clip.inverse().expect("regular");
 /// let back = Viewport::image(200, 100)?.unprojector(clip_to_view);
-/// let ray = back.ray([100.0, 50.0], [1.0, -1.0]).expect("the middle of the picture");
+/// let ray = back.pick_ray([100.0, 50.0], [1.0, -1.0]).expect("the middle of the picture");
 /// assert_eq!(ray.direction.z(), -1.0);
 /// # Ok::<(), viewport::ViewportError>(())
 /// ```
