@@ -16,7 +16,7 @@ const WINDOW_LIMIT: f64 = 1e290;
 
 /// A rectangle on the plane at `distance` in front of an eye, in view space.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Window {
+pub struct ViewWindow {
     /// Left side: x in view space.
     pub left: f64,
     /// Right side. Less than `left` in a mirrored picture.
@@ -29,7 +29,7 @@ pub struct Window {
     pub distance: f64,
 }
 
-impl Window {
+impl ViewWindow {
     /// The window on the plane at another distance that is seen under the same angles.
     ///
     /// # Errors
@@ -37,8 +37,8 @@ impl Window {
     /// finite, then or before.
     ///
     /// ```
-    /// use camera::Window;
-    /// let window = Window { left: -1.0, right: 3.0, bottom: -1.0, top: 1.0, distance: 2.0 };
+    /// use camera::ViewWindow;
+    /// let window = ViewWindow { left: -1.0, right: 3.0, bottom: -1.0, top: 1.0, distance: 2.0 };
     /// assert_eq!(window.at_distance(1.0)?.right, 1.5);
     /// # Ok::<(), camera::CameraError>(())
     /// ```
@@ -98,9 +98,9 @@ impl Slopes {
     ///
     /// # Errors
     /// A distance that is not positive and finite; slopes that are not finite or coincide.
-    pub fn at_distance(self, distance: f64) -> Result<Window, CameraError> {
+    pub fn at_distance(self, distance: f64) -> Result<ViewWindow, CameraError> {
         let Self { left, right, bottom, top } = self;
-        Window { left, right, bottom, top, distance: 1.0 }.at_distance(distance)
+        ViewWindow { left, right, bottom, top, distance: 1.0 }.at_distance(distance)
     }
 }
 

@@ -26,6 +26,14 @@ pub enum RemapError {
         /// Its value.
         value: f64,
     },
+    /// A size is zero or negative.
+    #[error("{name} = {value} is not allowed: it must be greater than 0")]
+    NotPositive {
+        /// Which size.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
     /// The interval to map from has no length.
     #[error("the {interval} to map from is empty: it begins and ends at {at}")]
     Empty {
@@ -91,7 +99,7 @@ fn check_intervals(interval: &'static str, from: [f64; 2], to: [f64; 2]) -> Resu
     Ok(())
 }
 
-fn check_finite(name: &'static str, value: f64) -> Result<(), RemapError> {
+pub(crate) fn check_finite(name: &'static str, value: f64) -> Result<(), RemapError> {
     if value.is_finite() { Ok(()) } else { Err(RemapError::NotFinite { name, value }) }
 }
 

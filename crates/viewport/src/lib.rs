@@ -16,13 +16,13 @@
 //! ```
 //!
 //! What is often left unsaid is said here: whether y runs up or down and where pixels have their centres
-//! ([`PixelConvention`]), and where depth goes ([`DepthRange`]). [`Viewport::image`] is the pipeline's own way,
+//! ([`PixelConvention`](homog::PixelConvention)), and where depth goes ([`DepthRange`]). [`Viewport::image`] is the pipeline's own way,
 //! [`Viewport::chapter`] the textbook's; every other is made from parts.
 //!
 //! | what | by |
 //! | --- | --- |
 //! | the map M_vp and its inverse | [`Viewport::ndc_to_screen`], [`Viewport::screen_to_ndc`] (VP-1 to VP-3, WV-3) |
-//! | from one pixel convention to another | [`PixelConvention::convert_to`] (VP-4) |
+//! | from one pixel convention to another | [`PixelConvention::convert_to`](homog::PixelConvention::convert_to) (VP-4) |
 //! | window to viewport in the plane, by both methods | [`WindowToViewport`] (WV-1, WV-2) |
 //! | pictures of one shape in places of another | [`FitPolicy`] |
 //! | several viewports on a page | [`Rectangle::split_grid`], [`Rectangle::inset_rectangle`], [`Rectangle::shrink`] |
@@ -34,8 +34,8 @@
 //! # Example
 //! The same corner of the view in two conventions, and the way back:
 //! ```
-//! use homog::Point;
-//! use viewport::{PixelConvention, Viewport};
+//! use homog::{PixelConvention, Point};
+//! use viewport::Viewport;
 //! let corner = Point::new(-1.0, 1.0, -1.0); // upper left, far
 //!
 //! let image = Viewport::image(640, 480)?;
@@ -48,7 +48,7 @@
 //!
 //! let convert = PixelConvention::CHAPTER.convert_to(PixelConvention::IMAGE, 480.0)?;
 //! assert_eq!(convert.transform_point(seen).y(), 0.0);
-//! # Ok::<(), viewport::ViewportError>(())
+//! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 //!
 //! Bad parameters are a [`ViewportError`] that names them. Nothing here panics, and nothing that comes out of finite
@@ -63,7 +63,6 @@ mod error;
 mod fit;
 mod page_layout;
 mod paper;
-mod pixel_convention;
 mod point_grid;
 mod rectangle;
 mod tile;
@@ -75,10 +74,9 @@ pub use depth_range::DepthRange;
 pub use error::ViewportError;
 pub use fit::FitPolicy;
 pub use paper::{DrawingScale, MILLIMETERS_PER_INCH, Paper, Resolution};
-pub use pixel_convention::{PixelCenters, PixelConvention, YAxis};
 pub use point_grid::PointGrid;
 pub use rectangle::Rectangle;
-pub use tile::{Tile, tiles};
-pub use unproject::{Ray, Unprojector};
+pub use tile::tiles;
+pub use unproject::{PickRay, Unprojector};
 pub use viewport::Viewport;
 pub use window_to_viewport::{Limits, WindowToViewport};
