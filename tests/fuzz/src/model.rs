@@ -59,7 +59,8 @@ fn load(bytes: &[u8], options: ImportOptions) -> Result<Model, ImportError> {
     load_bytes("model.glb", bytes, &ImportOptions { limits: limits(), ..options })
 }
 
-/// A file that is loaded and held to its promises, and not drawn: what comes of a decoder's bytes is known then.
+/// A file that is loaded and held to its promises, and not drawn: what comes of a decoder's bytes
+/// is known then.
 pub fn loaded(bytes: &[u8]) {
     checked(load(bytes, ImportOptions::default()));
 }

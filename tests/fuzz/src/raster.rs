@@ -1,4 +1,5 @@
-//! Any triangles, lines and points: drawn whole, in two parts and by every set of instructions, they are the same.
+//! Any triangles, lines and points: drawn whole, in two parts and by every set of instructions,
+//! they are the same.
 
 use homog::Point;
 use raster::{Cover, Frame, Instructions, Samples, ScreenVertex, Visibility};
@@ -19,7 +20,8 @@ impl Numbers<'_> {
         u8::from_le_bytes(self.take())
     }
 
-    /// A coordinate: any 64 bits, or one of the picture's neighbourhood on the grid or between its steps.
+    /// A coordinate: any 64 bits, or one of the picture's neighbourhood on the grid or between its
+    /// steps.
     fn number(&mut self) -> f64 {
         match self.byte() % 8 {
             0 => f64::from_le_bytes(self.take()),

@@ -1,4 +1,5 @@
-//! The text of a scene: parsed, resolved with a model that is there, and drawn by one thread and by two.
+//! The text of a scene: parsed, resolved with a model that is there, and drawn by one thread and by
+//! two.
 
 use pipeline::scene::parse;
 use pipeline::{Origin, Scene, render};

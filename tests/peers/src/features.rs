@@ -1,7 +1,8 @@
-//! What each feature of the shading costs: the flight helmet at 1080p, lit by the studio, and the same with one thing more or less.
+//! What each feature of the shading costs: the flight helmet at 1080p, lit by the studio, and the
+//! same with one thing more or less.
 //!
-//! One scene a feature, all rendered in this process by one thread, by turns; the base is the program's usual picture: four samples,
-//! every map of the materials, an environment, no shadows.
+//! One scene a feature, all rendered in this process by one thread, by turns; the base is the
+//! program's usual picture: four samples, every map of the materials, an environment, no shadows.
 
 use crate::measure::{Contestant, Series, rounds};
 use model::{
@@ -15,7 +16,8 @@ use std::sync::Arc;
 /// The name of the base, which the others are compared with.
 pub const BASE: &str = "usual picture";
 
-/// Each feature with what of the scene is other than in the base: lights and the like, fields of the image, and materials.
+/// Each feature with what of the scene is other than in the base: lights and the like, fields of
+/// the image, and materials.
 const FEATURES: [(&str, &str, &str, Change); 19] = [
     (BASE, "", "", AS_IT_IS),
     ("flat style", "style: Flat", "", AS_IT_IS),

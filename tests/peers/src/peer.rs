@@ -22,7 +22,8 @@ pub trait Peer {
     /// Whether its picture is to be compared with ours: same colours, one sample for each pixel.
     fn is_comparable(&self) -> bool;
 
-    /// Draws one frame from the buffers, clearing included, reading back excluded. This is what is measured.
+    /// Draws one frame from the buffers, clearing included, reading back excluded. This is what is
+    /// measured.
     fn draw(&mut self);
 
     /// The frame drawn last, rows from the top; alpha is 0 where nothing was drawn.
@@ -32,7 +33,8 @@ pub trait Peer {
 /// Pixels of the picture.
 pub const AREA: usize = (SIZE.0 * SIZE.1) as usize;
 
-/// Colours, each channel from 0 to 1, kept as the peers' shaders write them: 8 bits for each channel, no sRGB curve.
+/// Colours, each channel from 0 to 1, kept as the peers' shaders write them: 8 bits for each
+/// channel, no sRGB curve.
 pub struct Quantized;
 
 impl ::raster::Encode<[u8; 4]> for Quantized {

@@ -1,4 +1,5 @@
-//! The shader of our rasteriser: tint × texture × light, as the GLSL of the other peer has it, eight fragments at once.
+//! The shader of our rasteriser: tint × texture × light, as the GLSL of the other peer has it,
+//! eight fragments at once.
 
 use crate::scene::{Scene, TEXTURE_SCALE, Texture, Vertex, floor_of, light, wrap};
 use raster::{Eight, Fragment, Fragments, Surface, WIDE};

@@ -1,4 +1,5 @@
-//! The crate `raster` with the stages before it and a shader of this comparison's own: what the other peers do, no more.
+//! The crate `raster` with the stages before it and a shader of this comparison's own: what the
+//! other peers do, no more.
 
 use super::look::Look;
 use super::{AREA, Peer, Quantized};

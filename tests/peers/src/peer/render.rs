@@ -1,7 +1,9 @@
-//! The whole of `pipeline::render`: our rasteriser with the shading of the finished program, colours in linear light.
+//! The whole of `pipeline::render`: our rasteriser with the shading of the finished program,
+//! colours in linear light.
 //!
-//! It does more than the peers do: materials are looked at, colours go through the sRGB curve both ways. What a frame of the
-//! program costs is what people wait for, so it stands beside the bare rasteriser.
+//! It does more than the peers do: materials are looked at, colours go through the sRGB curve both
+//! ways. What a frame of the program costs is what people wait for, so it stands beside the bare
+//! rasteriser.
 
 use super::Peer;
 use crate::scene::{AMBIENT, Part, SIZE, Scene, TOWARDS_LIGHT, Texture};
@@ -122,7 +124,8 @@ fn model(scene: &Scene) -> Result<Model, String> {
     })
 }
 
-/// A model with one node that shows mesh 0 where it is: what the importer makes of the plainest file there is.
+/// A model with one node that shows mesh 0 where it is: what the importer makes of the plainest
+/// file there is.
 fn one_node() -> Result<Model, String> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("node.gltf");
     load(&file, &ImportOptions::default()).map_err(|error| error.to_string())
