@@ -2,11 +2,9 @@
 
 use crate::{glb, promises};
 use homog::Affine;
-use model::import::{
-    Choice, Images, ImportError, ImportOptions, Limits, check_bytes, load_bytes,
-};
 use model::Model;
 use model::ModelInstance;
+use model::import::{Choice, Images, ImportError, ImportOptions, Limits, check_bytes, load_bytes};
 use pipeline::scene::file::{
     CameraChoice, FromFile, SceneFile, StyleFile, USUAL_PADDING, ViewFile,
 };
@@ -95,8 +93,7 @@ fn draw(model: &Model, style: StyleFile, view: ViewFile) {
     file.image.size = (32, 24);
     file.style = style;
     file.camera.view = view;
-    let origin =
-        Origin::of_text("model.glb", "", PathBuf::new());
+    let origin = Origin::from_text("model.glb", "", PathBuf::new());
     let placed = ModelInstance { model: Arc::new(model.clone()), model_to_world: Affine::IDENTITY };
     // A model with nothing to see has no picture, and the error says so.
     match Scene::of_models(&origin, &file, vec![placed]) {

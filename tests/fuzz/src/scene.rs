@@ -33,7 +33,6 @@ pub fn text(bytes: &[u8]) {
 }
 
 fn resolve(text: &str, folder: &Path, file: &pipeline::SceneFile) -> Result<Scene, String> {
-    let origin =
-        Origin::of_text("scene.ron", text, folder.to_owned());
+    let origin = Origin::from_text("scene.ron", text, folder.to_owned());
     Scene::resolve(&origin, file, &Default::default()).map_err(|error| error.to_string())
 }

@@ -5,9 +5,7 @@
 //! program's usual picture: four samples, every map of the materials, an environment, no shadows.
 
 use crate::measure::{Contestant, Series, rounds};
-use model::{
-    Anisotropy, Clearcoat, Iridescence, MaterialExtensions, Sheen, Transmission, Volume,
-};
+use model::{Anisotropy, Clearcoat, Iridescence, MaterialExtensions, Sheen, Transmission, Volume};
 use pipeline::scene::{ResolveOptions, Scene, parse};
 use pipeline::{Origin, Picture, Renderer, Textures, Timings};
 use std::path::Path;
@@ -91,7 +89,7 @@ fn scene(fields: &str, image: &str, folder: &Path) -> Result<Scene, String> {
         if fields.is_empty() { "" } else { "," }
     );
     let file = parse("feature.ron", &text).map_err(|error| error.to_string())?;
-    let origin = Origin::of_text("feature.ron", text, folder.to_owned());
+    let origin = Origin::from_text("feature.ron", text, folder.to_owned());
     Scene::resolve(&origin, &file, &ResolveOptions::default()).map_err(|error| error.to_string())
 }
 
@@ -99,7 +97,7 @@ fn scene(fields: &str, image: &str, folder: &Path) -> Result<Scene, String> {
 fn frames(scene: Scene) -> Result<Box<dyn FnMut()>, String> {
     // As long as the process: there are few.
     let scene: &'static Scene = Box::leak(Box::new(scene));
-    let textures = Textures::of(&scene.models);
+    let textures = Textures::for_models(&scene.models);
     let mut renderer = Renderer::default();
     let mut picture: Picture = Picture::default();
     let silent = Timings::default();

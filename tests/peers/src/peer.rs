@@ -12,7 +12,7 @@ pub use self::raster::Raster;
 pub use self::render::Render;
 
 use crate::scene::SIZE;
-use ::raster::{Eight, WIDE};
+use ::raster::{F32x8, LANES};
 
 /// A rasteriser with a scene in its buffers.
 pub trait Peer {
@@ -39,14 +39,14 @@ pub struct Quantized;
 
 impl ::raster::Encode<[u8; 4]> for Quantized {
     #[inline(always)]
-    fn pixel(&self, color: [f32; 4]) -> [u8; 4] {
+    fn encode_pixel(&self, color: [f32; 4]) -> [u8; 4] {
         color.map(|channel| quantized(channel) as u8)
     }
 
     #[inline(always)]
-    fn eight(&self, [r, g, b, alpha]: &[Eight; 4]) -> [[u8; 4]; WIDE] {
-        let mut pixels = [0; WIDE];
-        for lane in 0..WIDE {
+    fn encode_eight(&self, [r, g, b, alpha]: &[F32x8; 4]) -> [[u8; 4]; LANES] {
+        let mut pixels = [0; LANES];
+        for lane in 0..LANES {
             pixels[lane] = quantized(r[lane])
                 | quantized(g[lane]) << 8
                 | quantized(b[lane]) << 16

@@ -7,18 +7,18 @@
 
 use super::Peer;
 use crate::scene::{AMBIENT, Part, SIZE, Scene, TOWARDS_LIGHT, Texture};
+use camera::ViewProjection;
 use homog::Affine;
+use model::ModelInstance;
 use model::import::{ImportOptions, load};
 use model::{
     Image, Material, Mesh, Mipmap, Model, Primitive, Sampler, Texture as Used, TextureUse,
 };
-use camera::ViewProjection;
 use pipeline::scene::{ImageSpec, Style};
-use model::ModelInstance;
-use shade::Light;
 use pipeline::{Picture, Renderer, Textures, Timings};
 use projection::Convention;
 use raster::Samples;
+use shade::Light;
 use std::f32::consts::PI;
 use std::path::Path;
 use std::sync::Arc;
@@ -72,7 +72,7 @@ impl Render {
         let models: &'static [ModelInstance] = scene.models.clone().leak();
         Ok(Self {
             scene,
-            textures: Textures::of(models),
+            textures: Textures::for_models(models),
             renderer: Renderer::default(),
             threads,
             picture: Picture::default(),
