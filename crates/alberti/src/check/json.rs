@@ -74,8 +74,8 @@ fn problem(problem: &Problem) -> Value {
     json!({
         "severity": problem.severity.name(),
         "code": problem.code,
-        "pointer": problem.pointer,
+        "pointer": problem.location,
         "message": problem.message,
-        "remedy": problem.remedy,
+        "remedy": problem.help,
     })
 }

@@ -185,6 +185,6 @@ fn extensions(model: &Model) -> Value {
 
 fn warnings(model: &Model) -> Value {
     let describe =
-        |warning: &model::Warning| json!({"pointer": warning.pointer, "message": warning.message});
+        |warning: &model::Warning| json!({"pointer": warning.location, "message": warning.message});
     model.warnings.iter().map(describe).collect()
 }
