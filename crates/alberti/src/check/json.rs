@@ -1,7 +1,8 @@
 //! The reports of `check` for programs.
 
 use super::CheckResult;
-use model::import::{CheckReport, Problem};
+use model::Diagnostic;
+use model::import::CheckReport;
 use pipeline::SceneError;
 use pipeline::scene::Lint;
 use serde_json::{Value, json};
@@ -70,12 +71,12 @@ fn report(report: &CheckReport) -> Value {
     })
 }
 
-fn problem(problem: &Problem) -> Value {
+fn problem(problem: &Diagnostic) -> Value {
     json!({
         "severity": problem.severity.name(),
         "code": problem.code,
-        "pointer": problem.pointer,
+        "pointer": problem.location,
         "message": problem.message,
-        "remedy": problem.remedy,
+        "remedy": problem.help,
     })
 }

@@ -184,7 +184,6 @@ fn extensions(model: &Model) -> Value {
 }
 
 fn warnings(model: &Model) -> Value {
-    let describe =
-        |warning: &model::Warning| json!({"pointer": warning.pointer, "message": warning.message});
+    let describe = |warning: &model::Diagnostic| json!({"pointer": warning.location, "message": warning.message});
     model.warnings.iter().map(describe).collect()
 }
