@@ -1,7 +1,7 @@
-//! Where pixels have their centres and which way y runs (VP-1 to VP-4).
+//! Pixel conventions: where pixels have their centers, and whether y runs up or down (VP-1 to VP-4).
 //!
 //! ```text
-//!   CHAPTER: centres at integers, y up        IMAGE: pixel (i, j) covers [i, i+1) × [j, j+1), y down
+//!   CHAPTER: centers at integers, y up        IMAGE: pixel (i, j) covers [i, i+1) × [j, j+1), y down
 //!
 //!   y ▲                                            0   1   2   3 ► x
 //! 1.5 ┼───┬───┬───┐                              0 ┌───┬───┬───┐
@@ -12,11 +12,10 @@
 //!   -.5 0 .5  1  2 2.5                         y ▼   .5  1.5 2.5
 //! ```
 
-use crate::ViewportError;
-use crate::error::check_positive;
-use homog::{Affine, Point, Screen, Vector};
+use crate::remap::check_finite;
+use crate::{Affine, Point, RemapError, Screen, Vector};
 
-/// Which way the y of pixels runs.
+/// The direction of the y axis of an image.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum YAxis {
     /// Row 0 is the lowest, as in the chapter and in OpenGL.
@@ -25,17 +24,18 @@ pub enum YAxis {
     Down,
 }
 
-/// Where the centre of pixel (i, j) is.
+/// The position of the center of pixel (i, j).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum PixelCenters {
     /// At (i, j): the pixel covers [i − ½, i + ½). The chapter, Direct3D 9.
     Integer,
-    /// At (i + ½, j + ½): the pixel covers [i, i + 1). Direct3D since 10, OpenGL, Vulkan, Metal, WebGPU.
+    /// At (i + ½, j + ½): the pixel covers [i, i + 1). Direct3D since 10, OpenGL, Vulkan, Metal,
+    /// WebGPU.
     Half,
 }
 
 impl PixelCenters {
-    /// The coordinate of the centre of pixel 0.
+    /// The coordinate of the center of pixel 0.
     #[must_use]
     pub const fn first_center(self) -> f64 {
         match self {
@@ -51,36 +51,37 @@ impl PixelCenters {
     }
 }
 
-/// How pixels are counted: the direction of y and the place of the centres.
+/// A pixel convention: the direction of y and the position of the pixel centers.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct PixelConvention {
-    /// Which way y runs.
+    /// The direction of y.
     pub y: YAxis,
-    /// Where the centres are.
+    /// The position of the centers within their pixels.
     pub centers: PixelCenters,
 }
 
 impl PixelConvention {
-    /// Centres at integers, y up (VP-1; Shirley and others, chapter 8.1.1).
+    /// Centers at integers, y up (VP-1; Shirley and others, chapter 8.1.1).
     pub const CHAPTER: Self = Self { y: YAxis::Up, centers: PixelCenters::Integer };
-    /// Centres at integers, y down (VP-2): exercise 1 of the chapter, and Direct3D 9.
+    /// Centers at integers, y down (VP-2): exercise 1 of the chapter, and Direct3D 9.
     pub const CHAPTER_Y_DOWN: Self = Self { y: YAxis::Down, centers: PixelCenters::Integer };
-    /// Half-integer centres, y down (VP-3): this project's pipeline, image files, Direct3D, Vulkan, Metal, WebGPU.
+    /// Half-integer centers, y down (VP-3): this project's pipeline, image files, Direct3D, Vulkan,
+    /// Metal, WebGPU.
     pub const IMAGE: Self = Self { y: YAxis::Down, centers: PixelCenters::Half };
-    /// Half-integer centres, y up (VP-3): OpenGL.
+    /// Half-integer centers, y up (VP-3): OpenGL.
     pub const OPENGL: Self = Self { y: YAxis::Up, centers: PixelCenters::Half };
-    /// All four.
+    /// All four conventions.
     pub const ALL: [Self; 4] = [Self::CHAPTER, Self::CHAPTER_Y_DOWN, Self::IMAGE, Self::OPENGL];
 
-    /// The map from positions in this convention to those in `other`, in an image of `height` rows (VP-4).
+    /// The map from positions in this convention to those in `other`, in an image of `height` rows
+    /// (VP-4).
     ///
     /// ```
-    /// use homog::Point;
-    /// use viewport::PixelConvention;
-    /// let map = PixelConvention::CHAPTER.to(PixelConvention::IMAGE, 480.0)?;
-    /// // The centre of the lowest left pixel.
-    /// assert_eq!(map.point(Point::ORIGIN), Point::new(0.5, 479.5, 0.0));
-    /// # Ok::<(), viewport::ViewportError>(())
+    /// use homog::{PixelConvention, Point};
+    /// let map = PixelConvention::CHAPTER.convert_to(PixelConvention::IMAGE, 480.0)?;
+    /// // The center of the lowest left pixel.
+    /// assert_eq!(map.transform_point(Point::ORIGIN), Point::new(0.5, 479.5, 0.0));
+    /// # Ok::<(), homog::RemapError>(())
     /// ```
     ///
     /// # Errors
@@ -89,8 +90,11 @@ impl PixelConvention {
         self,
         other: Self,
         height: f64,
-    ) -> Result<Affine<Screen, Screen>, ViewportError> {
-        let height = check_positive("height", height)?;
+    ) -> Result<Affine<Screen, Screen>, RemapError> {
+        check_finite("height", height)?;
+        if height <= 0.0 {
+            return Err(RemapError::NotPositive { name: "height", value: height });
+        }
         let (from, to) = (self.centers.image_border(), other.centers.image_border());
         let (flip, y) =
             if self.y == other.y { (1.0, to - from) } else { (-1.0, height + to + from) };
