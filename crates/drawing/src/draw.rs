@@ -1,4 +1,10 @@
-//! From a scene to its line drawing.
+//! Drawing a subject: candidate edges, hatching, hidden-line removal, face fill.
+//!
+//! ```text
+//!   WeldedSurface ─► candidate edges ─┐
+//!               └──► hatch lines ─────┴─► EdgeDivider ─► visible and hidden segments
+//!               └──► occluders ───────────────┘
+//! ```
 
 use super::edges::{CandidateEdge, WeldedSurface};
 use super::face_fill::{KeyLight, rasterize_flat_fill};
@@ -11,10 +17,12 @@ use super::{EdgeClass, EdgeSegment, FaceFill, LineDrawing, Warning};
 use crate::{DrawError, Subject};
 use glam::DVec2;
 
-/// Draws the edges of a subject with up to `threads` threads. Their number does not change the drawing.
+/// Draws the edges of a subject with hidden-line removal, with up to `threads` threads.
+///
+/// The drawing does not depend on the number of threads.
 ///
 /// # Errors
-/// If the picture has no pixels.
+/// If the image has no pixels.
 pub fn draw(
     subject: &Subject<'_>,
     options: &DrawOptions,
@@ -59,7 +67,7 @@ pub fn draw(
     })
 }
 
-/// The hatching of caps, and that of all other faces if it is wanted.
+/// The hatching of section caps, and that of all other faces if the fill asks for it.
 fn hatch_surface(
     surface: &WeldedSurface,
     subject: &Subject<'_>,
@@ -82,14 +90,16 @@ fn hatch_surface(
     all
 }
 
+/// Divides edges into visible and hidden segments.
 struct EdgeDivider {
     projector: Projector,
     occluders: Occluders,
+    /// Whether hidden segments are part of the drawing.
     retains_hidden: bool,
 }
 
 impl EdgeDivider {
-    /// The pieces of all edges, in the order of the edges.
+    /// The segments of all edges, in the order of the edges.
     fn divide_edges(&self, edges: &[CandidateEdge], threads: usize) -> Vec<EdgeSegment> {
         map_in_order(edges.len(), threads, |range, scratch, lines| {
             for number in range {
@@ -98,7 +108,9 @@ impl EdgeDivider {
         })
     }
 
-    /// The pieces of an edge.
+    /// Pushes the visible segments of one edge, and the hidden ones if they are retained.
+    ///
+    /// Hatch lines are never drawn where they are hidden.
     fn divide_edge(
         &self,
         edge: &CandidateEdge,

@@ -1,8 +1,9 @@
-//! Tones of faces: how light each would be in a fixed light, for hatching and for flat tones under the lines.
+//! Flat shading of faces under the lines: a fixed key light, and a z-buffer image of flat colors.
 //!
-//! A flat tone is a picture, not a drawing: faces that overlap in a circle, or cross, cannot be painted one after the other in
-//! any order, and what is seen of each would have to be cut out. So the z-buffer paints them, finer than any screen shows, and
-//! the exact lines go over it.
+//! A flat fill is an image, not vector fills: faces that overlap cyclically, or intersect, cannot
+//! be painted in any order (the painter's algorithm fails), and their visible parts would have to
+//! be cut out. So a z-buffer resolves them, at a higher resolution than any screen, and the exact
+//! lines go over it.
 
 use super::options::DrawOptions;
 use super::projector::Projector;
@@ -16,20 +17,23 @@ use shade::Picture;
 use shade::color::SrgbEncoder;
 use viewport::Viewport;
 
-/// The light that is everywhere; the rest comes from the side.
+/// The fraction of ambient light; the key light adds the rest.
 const AMBIENT_LIGHT: f64 = 0.35;
 
-/// The longest side of a picture of tones in pixels.
+/// The longest side of a fill image in pixels.
 const MAX_FILL_SIDE: f64 = 8192.0;
 
-/// The light from above the viewer's left shoulder.
+/// A directional light from above the viewer's left shoulder, fixed to the camera.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct KeyLight {
+    /// The unit vector towards the light, in world space.
     direction: DVec3,
+    /// For the direction to the viewer: both sides of a face are lit as the visible one.
     sight: Projector,
 }
 
 impl KeyLight {
+    /// The key light of a camera.
     pub(super) fn new(view_projection: &ViewProjection, sight: Projector) -> Self {
         let towards = Vector::<View>::new(-0.5, 0.7, 0.6);
         let direction = view_projection
@@ -41,7 +45,8 @@ impl KeyLight {
         Self { direction, sight }
     }
 
-    /// The linear colour of a face whose surface has this one. Both of its sides are lit as the one that is seen.
+    /// The linear color of a face by Lambert's cosine law: base color · (ambient + (1 − ambient) ·
+    /// max(n·l, 0)).
     pub(super) fn shade_face(&self, [a, b, c]: [DVec3; 3], surface: [f32; 3]) -> [f32; 3] {
         let normal = (b - a).cross(c - a).normalize_or_zero();
         let normal = normal * normal.dot(self.sight.towards_viewer(a)).signum();
@@ -49,7 +54,11 @@ impl KeyLight {
         surface.map(|channel| (f64::from(channel) * light) as f32)
     }
 
-    /// How light such a face looks, from 0 for black to 1 for white.
+    /// The luma of the shaded face: Rec. 709 weights on sRGB-encoded channels, 0 for black and 1
+    /// for white.
+    ///
+    /// Hatching compares it with thresholds; encoded values are nearly uniform to the eye, linear
+    /// ones are not.
     pub(super) fn face_luma(&self, corners: [DVec3; 3], surface: [f32; 3]) -> f64 {
         let [r, g, b] = self.shade_face(corners, surface);
         let code = SrgbEncoder::shared().encode_pixel([r, g, b, 1.0]);
@@ -58,10 +67,11 @@ impl KeyLight {
     }
 }
 
-/// Faces painted in one tone each: a picture of what is seen of them, transparent where there is none.
+/// Renders faces in one flat color each: an image of their visible parts, transparent where there
+/// is none.
 ///
 /// # Errors
-/// If the picture cannot be made.
+/// If the image has no viewport, or there are more faces than ids.
 pub(super) fn rasterize_flat_fill(
     faces: impl Iterator<Item = ([DVec3; 3], [f32; 3])>,
     view_projection: &ViewProjection,

@@ -1,12 +1,19 @@
-//! Hatching: lines at equal distances on the paper, laid onto faces in the world.
+//! Hatching: parallel lines at equal distances on the paper, projected back onto faces (ISO
+//! 128-50).
 //!
 //! ```text
-//!    ╱╱╱╱╱╱│╲╲╲╲╲     A line of the paper is the image of a plane through the viewer: where that plane meets a face is a
-//!   ╱╱╱╱╱╱╱│╲╲╲╲╲     segment of the world, found by the signs of a linear function at the corners. It is an edge like
-//!   ───────┴──────    any other then: clipped, projected and divided into what is seen and what is hidden.
+//!    ╱╱╱╱╱╱│╲╲╲╲╲
+//!   ╱╱╱╱╱╱╱│╲╲╲╲╲     two faces, two directions
+//!   ───────┴──────
 //! ```
-//! Cut faces are hatched at 45° (ISO 128-50). Every part has its own direction or distance, the same wherever it is cut, so that
-//! neighbours differ.
+//!
+//! A line of the paper is the image of a plane through the viewer. Where that plane cuts a face is
+//! a segment of the world, found by the signs of a linear function at the vertices. From there on
+//! it is an edge like any other: clipped, projected, and divided by hidden-line removal.
+//!
+//! Section caps are hatched at 45°. Each part has a direction or a spacing of its own, the same
+//! wherever it is cut, so that neighbors differ. Faces under a
+//! [`FaceFill::Hatching`](crate::FaceFill) are hatched by luma: the darker, the denser.
 
 use super::hidden_line::Aabb;
 use super::projector::Projector;
@@ -14,10 +21,10 @@ use clip::{Volume, clip_triangle};
 use glam::{DVec2, DVec3, DVec4};
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// So many segments are made at most.
+/// The greatest number of segments of one hatching.
 const MAX_SEGMENTS: usize = 1 << 22;
 
-/// The distances that tell parts of one direction apart, in those of the first.
+/// The spacings that distinguish parts with the same direction, as multiples of the first.
 const SPACING_FACTORS: [f64; 4] = [1.0, 1.5, 0.75, 2.0];
 
 /// A family of parallel lines on the screen.
@@ -30,13 +37,14 @@ pub(super) struct HatchPattern {
 }
 
 impl HatchPattern {
-    /// Lines that rise to the right, or those that fall, under 45°.
+    /// Lines at 45° that rise to the right, or fall.
     pub(super) fn diagonal_lines(rises: bool, spacing: f64) -> Self {
         let normal = DVec2::new(if rises { 1.0 } else { -1.0 }, 1.0) * FRAC_1_SQRT_2;
         Self { normal, spacing }
     }
 
-    /// The pattern of a part by the number of its kind: directions in turn, then other distances.
+    /// The pattern of a part by the index of its kind: alternating directions first, then other
+    /// spacings.
     fn for_part(kind: usize, distance: f64) -> Self {
         Self::diagonal_lines(
             kind.is_multiple_of(2),
@@ -44,30 +52,33 @@ impl HatchPattern {
         )
     }
 
-    /// The number of the line at or after a place, and of the one at or before another.
+    /// The indices of the lines between two positions along the normal; line i is at i · spacing.
     fn line_range(&self, [from, to]: [f64; 2]) -> std::ops::RangeInclusive<i64> {
         // Casting cuts off at the ends of the range.
         libm::ceil(from / self.spacing) as i64..=libm::floor(to / self.spacing) as i64
     }
 
-    /// The function of homogeneous screen coordinates that is zero on a line.
+    /// The function of homogeneous screen coordinates (x, y, z, w) that is zero on a line: n·(x, y)
+    /// − i · spacing · w.
     fn line_function(&self, line: i64) -> DVec4 {
         let at = line as f64 * self.spacing;
         DVec4::new(self.normal.x, self.normal.y, 0.0, -at)
     }
 }
 
-/// The segments of hatching, and whether they are all.
+/// The hatch lines of some faces.
 #[derive(Debug, Default)]
 pub(super) struct Hatching {
-    /// The segments in the world, each with the object it lies on.
+    /// Segments in the world, each with the object it lies on.
     pub(super) segments: Vec<([DVec3; 2], u32)>,
-    /// Whether some are missing, for there were too many.
+    /// Whether segments are missing because there were too many.
     pub(super) is_cut_off: bool,
 }
 
 impl Hatching {
-    /// Hatches the caps of cuts: triangles by object and section, those of one object in a row.
+    /// Hatches section caps: triangles by object and section plane, those of one object in a row.
+    ///
+    /// Collinear segments of a cap's triangles are joined, so that the triangulation does not show.
     pub(super) fn hatch_caps(
         caps: &[(u32, Vec<[DVec3; 3]>)],
         sight: &Projector,
@@ -97,7 +108,8 @@ impl Hatching {
         hatching
     }
 
-    /// Hatches faces by their tones, from 0 for black to 1 for white: the darker, the closer; the darkest twice.
+    /// Hatches faces by their luma, 0 for black to 1 for white: the darker, the denser; the darkest
+    /// in both directions.
     pub(super) fn hatch_faces_by_luma(
         faces: impl Iterator<Item = ([DVec3; 3], u32, f64)>,
         sight: &Projector,
@@ -124,14 +136,16 @@ impl Hatching {
     }
 }
 
-/// Faces lighter than this are not hatched.
+/// Faces with a higher luma are not hatched.
 const MAX_HATCHED_LUMA: f64 = 0.88;
 
-/// Faces darker than this are hatched across as well.
+/// Faces with a lower luma are cross-hatched.
 const MAX_CROSS_HATCHED_LUMA: f64 = 0.4;
 
-/// Of the lightest tone that is hatched, how light a face may be for a line to be drawn on it: every fourth line goes first, then
-/// every second. So the lines of faces that meet go on into each other.
+/// The factor of the luma limit below which a face gets a line: every fourth line comes first, then
+/// every second.
+///
+/// The densities are nested, so lines of adjacent faces continue each other.
 fn line_luma_factor(line: i64) -> f64 {
     match line & 3 {
         0 => 1.0,
@@ -140,7 +154,7 @@ fn line_luma_factor(line: i64) -> f64 {
     }
 }
 
-/// A number for each object with caps, such that those that may touch have different ones: the least that is left.
+/// A pattern index for each cap: greedy coloring such that objects whose caps may touch differ.
 fn assign_cap_patterns(caps: &[(u32, Vec<[DVec3; 3]>)], touching: f64) -> Vec<usize> {
     let boxed = |triangles: &Vec<[DVec3; 3]>| {
         Aabb::from_points(triangles.iter().flatten().copied()).expanded_by(DVec3::splat(touching))
@@ -166,7 +180,11 @@ fn assign_cap_patterns(caps: &[(u32, Vec<[DVec3; 3]>)], touching: f64) -> Vec<us
     caps.iter().map(|(object, _)| kind(*object).map_or(0, |(.., kind)| *kind)).collect()
 }
 
-/// Where lines meet a triangle: their numbers and the segments in the world.
+/// Calls `found` with the index and the segment in the world of each line that crosses a triangle.
+///
+/// Only lines that `is_drawn` accepts, and only those between the extremes of the clipped triangle
+/// on the screen, are computed. The segments themselves reach over the unclipped triangle;
+/// hidden-line removal clips them.
 fn hatch_triangle(
     corners: [DVec3; 3],
     sight: &Projector,
@@ -193,7 +211,8 @@ fn hatch_triangle(
     }
 }
 
-/// The segment of a triangle where a linear function with these values at its corners is zero.
+/// The segment of a triangle where a linear function with these vertex values is zero; `None` if it
+/// is empty or a point.
 fn zero_segment(corners: [DVec3; 3], heights: [f64; 3]) -> Option<[DVec3; 2]> {
     let mut ends = [None; 2];
     for k in 0..3 {
@@ -211,7 +230,8 @@ fn zero_segment(corners: [DVec3; 3], heights: [f64; 3]) -> Option<[DVec3; 2]> {
     (a != b && a.is_finite() && b.is_finite()).then_some([a, b])
 }
 
-/// The segments of one plane with those joined that go on into each other on the same line.
+/// Joins segments of one plane that continue each other on the same hatch line, up to a gap of
+/// `touching`.
 fn join_collinear_segments(mut found: Vec<(i64, [DVec3; 2])>, touching: f64) -> Vec<[DVec3; 2]> {
     found.sort_by_key(|(line, _)| *line);
     let mut segments: Vec<[DVec3; 2]> = Vec::new();

@@ -1,53 +1,60 @@
-//! Each line once: where pieces lie on each other, only the most important is drawn.
+//! Overlap removal: of collinear segments that cover each other, only the most important is drawn.
 //!
 //! ```text
 //!   visible  ├────────┤                     ├────────┤
 //!   hidden       ├────────────┤      ─►              ├────┤
-//!   hidden                ├───────┤                       ├──┤   one piece with the one before, if of one object
+//!   hidden                ├───────┤                       ├──┤   merged with the one before
 //! ```
-//! In a front view the edges of the back run exactly behind those of the front; drawn twice they would be darker, and their
-//! dashes would fill each other's gaps. The order of importance is that of technical drawing: visible lines go before hidden ones
-//! (ISO 128-2). Pieces of one object and layer that continue each other become one.
+//!
+//! In a front view the edges of the back run exactly behind those of the front. Drawn twice they
+//! would be darker, and their dashes would fill each other's gaps. Precedence is that of technical
+//! drawing: visible lines before hidden ones (ISO 128-2). Adjacent segments of one object and layer
+//! are merged.
+//!
+//! Segments are grouped by their supporting line, rounded to a grid; the cost is that of sorting,
+//! O(n log n).
 
 use glam::DVec2;
 use std::collections::BTreeMap;
 
-/// A straight piece of a line on the page, in millimetres.
+/// A straight segment on the page, in millimeters.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct PageSegment {
     pub(super) ends: [DVec2; 2],
-    /// The layer, the most important first.
+    /// The layer; lower ones are more important.
     pub(super) layer: u32,
     /// The object it belongs to.
     pub(super) object: u32,
 }
 
-/// Pieces nearer to each other than this are one, in millimetres. It is the size of a step of the page's grid.
+/// Segments nearer than this, in millimeters, coincide: one step of the page's grid.
 const GRID_STEP: f64 = 1e-3;
 
-/// Slopes that differ by less are one: over the longest sheet, 1.2 m, that is less than a step.
+/// Slopes that differ by less coincide: over the longest sheet, 1.2 m, the difference is less than
+/// a grid step.
 const SLOPE_STEP: f64 = 0.5e-6;
 
-/// What is shorter, in millimetres, is left alone: its direction says too little.
+/// A shorter segment, in millimeters, is left as it is: its direction is too uncertain.
 const MIN_LENGTH: f64 = 0.02;
 
-/// A piece on its supporting line: from `start` to `end` along the axis the line runs along.
+/// A segment on its supporting line: from `from` to `to` along the dominant axis.
 #[derive(Clone, Copy, Debug)]
 struct LineInterval {
     layer: u32,
     object: u32,
-    /// Where the piece stands in the input.
+    /// The position of the segment in the input, which the output restores.
     input_index: usize,
     ends: [DVec2; 2],
     from: f64,
     to: f64,
 }
 
-/// The supporting line, rounded so that pieces of one line share it: whether it is steep, its slope, where it meets the axis.
+/// A supporting line rounded to a grid, so that collinear segments share it: steepness, slope,
+/// intercept.
 type SupportLine = (bool, i64, i64);
 
-/// Removes what is covered by something more important, and joins what continues each other. The result is in the order of the
-/// input.
+/// Removes what more important segments cover, and merges adjacent segments; the result is in the
+/// order of the input.
 pub(super) fn remove_overlaps(pieces: &[PageSegment]) -> Vec<PageSegment> {
     let center = bounds_center(pieces);
     let mut retained: Vec<(usize, PageSegment)> = Vec::with_capacity(pieces.len());
@@ -78,7 +85,7 @@ pub(super) fn remove_overlaps(pieces: &[PageSegment]) -> Vec<PageSegment> {
     retained.into_iter().map(|(_, piece)| piece).collect()
 }
 
-/// A middle of everything, about which errors of slope count least.
+/// The center of all segments, about which rounding of slopes matters least.
 fn bounds_center(pieces: &[PageSegment]) -> DVec2 {
     let bounds = |f: fn(DVec2, DVec2) -> DVec2, start: f64| {
         pieces.iter().flat_map(|piece| piece.ends).fold(DVec2::splat(start), f)
@@ -88,7 +95,8 @@ fn bounds_center(pieces: &[PageSegment]) -> DVec2 {
     if middle.is_finite() { middle } else { DVec2::ZERO }
 }
 
-/// The line that carries a piece, and from where to where the piece goes on it.
+/// The supporting line of a segment, and its interval on it; `None` for segments without a clear
+/// direction.
 fn support_line(piece: &PageSegment, centre: DVec2) -> Option<(SupportLine, f64, f64, [DVec2; 2])> {
     let [a, b] = piece.ends.map(|end| end - centre);
     let along = b - a;
@@ -109,7 +117,10 @@ fn support_line(piece: &PageSegment, centre: DVec2) -> Option<(SupportLine, f64,
     Some((support, from.min(to), from.max(to), ends))
 }
 
-/// The parts of one line's spans, sorted by importance and then along the line, that nothing before them covers.
+/// Pushes the parts of one line's intervals that no more important interval covers.
+///
+/// Intervals come sorted by importance and then along the line. All of one importance are merged
+/// and compared with those before, then they cover in turn.
 fn push_uncovered_segments(
     line: &[(SupportLine, LineInterval)],
     kept: &mut Vec<(usize, PageSegment)>,
@@ -122,18 +133,19 @@ fn push_uncovered_segments(
     }
 }
 
-/// The covered parts of a line by their beginnings; none touches another.
+/// The covered parts of a line by their starts; no two touch.
 #[derive(Default)]
 struct CoveredIntervals(BTreeMap<i64, LineInterval>);
 
-/// A whole number that is ordered as the number is.
+/// An integer that is ordered as the number is (IEEE 754 total order), so that it can be a key of a
+/// map.
 fn total_order_key(number: f64) -> i64 {
     let bits = number.to_bits() as i64;
     bits ^ (((bits >> 63) as u64) >> 1) as i64
 }
 
 impl CoveredIntervals {
-    /// Covers a span too.
+    /// Adds an interval, merged with those it touches.
     fn cover_interval(&mut self, mut span: LineInterval) {
         while let Some((&at, last)) =
             self.0.range(..=total_order_key(span.to + GRID_STEP)).next_back()
@@ -152,7 +164,7 @@ impl CoveredIntervals {
         self.0.insert(total_order_key(span.from), span);
     }
 
-    /// Keeps what of a span is beside all that is covered.
+    /// Pushes the parts of an interval that are not covered and longer than two grid steps.
     fn push_uncovered_parts(&self, span: &LineInterval, kept: &mut Vec<(usize, PageSegment)>) {
         let mut rest = *span;
         let mut keep = |from: f64, to: f64, ends| {
@@ -171,7 +183,7 @@ impl CoveredIntervals {
     }
 }
 
-/// Spans in order of their beginnings, those that touch made one.
+/// Merges intervals that touch; they come in order of their starts.
 fn merge_touching(spans: impl Iterator<Item = LineInterval>) -> Vec<LineInterval> {
     let mut joined: Vec<LineInterval> = Vec::new();
     for span in spans {

@@ -1,13 +1,15 @@
-//! Overlays: what a lesson draws into a picture to explain it.
+//! Overlays: axes, ground grid, horizon, vanishing points and view volumes, drawn over a picture.
 //!
 //! ```text
 //!    ──────────●─ · ─ · ─ horizon ─ · ─ · ─●──     axes of the world, a grid on the ground,
 //!              V  ╲  ╲             ╱   ╱   V       the horizon, vanishing points with the lines
-//!               x   ╲ ┌───────────┐ ╱       z      that run to them, and what another camera sees
-//!                     │           │
+//!               x   ╲ ┌───────────┐ ╱       z      that run to them, the view volume of another
+//!                     │           │                camera
 //! ```
-//! Axes, grid and view volume stand in the world, and the models hide them; the others are drawn on the picture. What is behind the
-//! eye is cut off before the divide; the near and the far plane do not count.
+//!
+//! Axes, grid and view volume stand in the world, and the models hide them; horizon and vanishing
+//! points are drawn on the picture plane. What is behind the eye is clipped before the divide; the
+//! near and the far plane do not clip.
 
 mod perspective;
 mod view_volume;
@@ -24,20 +26,22 @@ use camera::ViewProjection;
 use glam::{DMat4, DVec2, DVec3, DVec4};
 use homog::{Bounds, Clip, Point, Projective, Vector, World};
 
-/// Something drawn over a picture.
+/// Something drawn over a picture to explain it.
 #[derive(Clone, Debug)]
 pub enum Overlay {
-    /// The axes of the world from its origin, of this length; `None` for one that goes with the models.
+    /// The axes of the world from its origin, of this length; `None` for a length relative to the
+    /// models.
     Axes(Option<f64>),
-    /// A grid on the ground, y = 0, with this distance of its lines; `None` for a round one that goes with the models.
+    /// A grid on the ground, y = 0, with this spacing; `None` for a round one relative to the
+    /// models.
     Grid(Option<f64>),
-    /// Where horizontal directions vanish.
+    /// The vanishing line of horizontal planes.
     Horizon,
-    /// Where the axes vanish, with lines from the corners of the box around the models.
+    /// The vanishing points of the axes, with lines from the corners of the models' bounding box.
     VanishingPoints,
-    /// What another camera sees: its view volume, and the eye.
+    /// The view volume of another camera, with its eye.
     Volume(Box<ViewProjection>),
-    /// The edges of the surfaces, where they can be seen; line drawings have them anyway.
+    /// The visible feature edges of the surfaces; line drawings have them anyway.
     Edges,
 }
 
@@ -47,7 +51,7 @@ const BLUE: Ink = [26, 86, 176];
 const GRAY: Ink = [150, 156, 163];
 const BROWN: Ink = [140, 90, 20];
 
-/// The axes of the world, their names and their colours.
+/// The axes of the world, their names and their colors.
 const AXES: [(Vector<World>, &str, Ink); 3] =
     [(Vector::X, "x", RED), (Vector::Y, "y", GREEN), (Vector::Z, "z", BLUE)];
 
@@ -87,25 +91,26 @@ pub fn overlay_layers(
     layers.filter(|layer| layer.groups.iter().any(|group| !group.strokes.is_empty())).collect()
 }
 
-/// The picture as a sheet of glass before the eye, on which one draws.
+/// The picture plane: projects points, directions and lines of the world to the page.
 struct PicturePlane {
     world_to_clip: Projective<World, Clip>,
-    /// Half the width and height of the page in millimetres.
+    /// Half the width and height of the page in millimeters.
     half: DVec2,
-    /// The box around the models.
+    /// The bounding box of the models.
     bounds: Bounds<World>,
-    /// What hides; `None` if one sees through everything.
+    /// The faces that hide overlays; `None` if none do.
     occluders: Option<Occluders>,
 }
 
-/// The parts of lines that can be seen, and those that cannot.
+/// The visible and the hidden parts of lines, on the page.
 #[derive(Default)]
 struct DividedStrokes {
     visible: Vec<Polyline>,
     hidden: Vec<Polyline>,
 }
 
-/// How much farther than the depths of the models one sees, before and behind them.
+/// The factor by which the depth range around the models is extended, so that overlays are not
+/// clipped in depth.
 const DEPTH_RANGE_FACTOR: f64 = 1000.0;
 
 impl PicturePlane {
@@ -121,23 +126,26 @@ impl PicturePlane {
         })
     }
 
-    /// The image of a place: x and y before the divide, and w.
+    /// The image of a point: x, y and w of its clip coordinates.
     fn project_point(&self, place: Point<World>) -> DVec3 {
         drop_depth(self.world_to_clip.transform_point(place).raw())
     }
 
-    /// The image of a direction, w not negative.
+    /// The image of a direction, a vanishing point with w ≥ 0.
     fn project_direction(&self, direction: Vector<World>) -> DVec3 {
         let image = drop_depth(self.world_to_clip.transform_direction(direction).raw());
         if image.z < 0.0 { -image } else { image }
     }
 
-    /// Where a place after the divide is on the page.
+    /// From normalized device coordinates to millimeters of the page.
     fn ndc_to_page(&self, ndc: DVec2) -> DVec2 {
         self.half + DVec2::new(ndc.x, -ndc.y) * self.half
     }
 
-    /// The part of a segment that is in the picture, on the page.
+    /// Clips a homogeneous segment to the picture, divides, and maps it to the page.
+    ///
+    /// The four planes w ± x ≥ 0, w ± y ≥ 0 imply w ≥ 0, so nothing behind the eye is divided
+    /// (Liang–Barsky in homogeneous coordinates).
     fn clip_to_picture(&self, a: DVec3, b: DVec3) -> Option<[DVec2; 2]> {
         let (mut from, mut to) = (0.0_f64, 1.0_f64);
         for side in [DVec3::X, -DVec3::X, DVec3::Y, -DVec3::Y] {
@@ -158,7 +166,7 @@ impl PicturePlane {
         if from < to { Some([at(from)?, at(to)?]) } else { None }
     }
 
-    /// A line of the world as strokes.
+    /// Divides a line of the world into visible and hidden strokes.
     fn divide_line(&self, from: Point<World>, to: Point<World>, strokes: &mut DividedStrokes) {
         let stroke = |[a, b]: [f64; 2]| {
             let [a, b] = [a, b].map(|t| self.project_point(from.lerp(to, t)));
@@ -172,12 +180,13 @@ impl PicturePlane {
         strokes.hidden.extend(parts.hidden.into_iter().filter_map(stroke));
     }
 
-    /// Where a place is on the page, if it is in the picture.
+    /// The position of a homogeneous point on the page, if it is within the picture.
     fn point_in_picture(&self, image: DVec3) -> Option<DVec2> {
         let inside = image.z > 0.0 && image.x.abs() <= image.z && image.y.abs() <= image.z;
         inside.then(|| self.ndc_to_page(image.truncate() / image.z))
     }
 
+    /// The three axes of the world.
     fn axes_layers(&self, length: Option<f64>) -> Vec<Layer> {
         let reach = self.bounds.diagonal();
         let length = length.unwrap_or(if reach > 0.0 { 0.6 * reach } else { 1.0 });
@@ -186,7 +195,7 @@ impl PicturePlane {
             .collect()
     }
 
-    /// The line in its visible and its hidden parts, and its arrowhead with its name.
+    /// One axis: its visible and its hidden part, and its arrowhead with its name.
     fn axis_layers(&self, reach: Vector<World>, name: &str, ink: Ink) -> [Layer; 3] {
         let tip = Point::ORIGIN + reach;
         let [visible, hidden] =
@@ -220,6 +229,7 @@ impl PicturePlane {
         [visible, hidden]
     }
 
+    /// The ground grid under the models, one cell larger than their bounding box on each side.
     fn grid_layers(&self, step: Option<f64>) -> Vec<Layer> {
         let (min, max) = (self.bounds.min(), self.bounds.max());
         let size = (max.x() - min.x()).max(max.z() - min.z()).max(self.bounds.diagonal() * 0.1);
@@ -242,7 +252,7 @@ impl PicturePlane {
     }
 }
 
-/// The faces of the models, unless the scene is drawn as if they were of glass.
+/// The faces of the models as occluders, unless the style draws hidden lines like visible ones.
 fn model_occluders(subject: &Subject<'_>, hidden: HiddenLines) -> Option<Occluders> {
     if hidden == HiddenLines::Drawn {
         return None;
@@ -257,23 +267,25 @@ fn model_occluders(subject: &Subject<'_>, hidden: HiddenLines) -> Option<Occlude
     Some(Occluders::new(surface.occluder_triangles(), sight, surface.touch_tolerance()))
 }
 
-/// x, y and w.
+/// The components x, y and w.
 fn drop_depth(image: DVec4) -> DVec3 {
     DVec3::new(image.x, image.y, image.w)
 }
 
+/// An empty layer with the pen of overlays.
 fn overlay_layer(id: &str, title: &str, ink: Ink) -> Layer {
     Layer::new(id, title, Pen { cap: Cap::Butt, ..Pen::solid(LINE_WIDTH, ink) })
 }
 
-/// An arrowhead whose tip is at a place, for a line that comes along a direction.
+/// An arrowhead with this tip, at the end of a line in direction `along`.
 fn arrowhead(tip: DVec2, along: DVec2) -> Option<Polyline> {
     let across = DVec2::new(-along.y, along.x) * (ARROW_LENGTH / 6.0);
     let base = tip - along * ARROW_LENGTH;
     Polyline::through_points(&[tip, base + across, base - across], true)
 }
 
-/// The greatest of 1, 2 and 5 times a power of ten that is no longer than this.
+/// The greatest length of the form 1, 2 or 5 · 10ⁿ that is not above `most`; 1 if that is not
+/// positive.
 fn round_grid_step(most: f64) -> f64 {
     if !(most > 0.0 && most.is_finite()) {
         return 1.0;

@@ -1,7 +1,8 @@
-//! SVG: a page as Scalable Vector Graphics, in millimetres.
+//! SVG output: a page as Scalable Vector Graphics 1.1, in millimeters.
 //!
-//! A layer is a group with its pen, an object a group in it with one path; both have ids and titles. Paths go by relative steps of
-//! whole micrometres, so they are short, and their sums are exact.
+//! A layer is a `<g>` with its pen as attributes, an object a `<g>` in it with one path; both have
+//! ids and titles. Path data use relative commands (`m`, `l`, `h`, `v`) with steps of whole
+//! micrometers: they are short, and their sums are exact.
 
 use super::fixed_decimal::{format_millimeters, format_thousandths, write_thousandths};
 use super::page::{Cap, Group, Ink, Join, Layer, Page, PagePoint, Pen, PlacedImage, Polyline};
@@ -10,7 +11,7 @@ use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write;
 
 impl Page {
-    /// The page as an SVG file.
+    /// The page as the text of an SVG file.
     #[must_use]
     pub fn to_svg(&self) -> String {
         let [width, height] = self.size.to_array().map(format_millimeters);
@@ -36,7 +37,7 @@ impl Page {
     }
 }
 
-/// A picture, within the file.
+/// Writes an image element with its pixels as an embedded PNG.
 fn write_image(svg: &mut String, pasted: &PlacedImage) {
     let [x, y, width, height] =
         [pasted.corner[0], pasted.corner[1], pasted.size[0], pasted.size[1]]
@@ -51,6 +52,7 @@ fn write_image(svg: &mut String, pasted: &PlacedImage) {
     *svg += "\"/>\n";
 }
 
+/// Writes a layer as a group, with a group in it for each object.
 fn write_layer(svg: &mut String, layer: &Layer) {
     let id = escape_xml(&layer.id);
     let _ = write!(
@@ -74,6 +76,10 @@ fn write_layer(svg: &mut String, layer: &Layer) {
     *svg += "</g>\n";
 }
 
+/// Writes the strokes and fills of a group: one path for all continuous strokes, one for each
+/// dashed stroke.
+///
+/// A dashed stroke has a dash pattern of its own, which fits its length.
 fn write_paths(svg: &mut String, group: &Group, pen: &Pen) {
     let (dashed, whole): (Vec<_>, Vec<_>) = group
         .strokes
@@ -98,7 +104,7 @@ fn write_paths(svg: &mut String, group: &Group, pen: &Pen) {
     }
 }
 
-/// What a pen is in the words of SVG; what is SVG's own default is left out.
+/// The presentation attributes of a pen; defaults of SVG are left out.
 fn pen_attributes(pen: &Pen) -> String {
     let mut words = format!(
         "fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"",
@@ -118,7 +124,7 @@ fn pen_attributes(pen: &Pen) -> String {
     words
 }
 
-/// A colour as `#rrggbb`, or `#rgb` where that says the same.
+/// A color as `#rrggbb`, or as `#rgb` where that is the same.
 fn css_color([r, g, b]: Ink) -> String {
     if [r, g, b].iter().all(|c| c % 17 == 0) {
         return format!("#{:x}{:x}{:x}", r / 17, g / 17, b / 17);
@@ -126,7 +132,7 @@ fn css_color([r, g, b]: Ink) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// The `d` of a path through all these lines.
+/// The `d` attribute of a path through all these lines.
 fn path_data<'a>(lines: impl IntoIterator<Item = &'a Polyline>) -> String {
     let mut path = PathWriter { out: Vec::new(), position: [0, 0], has_started: false };
     for line in lines {
@@ -135,14 +141,17 @@ fn path_data<'a>(lines: impl IntoIterator<Item = &'a Polyline>) -> String {
     String::from_utf8_lossy(&path.out).into_owned()
 }
 
-/// A path being written.
+/// Path data under construction.
 struct PathWriter {
     out: Vec<u8>,
+    /// The current point in micrometers.
     position: PagePoint,
+    /// Whether a `M` command was written; the first one is absolute.
     has_started: bool,
 }
 
 impl PathWriter {
+    /// Appends a subpath.
     fn push_polyline(&mut self, line: &Polyline) {
         let [start, rest @ ..] = line.points.as_slice() else { return };
         self.out.push(if self.has_started { b'm' } else { b'M' });
@@ -158,7 +167,8 @@ impl PathWriter {
         }
     }
 
-    /// A straight line to a place, and the command that was used; a command that is the same as the one before is not repeated.
+    /// Appends a straight line with the shortest command, and returns it; a repeated command letter
+    /// is omitted.
     fn push_line_to(&mut self, to: PagePoint, last: u8) -> u8 {
         let (dx, dy) = (self.relative_step(0, to), self.relative_step(1, to));
         let command = match (dx, dy) {
@@ -180,15 +190,18 @@ impl PathWriter {
         command
     }
 
+    /// The step along one axis from the current point.
     fn relative_step(&self, axis: usize, to: PagePoint) -> i64 {
         i64::from(to[axis]) - i64::from(self.position[axis])
     }
 
+    /// Appends the coordinates of a move.
     fn push_move_to(&mut self, to: PagePoint) {
         self.push_pair(self.relative_step(0, to), self.relative_step(1, to));
         self.position = to;
     }
 
+    /// Appends two numbers; a minus sign separates as well as a space.
     fn push_pair(&mut self, x: i64, y: i64) {
         write_thousandths(&mut self.out, x);
         if y >= 0 {

@@ -1,8 +1,14 @@
-//! The self-check: a drawing against the z-buffer image of the same scene.
+//! Verification of a line drawing against the z-buffer image of the same scene.
 //!
-//! The two have the welded surfaces and the stages up to clip space in common and nothing after: here is rounding to a grid,
-//! coverage of samples and a depth for each pixel, there are crossings of lines. Where a line is drawn as visible, the z-buffer must show, within half
-//! a pixel, something that is not in front of it: the face beside the edge, one behind it, or nothing.
+//! The two share the welded surface and the stages up to clip space, and nothing after: on one side
+//! rounding to a grid, coverage of samples and a depth for each pixel, on the other intersections
+//! of lines. Where a segment is drawn as visible, the z-buffer must show, within half a pixel,
+//! something that is not in front of it: the face at the edge, one behind it, or nothing.
+//!
+//! ```text
+//!   drawing       ●───────●───────●   points half a pixel apart
+//!   z-buffer  ▓▓▓▓░░░░░░░░░░░░▒▒▒▒    ids of the nearest faces, at 4 × the resolution
+//! ```
 
 use super::LineDrawing;
 use super::edges::WeldedSurface;
@@ -17,29 +23,29 @@ use viewport::Viewport;
 /// The longest side of the z-buffer image in pixels.
 const MAX_Z_BUFFER_SIDE: u32 = 8192;
 
-/// How much finer than the drawing the z-buffer image is, if it may be.
+/// Pixels of the z-buffer image for each pixel of the drawing, if its side allows it.
 const SUPERSAMPLING: u32 = 4;
 
-/// How far from the edge the z-buffer may show it, in pixels of the drawing.
+/// The distance from a point at which the z-buffer may show it, in pixels of the drawing.
 const SEARCH_RADIUS: f64 = 0.5;
 
-/// How well a drawing agrees with the z-buffer image: lengths on the screen in pixels.
+/// The agreement of a drawing with the z-buffer image: lengths on the screen in pixels.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Agreement {
-    /// The length of all visible lines.
+    /// The length of all visible segments.
     pub visible_length: f64,
-    /// The length of those of them that the z-buffer hides.
+    /// The length of visible segments that the z-buffer hides.
     pub denied_length: f64,
-    /// The length of all hidden lines in the drawing.
+    /// The length of all hidden segments of the drawing.
     pub hidden_length: f64,
-    /// The length of those of them that the z-buffer shows.
+    /// The length of hidden segments that the z-buffer shows.
     pub contradicted_length: f64,
-    /// Where visible lines are denied: by the line's place in the drawing, the length.
+    /// Visible segments with a denied part: their indices, and the length of that part.
     pub denied_segments: Vec<(usize, f64)>,
 }
 
 impl Agreement {
-    /// The share of the visible length that the z-buffer hides.
+    /// The fraction of the visible length that the z-buffer hides.
     #[must_use]
     pub fn disagreement_ratio(&self) -> f64 {
         if self.visible_length > 0.0 { self.denied_length / self.visible_length } else { 0.0 }
@@ -49,7 +55,7 @@ impl Agreement {
 /// Compares a drawing with the z-buffer image of its scene, at points half a pixel apart.
 ///
 /// # Errors
-/// If the picture has no pixels or is larger than can be drawn.
+/// If the image has no pixels or is larger than a z-buffer may be.
 pub fn verify_with_z_buffer(
     subject: &Subject<'_>,
     drawing: &LineDrawing,
@@ -84,21 +90,22 @@ pub fn verify_with_z_buffer(
     Ok(agreement)
 }
 
-/// Which face is seen in each pixel.
+/// The face that is visible in each pixel, at a multiple of the drawing's resolution.
 struct ZBufferImage {
     width: i64,
     height: i64,
-    /// Pixels to a pixel of the drawing.
+    /// Pixels for each pixel of the drawing.
     scale: f64,
     ids: Vec<Option<u32>>,
+    /// The planes of the faces by id.
     planes: Vec<FacePlane>,
-    /// From places of the drawing and their depths to the world.
+    /// From points of the drawing with their depth to the world.
     to_world: DMat4,
-    /// How near is touching, in lengths of the world.
+    /// The distance below which a point lies in a plane, in world units.
     touching: f64,
 }
 
-/// The plane of a face: the normal towards the viewer, and its distance from the origin along it.
+/// The plane of a face: the normal towards the viewer, and the distance from the origin along it.
 #[derive(Clone, Copy, Debug)]
 struct FacePlane {
     normal: DVec3,
@@ -106,6 +113,7 @@ struct FacePlane {
 }
 
 impl FacePlane {
+    /// The plane of a triangle, oriented towards the viewer.
     fn from_triangle([a, b, c]: [DVec3; 3], sight: &Projector) -> Self {
         let normal = (b - a).cross(c - a).normalize_or_zero();
         let normal = normal * normal.dot(sight.towards_viewer(a)).signum();
@@ -114,6 +122,7 @@ impl FacePlane {
 }
 
 impl ZBufferImage {
+    /// Rasterizes the welded surface of a subject.
     fn rasterize_subject(subject: &Subject<'_>) -> Result<Self, DrawError> {
         let [width, height] = subject.size;
         let drawing_projector = Projector::new(&subject.view_projection, &subject.viewport()?);
@@ -149,30 +158,32 @@ impl ZBufferImage {
         })
     }
 
-    /// Whether something that is not in front of a point is seen near it.
+    /// Whether something that is not in front of a point is visible near it.
     fn shows_point(&self, place: DVec2, depth: f64) -> bool {
         let at = self.unproject_point(place, depth);
         self.face_ids_near(place).any(|id| id.is_none_or(|id| !self.is_face_in_front(id, at)))
     }
 
-    /// Whether something in front of a point is seen near it.
+    /// Whether something in front of a point is visible near it.
     fn hides_point(&self, place: DVec2, depth: f64) -> bool {
         let at = self.unproject_point(place, depth);
         self.face_ids_near(place).any(|id| id.is_some_and(|id| self.is_face_in_front(id, at)))
     }
 
+    /// A point of the drawing with its depth in world space.
     fn unproject_point(&self, place: DVec2, depth: f64) -> DVec3 {
         let at = self.to_world * place.extend(depth).extend(1.0);
         at.truncate() / at.w
     }
 
-    /// Whether the plane of a face is in front of a point.
+    /// Whether the plane of a face is in front of a point, by more than a touching distance.
     fn is_face_in_front(&self, id: u32, at: DVec3) -> bool {
         let FacePlane { normal, offset } = self.planes[id as usize];
         normal.dot(at) - offset < -self.touching
     }
 
-    /// What is seen within [`NEAR`] of a place of the drawing, which is nothing where there is no face.
+    /// The ids in the pixels within [`SEARCH_RADIUS`] of a point of the drawing; `None` where there
+    /// is no face.
     fn face_ids_near(&self, place: DVec2) -> impl Iterator<Item = Option<u32>> {
         let at = place * self.scale;
         let reach = SEARCH_RADIUS * self.scale;

@@ -1,4 +1,16 @@
-//! Why an edge is drawn: what the faces on its two sides do there.
+//! Classification of edges: silhouette, boundary, crease, tangent, facet, marked or section.
+//!
+//! ```text
+//!       silhouette          crease               boundary         tangent
+//!       n·v > 0 > m·v       angle(n, m) > crease one face         materials differ
+//!         ╲ n               ╲n ╱m                │n               n│m
+//!       ───●                 ──●──               ─●               ─●─
+//!          │ m
+//! ```
+//!
+//! The test for silhouettes is the sign of n·v in object space, which is exact for perspective and
+//! parallel projection alike; on the screen it would be the sign of a difference of rounded
+//! products.
 
 use super::half_edges::HalfEdge;
 use super::world_mesh::{Face, WorldMesh};
@@ -7,11 +19,12 @@ use crate::{DrawOptions, EdgeClass};
 use glam::DVec3;
 use model::EdgeVisibility;
 
-/// Of each face the unit normal, and whether it looks to the viewer.
+/// The unit normal of each face, and whether the face is front-facing.
 #[derive(Clone, Debug)]
 struct FaceNormals(Vec<(DVec3, bool)>);
 
 impl FaceNormals {
+    /// Computes normals, and their signs towards the viewer, for all faces.
     fn new(shape: &WorldMesh, sight: &Projector) -> Self {
         let normal = |face: &Face| {
             let [a, b, c] = face.vertices.map(|corner| shape.points[corner as usize]);
@@ -21,16 +34,20 @@ impl FaceNormals {
         Self(shape.faces.iter().map(normal).collect())
     }
 
-    /// The normal and the look of a side's face, as if it ran along the rising edge.
+    /// The normal and facing of the face at a half-edge, flipped where the half-edge runs backward.
+    ///
+    /// Seen along the edge from its lower to its higher end, the faces at both sides then need no
+    /// common orientation: meshes with inconsistent winding classify like others.
     fn normal_along(&self, side: HalfEdge) -> (DVec3, bool) {
         let (normal, looks) = self.0[side.face as usize];
         if side.is_forward { (normal, looks) } else { (-normal, !looks) }
     }
 }
 
+/// Names the class of each edge for one viewer.
 pub(super) struct EdgeClassifier<'a> {
     faces: &'a [Face],
-    /// The edges that sections made, sorted.
+    /// The edges that section planes made, sorted.
     section_edges: &'a [[u32; 2]],
     normals: FaceNormals,
     /// The cosine of the crease angle.
@@ -38,6 +55,7 @@ pub(super) struct EdgeClassifier<'a> {
 }
 
 impl<'a> EdgeClassifier<'a> {
+    /// A classifier of a mesh's edges for a viewer and its crease angle.
     pub(super) fn new(shape: &'a WorldMesh, sight: &Projector, options: &DrawOptions) -> Self {
         let normals = FaceNormals::new(shape, sight);
         Self {
@@ -48,15 +66,18 @@ impl<'a> EdgeClassifier<'a> {
         }
     }
 
+    /// The face at a half-edge.
     fn face_of_half_edge(&self, side: HalfEdge) -> &Face {
         &self.faces[side.face as usize]
     }
 
-    /// The first of the objects that meet at an edge.
+    /// The lowest index of the objects that meet at an edge: the edge is drawn as a part of that
+    /// one.
     pub(super) fn lowest_object(&self, sides: &[HalfEdge]) -> u32 {
         sides.iter().map(|&side| self.face_of_half_edge(side).object).min().unwrap_or(0)
     }
 
+    /// The class of an edge: section, then what the file says, then the geometry.
     pub(super) fn classify_edge(&self, ends: [u32; 2], sides: &[HalfEdge]) -> EdgeClass {
         if self.section_edges.binary_search(&ends).is_ok() {
             return EdgeClass::Section;
@@ -73,7 +94,12 @@ impl<'a> EdgeClassifier<'a> {
         }
     }
 
-    /// The class by the shape alone: the strongest that any object has there. Borders of two objects make a pair.
+    /// The class by the faces alone: the strongest that any object has at the edge.
+    ///
+    /// With two half-edges it is the class between their faces. With more, each object is judged
+    /// for itself: two of its faces make a pair, three or more a crease, one is unpaired. Two
+    /// unpaired faces of different objects are a pair as well, so that a body modeled in several
+    /// objects has no boundaries inside.
     fn class_by_geometry(&self, sides: &[HalfEdge]) -> EdgeClass {
         if let &[one, other] = sides {
             return self.class_between(one, other);
@@ -102,7 +128,8 @@ impl<'a> EdgeClassifier<'a> {
         }
     }
 
-    /// The class of an edge between two faces.
+    /// The class of the edge between two faces: silhouette, crease, tangent (materials differ) or
+    /// facet.
     fn class_between(&self, one: HalfEdge, other: HalfEdge) -> EdgeClass {
         let ((n, looks), (m, other_looks)) =
             (self.normals.normal_along(one), self.normals.normal_along(other));

@@ -1,10 +1,13 @@
-//! Seams: borders of surfaces that only look like borders, because the file does not say that they belong together.
+//! Seams: false boundaries closed by near welding and by cutting edges at T-junctions.
 //!
 //! ```text
-//!   ●───────●───────●   Three faces above, two below: no side of the upper ones is a side of the lower ones. Cut at each
-//!   ●────●─────●────●   other's vertices they are (T-junctions).
+//!   ●───────●───────●     two faces above, three below: no side of the upper ones
+//!   ●────●─────●────●     is a side of the lower ones until both are cut at the T-junctions
 //! ```
-//! Only borders are looked at, so that closed surfaces stay as they are, however fine.
+//!
+//! Only boundary edges are examined, so a closed surface stays as it is, however fine its
+//! triangles. A boundary that finds its partner here is classified like any other edge; one that
+//! does not is drawn.
 
 use super::half_edges::{HalfEdge, HalfEdges};
 use super::weld::remap_vertices;
@@ -12,18 +15,23 @@ use super::world_mesh::{Face, WorldMesh};
 use crate::hidden_line::{Aabb, Bvh};
 use glam::DVec3;
 
-/// Points of borders nearer than this are one, in diagonals of the smaller of their objects: what quantisation to 12 bits
-/// may part.
+/// The weld radius in diagonals of an object: 1/4096, the step of positions quantized to 12 bits.
 pub(super) const WELD_FRACTION: f64 = 1.0 / 4096.0;
 
-/// An edge that one face alone has, or a part of it.
+/// A boundary edge, or a part of one between T-junctions: its ends, the lower index first, and its
+/// half-edge.
 pub(super) type BorderEdge = ([u32; 2], HalfEdge);
 
-/// Of each point the greatest distance at which it may be one with another.
+/// The weld radius of each vertex: within this distance another boundary vertex may be the same
+/// one.
+///
+/// The radius is relative to the object, since each is quantized in its own bounding box; where
+/// objects share a vertex the smaller counts.
 #[derive(Clone, Debug)]
 pub(super) struct WeldRadii(Vec<f64>);
 
 impl WeldRadii {
+    /// The radii of all vertices of a mesh; infinite for vertices without a face.
     pub(super) fn from_mesh(shape: &WorldMesh) -> Self {
         let mut boxes = vec![Aabb::EMPTY; shape.objects.len()];
         let corners =
@@ -40,19 +48,22 @@ impl WeldRadii {
         Self(reach)
     }
 
-    /// The lesser of those of two ends.
+    /// The lesser radius of the two ends of an edge.
     pub(super) fn edge_radius(&self, [a, b]: [u32; 2]) -> f64 {
         self.0[a as usize].min(self.0[b as usize])
     }
 }
 
-/// The edges that one face alone has.
+/// The edges with a single half-edge.
 pub(super) fn border_edges(sides: &HalfEdges) -> Vec<BorderEdge> {
     let alone = sides.edges().filter(|(_, sides)| sides.len() == 1);
     alone.map(|(ends, sides)| (ends, sides[0])).collect()
 }
 
-/// Makes points of borders that nearly coincide one. True if there were any.
+/// Welds boundary vertices that are within each other's weld radius; `true` if there were any.
+///
+/// Vertices are visited by index, and each one takes in its unwelded neighbors. A chain of near
+/// vertices does not collapse into one, because a vertex that was taken in does not search again.
 pub(super) fn weld_near_borders(
     shape: &mut WorldMesh,
     borders: &[BorderEdge],
@@ -89,8 +100,20 @@ pub(super) fn weld_near_borders(
     any
 }
 
-/// Cuts borders at points of other borders that lie on them; and the triangles between each border and its parts, which have
-/// a width where the points lie on it but for rounding.
+/// Cuts boundary edges at the boundary vertices that lie on them, and returns the parts and the
+/// sliver triangles in between.
+///
+/// ```text
+///       a ●─────────────● b
+///          ╲───── ● ────╱
+///                 p
+/// ```
+///
+/// The edge a–b passes within the weld radius of p: its parts are a–p and p–b. The sliver a, p, b
+/// closes the gap, which is as wide as rounding made it; it hides and is cut by sections, but is
+/// never drawn.
+///
+/// Parts are sorted by their ends, so that coincident ones of both sides of a seam are neighbors.
 pub(super) fn split_at_t_junctions(
     shape: &WorldMesh,
     borders: &[BorderEdge],
@@ -131,7 +154,7 @@ pub(super) fn split_at_t_junctions(
     (parts, fillings)
 }
 
-/// A part of a rising edge as an edge of its own.
+/// A part of a boundary edge as an edge of its own, with the orientation of the original.
 fn border_part([from, to]: [u32; 2], side: HalfEdge) -> BorderEdge {
     let rises = side.is_forward == (from < to);
     (
@@ -140,6 +163,7 @@ fn border_part([from, to]: [u32; 2], side: HalfEdge) -> BorderEdge {
     )
 }
 
+/// The vertices of boundary edges, sorted, each once.
 fn border_vertices(borders: &[BorderEdge]) -> Vec<u32> {
     let mut points: Vec<u32> = borders.iter().flat_map(|(ends, _)| *ends).collect();
     points.sort_unstable();
@@ -147,7 +171,7 @@ fn border_vertices(borders: &[BorderEdge]) -> Vec<u32> {
     points
 }
 
-/// Half the surface of a box.
+/// Half the surface area of a box: the cost of a box in space for the BVH.
 pub(super) fn half_surface_area(size: DVec3) -> f64 {
     size.x * size.y + size.y * size.z + size.z * size.x
 }

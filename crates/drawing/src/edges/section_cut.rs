@@ -1,12 +1,18 @@
-//! Section cuts: what a plane leaves of the surfaces, and the caps that close them again.
+//! Section cuts: clipping of surfaces by a plane, and the caps that close them again.
 //!
 //! ```text
-//!    ╱──╲        ╱──╲             Each triangle is cut by itself; the edges that the plane leaves in it join to loops without a
-//!   ╱    ╲  ─►  ┌────┐ caps,      tolerance, for neighbours are cut at the same bits. Loops are capped: what is behind a cap is
-//!  ╱──────╲     └────┘ hatched    hidden like anything behind a face.
+//!    ╱──╲        ╱──╲
+//!   ╱    ╲  ─►  ┌────┐ caps,
+//!  ╱──────╲     └────┘ hatched
 //! ```
-//! The triangles that fill the gaps beside T-junctions are cut like faces, so that borders which only almost meet give closed
-//! loops too. What does not close belongs to a surface that is open itself; its curve is drawn without a cap.
+//!
+//! Each triangle is cut by itself. The edges that the plane leaves in it join to loops without a
+//! tolerance, since neighbors are cut at the same bits. Loops are capped, and what is behind a cap
+//! is hidden as behind any face.
+//!
+//! The slivers that close the gaps at T-junctions are cut like faces, so that boundaries which only
+//! nearly meet give closed loops too. A curve that does not close belongs to a surface that is
+//! itself open; it is drawn without a cap, and reported.
 
 use super::section_caps::{SectionLoop, triangulate_caps};
 use super::world_mesh::{Face, LineEdge, WorldMesh};
@@ -20,8 +26,11 @@ use std::collections::BTreeMap;
 /// An edge that the plane leaves in a face, and the object of the face.
 type CutEdge = ([Point<World>; 2], u32);
 
-/// Cuts a shape by a plane, the positive side of which stays, and caps what it opens. `fillings` are cut with the faces, but
-/// nothing of them is kept. Points are not welded anew.
+/// Cuts a mesh by a plane, retains its positive side, and caps what the cut opens.
+///
+/// `fillings`, the slivers of T-junctions, are cut along with the faces for the sake of closed
+/// loops, and then dropped. New points are appended and not welded; the caller welds. Open and too
+/// complex sections are added to `warnings`.
 pub(super) fn cut_mesh(
     shape: &mut WorldMesh,
     fillings: &[Face],
@@ -67,12 +76,14 @@ pub(super) fn cut_mesh(
     }
 }
 
+/// Appends a point and returns its index.
 fn add_point(shape: &mut WorldMesh, point: Point<World>) -> u32 {
     shape.points.push(point.raw());
     shape.points.len() as u32 - 1
 }
 
-/// Keeps what a plane leaves of a face, and notes the edge it leaves on the plane.
+/// Cuts one face: pushes what is left as a fan of triangles, and the edge on the plane if there is
+/// one.
 fn cut_face(
     shape: &mut WorldMesh,
     face: &Face,
@@ -101,7 +112,11 @@ fn cut_face(
     }
 }
 
-/// What the file says of the side that a part's side lies on; sides that the cut made are not its edges.
+/// The visibility of a side of a part: that of the side of the face it lies on, or hidden if the
+/// cut made it.
+///
+/// Barycentric weights tell the side: on a side of a triangle the weight of the opposite vertex is
+/// zero, exactly.
 fn part_edge_visibility(
     ends: [usize; 2],
     left: &CutTriangle<World>,
@@ -112,7 +127,7 @@ fn part_edge_visibility(
     side.map_or(EdgeVisibility::Hidden, |k| marks[k])
 }
 
-/// What is left of lines that are edges by themselves.
+/// Cuts the lines that are edges by themselves, and retains their part on the positive side.
 fn cut_line_edges(shape: &mut WorldMesh, plane: Plane<World>) {
     let strokes = std::mem::take(&mut shape.line_edges);
     for stroke in strokes {
@@ -131,7 +146,10 @@ fn cut_line_edges(shape: &mut WorldMesh, plane: Plane<World>) {
     }
 }
 
-/// The loops of each object; what does not close within an object may do so together with what others leave open.
+/// Joins cut edges to loops: first within each object, then what remains open across objects.
+///
+/// A body modeled in several objects closes only with all of them. A loop of several objects goes
+/// to the first one that contributed. Each object with a curve that stays open adds a warning.
 fn close_loops(
     shape: &WorldMesh,
     openings: &[CutEdge],
@@ -169,13 +187,13 @@ fn close_loops(
     closed
 }
 
-/// The segments of chains.
+/// The segments of open polylines.
 fn chain_segments(chains: &[Vec<Point<World>>]) -> impl Iterator<Item = [Point<World>; 2]> {
     chains.iter().flat_map(|chain| chain.windows(2).map(|pair| [pair[0], pair[1]]))
 }
 
 impl WorldMesh {
-    /// The caps by object and plane: their triangles.
+    /// The triangles of the section caps, by object and section plane.
     pub(crate) fn section_caps(&self) -> Vec<(u32, Vec<[DVec3; 3]>)> {
         let mut capping: Vec<&Face> =
             self.faces.iter().filter(|face| face.cap_section.is_some()).collect();
@@ -193,7 +211,8 @@ mod tests {
     use homog::Normal;
     use std::f64::consts::TAU;
 
-    /// A body by rings of points, from one pole to the other; both are left out if they are `None`.
+    /// A solid by rings of points, as radius and height, from one pole to the other; poles have
+    /// radius 0.
     fn solid_of_revolution(rings: &[(f64, f64)], sides: u32) -> WorldMesh {
         let mut shape = WorldMesh { objects: vec!["body".to_owned()], ..WorldMesh::default() };
         for (radius, height) in rings {

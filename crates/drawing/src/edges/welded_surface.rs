@@ -1,4 +1,7 @@
-//! The welded surfaces of a scene: what is drawn of it, and what hides.
+//! Welded surface: the mesh that is drawn and that hides, and the search for its feature edges.
+//!
+//! Welding depends on the models and the section planes and not on the viewer, so one surface
+//! serves every view of a drawing sheet.
 
 use super::classify::EdgeClassifier;
 use super::half_edges::{HalfEdge, HalfEdges};
@@ -13,29 +16,39 @@ use crate::{DrawOptions, EdgeClass, Subject, Warning};
 use glam::DVec3;
 use homog::{Plane, Point, World};
 
-/// An edge to be drawn.
+/// An edge that will be drawn as far as it is visible.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct CandidateEdge {
+    /// In world space.
     pub(crate) ends: [DVec3; 2],
+    /// Why it is drawn.
     pub(crate) class: EdgeClass,
+    /// The object it belongs to.
     pub(crate) object: u32,
 }
 
-/// The welded surfaces of a scene.
+/// The mesh of a scene after welding and section cuts, with its half-edges.
 #[derive(Clone, Debug)]
 pub(crate) struct WeldedSurface {
     mesh: WorldMesh,
+    /// Of all faces of `mesh`.
     half_edges: HalfEdges,
-    /// Edges that one face alone has, cut where others begin, so that parts of several may be the same.
+    /// Boundary edges, cut at T-junctions; parts with equal ends are neighbors and count as one
+    /// edge.
     border_edges: Vec<BorderEdge>,
-    /// Triangles that close the gaps beside edges that were cut.
+    /// The sliver triangles at T-junctions: they hide, but are not drawn.
     fillings: Vec<Face>,
+    /// Of each point of `mesh`.
     weld_radii: WeldRadii,
+    /// The diagonal of the models' bounding box before sections, so that tolerances do not depend
+    /// on them.
     diagonal: f64,
+    /// Sections that could not be capped, and searches that were cut off.
     warnings: Vec<Warning>,
 }
 
 impl WeldedSurface {
+    /// Gathers, welds and cuts the models of a subject; its camera plays no part.
     pub(crate) fn from_subject(subject: &Subject<'_>) -> Self {
         let mut shape = WorldMesh::from_subject(subject);
         shape.keeps_duplicates = !subject.sections.is_empty();
@@ -69,14 +82,15 @@ impl WeldedSurface {
         surface
     }
 
-    /// Cuts what is there by a plane, and closes it again.
+    /// Cuts the mesh by a section plane, caps it, and welds it again.
     fn cut_by_plane(&mut self, plane: Plane<World>, number: u16) {
         let Self { mesh: shape, fillings, warnings, .. } = self;
         cut_mesh(shape, fillings, plane, number, warnings);
         self.reweld();
     }
 
-    /// Finds points, edges and borders anew.
+    /// Welds equal vertices, and finds half-edges and boundaries anew. Near welding is not
+    /// repeated.
     fn reweld(&mut self) {
         weld_equal_vertices(&mut self.mesh);
         self.half_edges = HalfEdges::new(&self.mesh.faces, self.mesh.points.len());
@@ -85,17 +99,17 @@ impl WeldedSurface {
             split_at_t_junctions(&self.mesh, &border_edges(&self.half_edges), &self.weld_radii);
     }
 
-    /// What could not be done as it should.
+    /// What could not be drawn as it should.
     pub(crate) fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
 
-    /// The triangles of the caps that close cuts, by object and section.
+    /// The triangles of the section caps, by object and section plane.
     pub(crate) fn section_caps(&self) -> Vec<(u32, Vec<[DVec3; 3]>)> {
         self.mesh.section_caps()
     }
 
-    /// How near is touching on these surfaces.
+    /// The tolerances of hidden-line removal for the size of this scene.
     pub(crate) fn touch_tolerance(&self) -> Tolerance {
         Tolerance::for_scene(self.diagonal)
     }
@@ -105,14 +119,14 @@ impl WeldedSurface {
         self.mesh.objects
     }
 
-    /// What hides, as triangles of the world.
+    /// All triangles that hide, slivers included, in world space.
     pub(crate) fn occluder_triangles(&self) -> impl Iterator<Item = [Point<World>; 3]> {
         let corner = |corner: u32| Point::from_raw(self.mesh.points[corner as usize]);
         let faces = self.mesh.faces.iter().chain(&self.fillings);
         faces.map(move |face| face.vertices.map(corner))
     }
 
-    /// What hides, each face with its object and the linear colour of its surface; caps are as light as paper.
+    /// Each face with its object and the linear color of its material; caps are white like paper.
     pub(crate) fn colored_faces(&self) -> impl Iterator<Item = ([DVec3; 3], u32, [f32; 3])> {
         let shape = &self.mesh;
         shape.faces.iter().map(|face| {
@@ -122,7 +136,7 @@ impl WeldedSurface {
         })
     }
 
-    /// The same without the caps, which have a hatching of their own.
+    /// The faces without section caps, which have a hatching of their own.
     pub(crate) fn colored_faces_without_caps(
         &self,
     ) -> impl Iterator<Item = ([DVec3; 3], u32, [f32; 3])> {
@@ -130,7 +144,8 @@ impl WeldedSurface {
         faces.filter(|(_, face)| face.cap_section.is_none()).map(|(painted, _)| painted)
     }
 
-    /// The edges that the options ask for, by object and in the order of their points.
+    /// The edges of the wanted classes for one viewer, sorted by object and within an object by
+    /// their vertices.
     pub(crate) fn candidate_edges(
         &mut self,
         sight: &Projector,

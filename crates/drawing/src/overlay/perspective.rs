@@ -1,21 +1,25 @@
-//! The horizon, and the vanishing points of the axes (C80, C81).
+//! Perspective overlays: the horizon, and the vanishing points of the axes (C80, C81).
+//!
+//! The image of a direction d, a point at infinity, is its vanishing point: clip coordinates of (d,
+//! 0), divided. The images of all horizontal directions lie on one line, the horizon: the cross
+//! product of the images of x and z.
 
 use super::{AXES, BROWN, LETTER_HEIGHT, PicturePlane, overlay_layer};
 use crate::{Group, Label, Layer, LineType, Polyline, TextAlign};
 use glam::{DVec2, DVec3};
 use homog::Vector;
 
-/// The radius of the ring around a vanishing point, in millimetres.
+/// The radius of the ring around a vanishing point, in millimeters.
 const RING_RADIUS: f64 = 0.8;
 
-/// The sides of a ring.
+/// The number of sides of a ring.
 const RING_SIDES: u32 = 24;
 
-/// What is less than this part of the other coordinates is 0 but for rounding.
+/// A component less than this fraction of the others is zero but for rounding.
 const ZERO_TOLERANCE: f64 = 1e-12;
 
 impl PicturePlane {
-    /// The line in which the images of all horizontal directions lie; there is none in a parallel projection.
+    /// The horizon with its label; empty in a parallel projection, where it is at infinity.
     pub(super) fn horizon_layers(&self) -> Vec<Layer> {
         let Some(ends) = self.horizon_ends() else { return Vec::new() };
         let mut line = overlay_layer("horizon", "horizon", BROWN);
@@ -33,7 +37,7 @@ impl PicturePlane {
         vec![line, text]
     }
 
-    /// Where the horizon enters and leaves the picture, from left to right.
+    /// The points where the horizon enters and leaves the picture, from left to right.
     fn horizon_ends(&self) -> Option<[DVec2; 2]> {
         let [x, z] = [Vector::X, Vector::Z].map(|direction| self.project_direction(direction));
         if x.z.max(z.z) <= ZERO_TOLERANCE * x.length().max(z.length()) {
@@ -54,7 +58,8 @@ impl PicturePlane {
         Some(if a.x <= b.x { [a, b] } else { [b, a] })
     }
 
-    /// Rings around the vanishing points of the axes, and the lines that run to them from the corners of the models' box.
+    /// Rings around the vanishing points of the axes, and lines to them from the corners of the
+    /// models' bounding box.
     pub(super) fn vanishing_point_layers(&self) -> Vec<Layer> {
         let mut layers = Vec::new();
         for (direction, name, ink) in AXES {

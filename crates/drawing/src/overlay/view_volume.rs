@@ -1,4 +1,4 @@
-//! The view volume of another camera, with its eye: the frustum of the lessons (C61 to C64).
+//! View volume overlay: the frustum of another camera, with its eye (C61 to C64).
 
 use super::{BLUE, LETTER_HEIGHT, PicturePlane, overlay_layer};
 use crate::{Group, Label, Layer, TextAlign};
@@ -28,7 +28,7 @@ impl PicturePlane {
         layers
     }
 
-    /// The name of the eye beside it.
+    /// The label of the eye.
     fn eye_layer(&self, eye: Point<World>) -> Layer {
         let mut layer = overlay_layer("volume-eye", "eye of the view volume", BLUE);
         let strokes = self.point_in_picture(self.project_point(eye)).map(|place| {

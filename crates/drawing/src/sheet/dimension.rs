@@ -1,11 +1,17 @@
-//! Dimensions (ISO 129-1): extension lines, a dimension line with arrowheads between them, and the length above it.
+//! Linear dimensions (ISO 129-1): extension lines, a dimension line with arrowheads, and the length
+//! above it.
 //!
 //! ```text
-//!      │        150        │      Extension lines begin a little beside the outline and end
-//!      │◄─────────────────►│      a little beyond the dimension line. Where the arrows have
-//!      │                   │      no room between them, they stand outside.
-//!      ┌───────────────────┐
+//!      │        150        │      extension lines at both sides,
+//!      │◄─────────────────►│      the dimension line between them
+//!      │                   │
+//!      ┌───────────────────┐      the outline of the object
 //! ```
+//!
+//! Extension lines begin a little beside the outline and end a little beyond the dimension line.
+//! Arrows that do not fit between them are placed outside.
+//!
+//! All distances are multiples of the height of letters.
 
 use super::Sheet;
 use super::view_layout::ViewLayout;
@@ -13,13 +19,13 @@ use crate::{Group, Ink, Label, Layer, Pen, Polyline, TextAlign};
 use camera::NamedView;
 use glam::DVec2;
 
-/// From the outline to the dimension line, in heights of letters.
+/// From the outline to the dimension line.
 const LINE_DISTANCE: f64 = 2.4;
 
-/// From the outline to the beginning of the extension line.
+/// From the outline to the start of the extension line.
 const EXTENSION_GAP: f64 = 0.25;
 
-/// How far an extension line goes beyond the dimension line.
+/// The length of an extension line beyond the dimension line.
 const EXTENSION_OVERHANG: f64 = 0.5;
 
 /// The length of an arrowhead; it is a third as wide.
@@ -28,16 +34,16 @@ const ARROW_LENGTH: f64 = 0.9;
 /// From the dimension line to the text above it.
 const TEXT_GAP: f64 = 0.35;
 
-/// A length to be given: between two places of an outline, on the side `out` of it.
+/// A length between two points of an outline, dimensioned on the side `outward` of it.
 struct LinearDimension {
     ends: [DVec2; 2],
     /// The unit vector from the outline to the dimension line.
     outward: DVec2,
-    /// The length of the thing in millimetres.
+    /// The length of the object in millimeters.
     length: f64,
 }
 
-/// The overall width, height and depth of the object.
+/// The overall width, height and depth of the object: a layer of lines and one of texts.
 pub(super) fn overall_dimension_layers(
     sheet: &Sheet,
     arrangement: &ViewLayout<'_>,
@@ -59,6 +65,8 @@ pub(super) fn overall_dimension_layers(
     vec![lines, texts]
 }
 
+/// The dimensions of the front view in both directions, and of the side view's width; none where
+/// there is no extent.
 fn overall_dimensions(arrangement: &ViewLayout<'_>, side: NamedView) -> Vec<LinearDimension> {
     let scale = arrangement.scale;
     let horizontal = |name: NamedView| {
@@ -87,7 +95,8 @@ fn overall_dimensions(arrangement: &ViewLayout<'_>, side: NamedView) -> Vec<Line
     all.into_iter().flatten().filter(|dimension| dimension.length > 1e-3).collect()
 }
 
-/// A length in millimetres: to a hundredth, and for things above ten metres to a millimetre.
+/// A length in millimeters: to a hundredth, above ten meters to a millimeter, without trailing
+/// zeros.
 fn format_length(length: f64) -> String {
     let places = if length < 10_000.0 { 2 } else { 0 };
     let text = format!("{length:.places$}");
@@ -99,21 +108,23 @@ fn format_length(length: f64) -> String {
 }
 
 impl LinearDimension {
-    /// The direction of the dimension line; its text reads along it from the bottom or from the right of the sheet.
+    /// The direction of the dimension line; its text reads along it from the bottom or from the
+    /// right of the sheet.
     fn line_direction(&self) -> DVec2 {
         (self.ends[1] - self.ends[0]).normalize_or(DVec2::X)
     }
 
-    /// The dimension line's ends.
+    /// The ends of the dimension line.
     fn dimension_line(&self, height: f64) -> [DVec2; 2] {
         self.ends.map(|end| end + self.outward * (LINE_DISTANCE * height))
     }
 
-    /// Whether arrows and text have room between the extension lines.
+    /// Whether arrows and text fit between the extension lines.
     fn fits_arrows(&self, height: f64) -> bool {
         (self.ends[1] - self.ends[0]).length() > 3.5 * ARROW_LENGTH * height
     }
 
+    /// Extension lines, dimension line and arrowheads.
     fn line_group(&self, height: f64, text: &str) -> Group {
         let [start, end] = self.dimension_line(height);
         let (along, arrow) = (self.line_direction(), ARROW_LENGTH * height);
@@ -141,16 +152,18 @@ impl LinearDimension {
         Group { strokes, fills: heads.into_iter().flatten().collect(), ..Group::default() }
     }
 
-    /// Whether the text is wider than what is measured, so that it must stand beside it.
+    /// Whether the text is wider than the dimension, so that it stands beside it.
     fn is_text_outside(&self, height: f64, text: &str) -> bool {
         let room = (self.ends[1] - self.ends[0]).length();
         self.unplaced_label(height, text).width() > room - 0.5 * height
     }
 
+    /// The text in its direction, at the origin: to measure it, or to move it.
     fn unplaced_label<'a>(&self, height: f64, text: &'a str) -> Label<'a> {
         Label::new(text, DVec2::ZERO, height).with_direction(self.line_direction())
     }
 
+    /// The strokes of the text: centered above the dimension line, or beyond its end.
     fn text_strokes(&self, height: f64, text: &str) -> Vec<Polyline> {
         let [start, end] = self.dimension_line(height);
         let along = self.line_direction();
@@ -167,7 +180,7 @@ impl LinearDimension {
     }
 }
 
-/// An arrowhead with its tip at a place; `into` is the direction from the tip to its base.
+/// An arrowhead with this tip; `into` is the direction from the tip to the base.
 fn arrowhead(tip: DVec2, into: DVec2, length: f64) -> Option<Polyline> {
     let across = DVec2::new(-into.y, into.x) * (length / 6.0);
     let base = tip + into * length;

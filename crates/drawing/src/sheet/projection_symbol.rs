@@ -1,4 +1,4 @@
-//! The symbol that says how views are arranged (ISO 5456-2): a cut cone from the side and from its narrow end.
+//! Projection symbol (ISO 5456-2): a truncated cone from the side and from its narrow end.
 //!
 //! ```text
 //!   first angle      ╱│          third angle       │╲
@@ -11,10 +11,11 @@ use crate::Polyline;
 use glam::DVec2;
 use projection::SheetAngle;
 
-/// The sides of the polygon a circle is drawn with.
+/// The number of sides of the polygon that approximates a circle.
 const CIRCLE_SIDES: u32 = 48;
 
-/// The symbol about a middle, so high. The cone is as long as it is high and half as high at its narrow end.
+/// The symbol of a projection angle about a center. The cone is as long as it is high, and half as
+/// high at its narrow end.
 pub(super) fn projection_symbol(angle: SheetAngle, middle: DVec2, height: f64) -> Vec<Polyline> {
     let half = height * 0.5;
     // In first angle the view from the left, which shows the narrow end, stands at the right of the cone.
@@ -47,6 +48,7 @@ pub(super) fn projection_symbol(angle: SheetAngle, middle: DVec2, height: f64) -
     lines.into_iter().flatten().collect()
 }
 
+/// A circle as a closed polyline.
 fn circle_polygon(centre: DVec2, radius: f64) -> Option<Polyline> {
     let point = |k: u32| {
         let angle = core::f64::consts::TAU * f64::from(k) / f64::from(CIRCLE_SIDES);

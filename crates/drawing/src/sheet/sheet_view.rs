@@ -1,4 +1,4 @@
-//! One view of a sheet: a parallel projection whose picture has a known size in millimetres.
+//! Sheet view: one orthographic view of a sheet, with its size in millimeters of the object.
 
 use super::{Placement, SheetError};
 use crate::{DrawOptions, LineDrawing, LineStyle, Subject, draw};
@@ -9,30 +9,34 @@ use model::ModelInstance;
 use projection::{Convention, Orthographic};
 use viewport::DrawingScale;
 
-/// The longer side of the picture the engine draws, in pixels. Only its proportion to the window counts.
+/// The longer side of the drawing in pixels; only its ratio to the window counts.
 const LONG_SIDE_PIXELS: f64 = 8192.0;
 
-/// How fine pictures of tones are: 300 dots to the inch.
+/// The resolution of flat fills: 300 dots to the inch.
 const FILL_DOTS_PER_MILLIMETER: f64 = 300.0 / viewport::MILLIMETERS_PER_INCH;
 
-/// How much larger the window is than what is in it, so that nothing touches its border.
+/// The factor by which the window is larger than the object, so that nothing touches its border.
 const WINDOW_MARGIN: f64 = 1.02;
 
-/// A view of the object.
+/// A parallel view of the object in a named direction.
 #[derive(Clone, Debug)]
 pub(super) struct SheetView {
     pub(super) name: NamedView,
     pub(super) camera: Camera,
-    /// From where to where the object reaches ahead of the camera, in units of the scene.
+    /// The nearest and the farthest depth of the object along the view direction, in units of the
+    /// scene.
     depths: [f64; 2],
-    /// Width and height of the object in this view, in millimetres of the thing.
+    /// Width and height of the object in this view, in millimeters of the object.
     pub(super) size: DVec2,
-    /// Millimetres in a unit of the scene.
+    /// Millimeters in a unit of the scene.
     pub(super) millimeters_per_unit: f64,
 }
 
 impl SheetView {
-    /// The view of these points by its name.
+    /// The view of these points in a named direction.
+    ///
+    /// # Errors
+    /// [`SheetError::Empty`] without points, [`SheetError::View`] if the points cannot be framed.
     pub(super) fn frame_points(
         points: &[Point<World>],
         name: NamedView,
@@ -52,14 +56,14 @@ impl SheetView {
         Ok(Self { name, camera, depths, size: half * 2.0 * unit, millimeters_per_unit: unit })
     }
 
-    /// The window in units of the scene; never empty, however flat the object.
+    /// Width and height of the window in units of the scene; never zero, however flat the object.
     fn window_size(&self) -> DVec2 {
         let size = self.size / self.millimeters_per_unit;
         let least = size.max_element().max(self.depths[1] - self.depths[0]).max(1e-9) * 0.02;
         (size * WINDOW_MARGIN).max(DVec2::splat(least))
     }
 
-    /// The lines of the view.
+    /// The line drawing of the view. Depths get a margin of 2 % of the extent.
     pub(super) fn draw(
         &self,
         (models, sections): (&[ModelInstance], &[Plane<World>]),
@@ -93,7 +97,7 @@ impl SheetView {
         Ok(draw(&subject, &options, threads)?)
     }
 
-    /// Where the view's drawing goes on the sheet: at this scale, its middle at `centre`.
+    /// The placement of the view's drawing on the sheet: at this scale, centered at `centre`.
     pub(super) fn placement(
         &self,
         drawing: &LineDrawing,
