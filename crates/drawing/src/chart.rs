@@ -15,11 +15,9 @@ pub use axis::{Axis, Spacing};
 use super::label::{Label, TextAlign};
 use super::line_type::LineType;
 use super::page::{Cap, Group, Ink, Join, Layer, Pen, Polyline};
+use super::palette::{INK, LIGHT_GRAY};
 use axis::format_tick;
 use glam::DVec2;
-
-const INK: Ink = [26, 31, 38];
-const GRID: Ink = [222, 225, 229];
 
 /// The height of letters in millimeters.
 const LETTER_HEIGHT: f64 = 2.2;
@@ -144,7 +142,7 @@ impl Plot<'_> {
             Polyline::through_points(&ends, false)
         });
         let strokes = uprights.chain(levels).collect();
-        self.plot_layer("grid", "grid", Pen::solid(AXIS_WIDTH, GRID), strokes)
+        self.plot_layer("grid", "grid", Pen::solid(AXIS_WIDTH, LIGHT_GRAY), strokes)
     }
 
     /// The two axes with their ticks.

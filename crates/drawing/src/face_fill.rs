@@ -5,14 +5,13 @@
 //! be cut out. So a z-buffer resolves them, at a higher resolution than any screen, and the exact
 //! lines go over it.
 
+use super::face_raster::rasterize_faces;
 use super::options::DrawOptions;
 use super::projector::Projector;
 use crate::DrawError;
 use camera::ViewProjection;
-use clip::{ClipVertex, Volume, clip_triangle};
 use glam::DVec3;
-use homog::{Point, Vector, View};
-use raster::{Frame, Opacity, Samples, ScreenVertex};
+use homog::{Vector, View};
 use shade::Picture;
 use shade::color::SrgbEncoder;
 use viewport::Viewport;
@@ -82,25 +81,14 @@ pub(super) fn rasterize_flat_fill(
     let scale = options.fill_scale.min(MAX_FILL_SIDE / longest);
     let [width, height] = size.map(|side| (f64::from(side) * scale).ceil().max(1.0) as u32);
     let projector = Projector::new(view_projection, &Viewport::image(width, height)?);
-    let lamp = KeyLight::new(view_projection, projector);
-    let mut frame = Frame::new(width, height, Samples::One)?;
-    let mut codes: Vec<[u8; 4]> = Vec::new();
-    for (corners, surface) in faces {
-        let id = u32::try_from(codes.len()).map_err(|_| DrawError::TooManyPrimitives)?;
-        let [r, g, b] = lamp.shade_face(corners, surface);
-        codes.push(SrgbEncoder::shared().encode_pixel([r, g, b, 1.0]));
-        let clip = corners.map(|corner| projector.world_to_clip_point(corner));
-        for piece in clip_triangle(clip, &Volume::CHAPTER).triangles() {
-            let snap = |vertex: ClipVertex| {
-                let screen_point = Point::from_raw(projector.to_screen(vertex.point)?);
-                ScreenVertex::snap(screen_point, vertex.point.w())
-            };
-            if let [Some(p), Some(q), Some(r)] = piece.map(snap) {
-                frame.add_triangle([p, q, r], id, Opacity::Opaque);
-            }
-        }
-    }
-    let seen = frame.visibility_buffer().ids.into_iter();
-    let pixels = seen.map(|id| id.map_or([0; 4], |id| codes[id as usize])).collect();
+    let key_light = KeyLight::new(view_projection, projector);
+    let mut colors: Vec<[u8; 4]> = Vec::new();
+    let triangles = faces.map(|(vertices, surface)| {
+        let [r, g, b] = key_light.shade_face(vertices, surface);
+        colors.push(SrgbEncoder::shared().encode_pixel([r, g, b, 1.0]));
+        vertices
+    });
+    let ids = rasterize_faces(triangles, &projector, [width, height])?;
+    let pixels = ids.into_iter().map(|id| id.map_or([0; 4], |id| colors[id as usize])).collect();
     Ok(Picture { width, height, pixels })
 }

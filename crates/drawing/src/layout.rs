@@ -14,6 +14,7 @@ use super::overlap_removal::{PageSegment, remove_overlaps};
 use super::page::{
     Group, Ink, Layer, MILLIMETERS_PER_PIXEL, Page, Pen, PlacedImage, to_micrometers,
 };
+use super::palette::{INK, LIGHT_INK};
 use super::polyline_chain::{PolylineChain, join_into_chains};
 use super::{EdgeClass, EdgeSegment, LineDrawing};
 use glam::DVec2;
@@ -139,7 +140,7 @@ impl Page {
             let [r, g, b] = [r, g, b].map(u32::from);
             r * 299 + g * 587 + b * 114 < 118_000
         });
-        look.ink.unwrap_or(if is_dark { [240, 243, 246] } else { [26, 31, 38] })
+        look.ink.unwrap_or(if is_dark { LIGHT_INK } else { INK })
     }
 }
 

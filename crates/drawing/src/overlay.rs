@@ -20,6 +20,7 @@ use super::label::{Label, TextAlign};
 use super::line_style::HiddenLines;
 use super::line_type::LineType;
 use super::page::{Cap, Group, Ink, Layer, MILLIMETERS_PER_PIXEL, Pen, Polyline};
+use super::palette::{BLUE, GRAY, GREEN, RED};
 use super::projector::Projector;
 use crate::Subject;
 use camera::ViewProjection;
@@ -44,12 +45,6 @@ pub enum Overlay {
     /// The visible feature edges of the surfaces; line drawings have them anyway.
     Edges,
 }
-
-const RED: Ink = [179, 38, 30];
-const GREEN: Ink = [30, 122, 52];
-const BLUE: Ink = [26, 86, 176];
-const GRAY: Ink = [150, 156, 163];
-const BROWN: Ink = [140, 90, 20];
 
 /// The axes of the world, their names and their colors.
 const AXES: [(Vector<World>, &str, Ink); 3] =
@@ -263,7 +258,7 @@ fn model_occluders(subject: &Subject<'_>, hidden: HiddenLines) -> Option<Occlude
     let view_to_clip = Projective::from_raw(deep * subject.view_projection.view_to_clip.raw());
     let sight =
         Projector::new(&ViewProjection { view_to_clip, ..subject.view_projection }, &viewport);
-    let surface = WeldedSurface::from_subject(subject);
+    let surface = WeldedSurface::new(subject.models, subject.sections);
     Some(Occluders::new(surface.occluder_triangles(), sight, surface.touch_tolerance()))
 }
 

@@ -12,12 +12,10 @@ mod html;
 
 use super::Warning;
 use super::label::Label;
-use super::page::{Group, Ink, Layer, Page, Pen, PlacedImage, Polyline};
+use super::page::{Group, Layer, Page, Pen, PlacedImage, Polyline};
 use super::page::{PagePoint, to_micrometers};
+use super::palette::{GRAY, INK, WHITE};
 use glam::DVec2;
-
-const INK: Ink = [26, 31, 38];
-const GRAY: Ink = [150, 156, 163];
 
 /// The margin around all panels, in millimeters.
 const MARGIN: f64 = 8.0;
@@ -124,7 +122,7 @@ impl Panels {
             sum(&widths) - PANEL_GAP + 2.0 * MARGIN,
             top + sum(&heights) - PANEL_GAP + MARGIN,
         );
-        let mut page = Page::new(size, self.title.clone(), Some([255; 3]));
+        let mut page = Page::new(size, self.title.clone(), Some(WHITE));
         let pen = Pen::solid(0.13, GRAY);
         let mut frames = Layer::new("frames", "the borders of the pictures", pen);
         let mut names = Layer::new("names", "names", Pen::solid(TITLE_HEIGHT * 0.1, INK));

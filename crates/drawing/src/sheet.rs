@@ -25,6 +25,7 @@ mod projection_symbol;
 mod scale_bar;
 mod section_line;
 mod sheet_view;
+mod surface_cache;
 mod title_block;
 mod view_layout;
 
@@ -33,18 +34,17 @@ use super::layout::Placement;
 use super::line_style::{HiddenLines, LineStyle, LineWidths};
 use super::line_type::IsoLineGroup;
 use super::page::{Group, Ink, Layer, Page};
-use crate::DrawError;
+use super::palette::{BLACK, WHITE};
+use crate::{DrawError, LineDrawing};
 use camera::NamedView;
 use glam::DVec2;
 use homog::{Plane, World};
 use model::{ModelInstance, model_names, world_points};
 use projection::SheetAngle;
 use sheet_view::SheetView;
+use surface_cache::SurfaceCache;
 use view_layout::{PlacedView, ViewLayout};
 use viewport::{DrawingScale, Paper, Rectangle};
-
-/// The ink of sheets.
-const INK: Ink = [0, 0, 0];
 
 /// A drawing sheet: the views on it and their appearance.
 #[derive(Clone, PartialEq, Debug)]
@@ -53,7 +53,7 @@ pub struct Sheet {
     pub paper: Paper,
     /// The name of the paper, such as A3.
     pub paper_name: String,
-    /// First-angle or third-angle projection: the arrangement of the views.
+    /// First-angle or third-angle projection: the layout of the views.
     pub projection_angle: SheetAngle,
     /// The scale; `None` for the largest of the standard series that fits.
     pub scale: Option<DrawingScale>,
@@ -165,55 +165,59 @@ impl Sheet {
         let [front, top, side] =
             [view(NamedView::Front)?, view(NamedView::Top)?, view(self.side_view)?];
         let axonometric = self.axonometric_view.map(view).transpose()?;
-        let arrangement =
-            ViewLayout::arrange_views(self, [&front, &top, &side], axonometric.as_ref())?;
+        let layout = ViewLayout::arrange_views(self, [&front, &top, &side], axonometric.as_ref())?;
         let title = if self.title_block.title.is_empty() {
             model_names(models)
         } else {
             self.title_block.title.clone()
         };
         let size = DVec2::new(self.paper.width(), self.paper.height());
-        let mut page = Page::new(size, title, Some([255; 3]));
-        let ink = self.style.ink.unwrap_or(INK);
-        for placed in &arrangement.views {
-            self.draw_view(&mut page, placed, (models, sections), threads)?;
+        let mut page = Page::new(size, title, Some(WHITE));
+        let ink = self.style.ink.unwrap_or(BLACK);
+        let mut surfaces = SurfaceCache::new(models);
+        for placed in &layout.views {
+            let shown = sections.iter().copied().filter(|plane| placed.shows_section(*plane));
+            let shown: Vec<Plane<World>> = shown.collect();
+            let style = self.style_of_view(placed, !shown.is_empty());
+            let drawing =
+                placed.view.draw(surfaces.cut_by(&shown), &style, placed.scale, threads)?;
+            self.add_view(&mut page, placed, drawing, &style);
         }
-        page.layers.extend(section_line::section_line_layers(self, sections, &arrangement, ink));
-        self.draw_annotations(&mut page, &arrangement, ink);
+        page.layers.extend(section_line::section_line_layers(self, sections, &layout, ink));
+        self.draw_annotations(&mut page, &layout, ink);
         Ok(page)
     }
 
-    /// Draws the lines of one view, with the sections that it shows.
+    /// The style of a view's lines.
     ///
     /// Hidden lines are removed from axonometric views and from sectional views, where they would
     /// only confuse (ISO 128-3).
-    fn draw_view(
+    fn style_of_view(&self, placed: &PlacedView<'_>, is_cut: bool) -> LineStyle {
+        let is_outside = NamedView::PRINCIPAL.contains(&placed.view.name) && !is_cut;
+        let hidden_lines = if is_outside { self.style.hidden_lines } else { HiddenLines::Removed };
+        LineStyle { hidden_lines, ..self.style }
+    }
+
+    /// Puts the drawing of a view onto the page, with the name of the view before its layers' ids.
+    fn add_view(
         &self,
         page: &mut Page,
         placed: &PlacedView<'_>,
-        (models, sections): (&[ModelInstance], &[Plane<World>]),
-        threads: usize,
-    ) -> Result<(), SheetError> {
-        let view = placed.view;
-        let mut sections = sections.to_vec();
-        sections.retain(|plane| placed.shows_section(*plane));
-        let is_outside = NamedView::PRINCIPAL.contains(&view.name) && sections.is_empty();
-        let hidden = if is_outside { self.style.hidden_lines } else { HiddenLines::Removed };
-        let look = LineStyle { hidden_lines: hidden, ..self.style };
-        let drawing = view.draw((models, &sections), &look, placed.scale, threads)?;
-        let placement = view.placement(&drawing, placed.scale, placed.center);
-        let (prefix, ink) = (format!("{}-", view.name), self.style.ink.unwrap_or(INK));
+        drawing: LineDrawing,
+        style: &LineStyle,
+    ) {
+        let placement = placed.view.placement(&drawing, placed.scale, placed.center);
+        let (prefix, ink) = (format!("{}-", placed.view.name), self.style.ink.unwrap_or(BLACK));
         page.images.extend(drawing.face_fill_image(placement, &prefix));
-        page.layers.extend(drawing.to_layers(&look, placement, &prefix, ink));
+        page.layers.extend(drawing.to_layers(style, placement, &prefix, ink));
         page.warnings.extend(drawing.warnings);
         page.warnings.sort_unstable();
         page.warnings.dedup();
-        Ok(())
     }
 
     /// The scale below a view whose scale is not that of the sheet.
-    fn scale_note_layer(&self, arrangement: &ViewLayout<'_>, ink: Ink) -> Option<Layer> {
-        let other = arrangement.views.iter().find(|placed| placed.scale != arrangement.scale)?;
+    fn scale_note_layer(&self, layout: &ViewLayout<'_>, ink: Ink) -> Option<Layer> {
+        let other = layout.views.iter().find(|placed| placed.scale != layout.scale)?;
         let (area, height) = (other.object_area(), self.lettering_height());
         let at = DVec2::new(other.center.x, area.y() + area.height() + 1.8 * height);
         let text = other.scale.to_string();
@@ -224,22 +228,16 @@ impl Sheet {
     }
 
     /// Draws dimensions, scale bar, frame and title block.
-    fn draw_annotations(&self, page: &mut Page, arrangement: &ViewLayout<'_>, ink: Ink) {
+    fn draw_annotations(&self, page: &mut Page, layout: &ViewLayout<'_>, ink: Ink) {
         if self.dimensions {
-            page.layers.extend(dimension::overall_dimension_layers(self, arrangement, ink));
+            page.layers.extend(dimension::overall_dimension_layers(self, layout, ink));
         }
-        page.layers.extend(self.scale_note_layer(arrangement, ink));
-        page.layers.push(scale_bar::scale_bar_layer(self, arrangement.scale, ink));
+        page.layers.extend(self.scale_note_layer(layout, ink));
+        page.layers.push(scale_bar::scale_bar_layer(self, layout.scale, ink));
         let block = self.title_block_area();
         page.layers.push(frame::frame_layer(self.paper, block, ink));
         let title = page.title.clone();
-        page.layers.extend(title_block::title_block_layers(
-            self,
-            &title,
-            arrangement.scale,
-            block,
-            ink,
-        ));
+        page.layers.extend(title_block::title_block_layers(self, &title, layout.scale, block, ink));
     }
 
     /// The line group, 0.5 mm if the style has other widths.

@@ -5,6 +5,7 @@
 //! micrometers: they are short, and their sums are exact.
 
 use super::fixed_decimal::{format_millimeters, format_thousandths, write_thousandths};
+use super::markup::escape_markup;
 use super::page::{Cap, Group, Ink, Join, Layer, Page, PagePoint, Pen, PlacedImage, Polyline};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -20,7 +21,7 @@ impl Page {
             svg,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" \
              viewBox=\"0 0 {width} {height}\">\n<title>{}</title>\n",
-            escape_xml(&self.title)
+            escape_markup(&self.title)
         );
         if let Some(paper) = self.paper {
             let paper = css_color(paper);
@@ -46,7 +47,7 @@ fn write_image(svg: &mut String, pasted: &PlacedImage) {
         svg,
         "<image id=\"{}\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" \
          preserveAspectRatio=\"none\" href=\"data:image/png;base64,",
-        escape_xml(&pasted.id)
+        escape_markup(&pasted.id)
     );
     STANDARD.encode_string(pasted.picture.to_png(), svg);
     *svg += "\"/>\n";
@@ -54,21 +55,21 @@ fn write_image(svg: &mut String, pasted: &PlacedImage) {
 
 /// Writes a layer as a group, with a group in it for each object.
 fn write_layer(svg: &mut String, layer: &Layer) {
-    let id = escape_xml(&layer.id);
+    let id = escape_markup(&layer.id);
     let _ = write!(
         svg,
         "<g id=\"{id}\" {}>\n<title>{}</title>\n",
         pen_attributes(&layer.pen),
-        escape_xml(&layer.title)
+        escape_markup(&layer.title)
     );
     for group in &layer.groups {
         if group.id.is_empty() {
             write_paths(svg, group, &layer.pen);
             continue;
         }
-        let _ = writeln!(svg, "<g id=\"{id}.{}\">", escape_xml(&group.id));
+        let _ = writeln!(svg, "<g id=\"{id}.{}\">", escape_markup(&group.id));
         if !group.title.is_empty() {
-            let _ = writeln!(svg, "<title>{}</title>", escape_xml(&group.title));
+            let _ = writeln!(svg, "<title>{}</title>", escape_markup(&group.title));
         }
         write_paths(svg, group, &layer.pen);
         *svg += "</g>\n";
@@ -209,23 +210,6 @@ impl PathWriter {
         }
         write_thousandths(&mut self.out, y);
     }
-}
-
-/// A text that is safe between tags and in quotation marks. Characters that XML has no place for are left out.
-pub(super) fn escape_xml(text: &str) -> String {
-    let mut safe = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => safe += "&amp;",
-            '<' => safe += "&lt;",
-            '>' => safe += "&gt;",
-            '"' => safe += "&quot;",
-            '\u{fffe}' | '\u{ffff}' => {}
-            c if (c as u32) < 0x20 && !matches!(c, '\t' | '\n' | '\r') => {}
-            c => safe.push(c),
-        }
-    }
-    safe
 }
 
 #[cfg(test)]

@@ -12,12 +12,11 @@
 
 use super::LineDrawing;
 use super::edges::WeldedSurface;
+use super::face_raster::rasterize_faces;
 use super::projector::Projector;
 use crate::{DrawError, Subject};
-use clip::{ClipVertex, Volume, clip_triangle};
 use glam::{DMat4, DVec2, DVec3};
 use homog::Point;
-use raster::{Frame, Opacity, Samples, ScreenVertex};
 use viewport::Viewport;
 
 /// The longest side of the z-buffer image in pixels.
@@ -129,29 +128,19 @@ impl ZBufferImage {
         let finer = (MAX_Z_BUFFER_SIDE / width.max(height)).clamp(1, SUPERSAMPLING);
         let (width, height) = (width * finer, height * finer);
         let projector = Projector::new(&subject.view_projection, &Viewport::image(width, height)?);
-        let mut frame = Frame::new(width, height, Samples::One)?;
+        let surface = WeldedSurface::new(subject.models, subject.sections);
         let mut planes = Vec::new();
-        let surface = WeldedSurface::from_subject(subject);
-        for triangle in surface.occluder_triangles() {
-            let corners = triangle.map(Point::raw);
-            let id = u32::try_from(planes.len()).map_err(|_| DrawError::TooManyPrimitives)?;
-            planes.push(FacePlane::from_triangle(corners, &projector));
-            let clip = corners.map(|corner| projector.world_to_clip_point(corner));
-            for piece in clip_triangle(clip, &Volume::CHAPTER).triangles() {
-                let snap = |vertex: ClipVertex| {
-                    let place = Point::from_raw(projector.to_screen(vertex.point)?);
-                    ScreenVertex::snap(place, vertex.point.w())
-                };
-                if let [Some(p), Some(q), Some(r)] = piece.map(snap) {
-                    frame.add_triangle([p, q, r], id, Opacity::Opaque);
-                }
-            }
-        }
+        let triangles = surface.occluder_triangles().map(|triangle| {
+            let vertices = triangle.map(Point::raw);
+            planes.push(FacePlane::from_triangle(vertices, &projector));
+            vertices
+        });
+        let ids = rasterize_faces(triangles, &projector, [width, height])?;
         Ok(Self {
             width: width.into(),
             height: height.into(),
             scale: f64::from(finer),
-            ids: frame.visibility_buffer().ids,
+            ids,
             planes,
             to_world: drawing_projector.world_to_screen().inverse(),
             touching: surface.touch_tolerance().world,

@@ -31,6 +31,7 @@ const MIN_PLANE_SINE: f64 = 1.0 / 64.0;
 pub(super) type IntersectionSegment = ([DVec3; 2], u32);
 
 /// The intersection edges of a mesh.
+#[derive(Clone, Debug)]
 pub(super) struct Intersections {
     /// In the order of the faces.
     pub(super) segments: Vec<IntersectionSegment>,

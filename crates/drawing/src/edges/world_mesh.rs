@@ -3,10 +3,11 @@
 //! Skinning, morph targets and node transforms are applied here. Every node with a mesh becomes one
 //! *object*: the unit in which drawings are grouped and hatched.
 
-use crate::Subject;
 use glam::DVec3;
 use homog::{Affine, Model as ModelSpace, World};
-use model::{EdgeVisibility, MeshInstance, Model, Primitive, SkinnedPrimitive, Topology};
+use model::{
+    EdgeVisibility, MeshInstance, Model, ModelInstance, Primitive, SkinnedPrimitive, Topology,
+};
 
 /// A triangle of an object.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -59,10 +60,10 @@ pub(crate) struct WorldMesh {
 
 impl WorldMesh {
     /// Gathers all visible primitives of the models in their current pose.
-    pub(crate) fn from_subject(subject: &Subject<'_>) -> Self {
+    pub(crate) fn from_models(models: &[ModelInstance]) -> Self {
         let mut shape = Self::default();
         let mut first_material = 0;
-        for placed in subject.models {
+        for placed in models {
             let model = &*placed.model;
             for instance in model.mesh_instances() {
                 let object = shape.objects.len() as u32;

@@ -4,7 +4,8 @@
 //! 0), divided. The images of all horizontal directions lie on one line, the horizon: the cross
 //! product of the images of x and z.
 
-use super::{AXES, BROWN, LETTER_HEIGHT, PicturePlane, overlay_layer};
+use super::{AXES, LETTER_HEIGHT, PicturePlane, overlay_layer};
+use crate::palette::BROWN;
 use crate::{Group, Label, Layer, LineType, Polyline, TextAlign};
 use glam::{DVec2, DVec3};
 use homog::Vector;

@@ -1,6 +1,7 @@
 //! View volume overlay: the frustum of another camera, with its eye (C61 to C64).
 
-use super::{BLUE, LETTER_HEIGHT, PicturePlane, overlay_layer};
+use super::{LETTER_HEIGHT, PicturePlane, overlay_layer};
+use crate::palette::BLUE;
 use crate::{Group, Label, Layer, TextAlign};
 use camera::ViewProjection;
 use glam::DVec2;

@@ -1,7 +1,7 @@
 //! HTML output of panels: one self-contained page of figures, with searchable text.
 
-use super::super::svg::escape_xml;
 use super::{Page, Panel, Panels};
+use crate::markup::escape_markup;
 use glam::DVec2;
 use std::fmt::Write as _;
 
@@ -19,7 +19,7 @@ impl Panels {
     /// All panels as an HTML page that refers to no other file.
     #[must_use]
     pub fn to_html(&self) -> String {
-        let title = escape_xml(&self.title);
+        let title = escape_markup(&self.title);
         let mut html = format!(
             "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{title}</title>\n\
              <style>{STYLE_SHEET}</style>\n<h1>{title}</h1>\n<main>\n"
@@ -35,10 +35,10 @@ fn push_figure(html: &mut String, panel: &Panel) {
     // Names are unique on the page only with that of the panel before them.
     let mut page = Page::new(panel.page.size, panel.title.clone(), panel.page.paper);
     page.paste_page(&panel.page, DVec2::ZERO, &format!("{}-", panel.id));
-    let (id, svg, title) = (escape_xml(&panel.id), page.to_svg(), escape_xml(&panel.title));
+    let (id, svg, title) = (escape_markup(&panel.id), page.to_svg(), escape_markup(&panel.title));
     let _ = write!(html, "<figure id=\"{id}\">\n{svg}<figcaption><b>{title}</b>");
     for note in &panel.notes {
-        let _ = write!(html, "<span>{}</span>", escape_xml(note));
+        let _ = write!(html, "<span>{}</span>", escape_markup(note));
     }
     *html += "</figcaption>\n</figure>\n";
 }

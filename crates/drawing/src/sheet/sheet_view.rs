@@ -1,11 +1,12 @@
 //! Sheet view: one orthographic view of a sheet, with its size in millimeters of the object.
 
 use super::{Placement, SheetError};
-use crate::{DrawOptions, LineDrawing, LineStyle, Subject, draw};
+use crate::draw::draw_surface;
+use crate::edges::WeldedSurface;
+use crate::{DrawOptions, LineDrawing, LineStyle};
 use camera::{Camera, FramingError, NamedView, ViewProjection, frame_parallel};
 use glam::DVec2;
-use homog::{Plane, Point, World};
-use model::ModelInstance;
+use homog::{Point, World};
 use projection::{Convention, Orthographic};
 use viewport::DrawingScale;
 
@@ -66,8 +67,8 @@ impl SheetView {
     /// The line drawing of the view. Depths get a margin of 2 % of the extent.
     pub(super) fn draw(
         &self,
-        (models, sections): (&[ModelInstance], &[Plane<World>]),
-        look: &LineStyle,
+        surface: &WeldedSurface,
+        style: &LineStyle,
         scale: DrawingScale,
         threads: usize,
     ) -> Result<LineDrawing, SheetError> {
@@ -80,21 +81,17 @@ impl SheetView {
             .map_err(|error| SheetError::View { view: self.name, reason: error.to_string() })?;
         let view_to_clip = volume.view_to_clip(Convention::CHAPTER);
         let pixels = (window * (LONG_SIDE_PIXELS / window.max_element())).ceil().max(DVec2::ONE);
-        let subject = Subject {
-            models,
-            view_projection: ViewProjection { camera: self.camera, view_to_clip },
-            size: [pixels.x as u32, pixels.y as u32],
-            sections,
-        };
-        // Millimetres of the paper for a pixel.
+        let size = [pixels.x as u32, pixels.y as u32];
+        let view_projection = ViewProjection { camera: self.camera, view_to_clip };
+        // Millimeters of paper for a pixel.
         let pixel = scale.to_paper_length(window.max_element() * self.millimeters_per_unit)
             / LONG_SIDE_PIXELS;
         let options = DrawOptions {
-            hatch_spacing: look.hatch_spacing / pixel,
+            hatch_spacing: style.hatch_spacing / pixel,
             fill_scale: FILL_DOTS_PER_MILLIMETER * pixel,
-            ..look.to_draw_options()
+            ..style.to_draw_options()
         };
-        Ok(draw(&subject, &options, threads)?)
+        Ok(draw_surface(surface, &view_projection, size, &options, threads)?)
     }
 
     /// The placement of the view's drawing on the sheet: at this scale, centered at `centre`.
