@@ -113,8 +113,8 @@ impl<C: Channel> RegionCanvas<'_, C> {
                 let (x, y) = (column * TILE_SIZE[0], row * TILE_SIZE[1]);
                 let width = TILE_SIZE[0].min(size[0] - x);
                 let height = TILE_SIZE[1].min(size[1] - y);
-                let piece = PixelRect { x, y, width, height };
-                self.draw_tile(piece, |canvas| {
+                let tile = PixelRect { x, y, width, height };
+                self.draw_tile(tile, |canvas| {
                     pictures.iter().for_each(|pasted| canvas.draw_image(pasted, scale));
                     layers.iter().for_each(|layer| canvas.draw_layer(layer, scale));
                 });
@@ -126,16 +126,16 @@ impl<C: Channel> RegionCanvas<'_, C> {
     ///
     /// The whole tile is drawn, also outside the region: lines are clipped at its borders, and
     /// clipped elsewhere they could be rounded to other pixels.
-    fn draw_tile(&mut self, piece: PixelRect, draw: impl FnOnce(&mut Canvas)) {
-        let Some(shown) = piece.intersection(self.region) else { return };
-        let Some(pixmap) = Pixmap::new(piece.width, piece.height) else { return };
-        let mut canvas = Canvas { pixmap, corner: [piece.x, piece.y] };
-        self.for_each_shared_pixel(shown, &mut canvas, |pixel, place| {
-            *place = C::to_canvas(*pixel)
+    fn draw_tile(&mut self, tile: PixelRect, draw: impl FnOnce(&mut Canvas)) {
+        let Some(shown) = tile.intersection(self.region) else { return };
+        let Some(pixmap) = Pixmap::new(tile.width, tile.height) else { return };
+        let mut canvas = Canvas { pixmap, corner: [tile.x, tile.y] };
+        self.for_each_shared_pixel(shown, &mut canvas, |pixel, canvas_pixel| {
+            *canvas_pixel = C::to_canvas(*pixel)
         });
         draw(&mut canvas);
-        self.for_each_shared_pixel(shown, &mut canvas, |pixel, place| {
-            *pixel = C::from_canvas(*pixel, *place);
+        self.for_each_shared_pixel(shown, &mut canvas, |pixel, canvas_pixel| {
+            *pixel = C::from_canvas(*pixel, *canvas_pixel);
         });
     }
 
@@ -152,11 +152,11 @@ impl<C: Channel> RegionCanvas<'_, C> {
         let ([left, top], [first, skipped]) = (within([region.x, region.y]), within(canvas.corner));
         let (count, high) = (shown.width as usize, shown.height as usize);
         let rows = self.picture.pixels.chunks_exact_mut(across).skip(top).take(high);
-        let places = canvas.pixmap.pixels_mut().chunks_exact_mut(width).skip(skipped);
-        for (row, places) in rows.zip(places) {
-            let places = &mut places[first..first + count];
-            for (pixel, place) in row[left..left + count].iter_mut().zip(places) {
-                each(pixel, place);
+        let canvas_pixels = canvas.pixmap.pixels_mut().chunks_exact_mut(width).skip(skipped);
+        for (row, canvas_pixels) in rows.zip(canvas_pixels) {
+            let canvas_pixels = &mut canvas_pixels[first..first + count];
+            for (pixel, canvas_pixel) in row[left..left + count].iter_mut().zip(canvas_pixels) {
+                each(pixel, canvas_pixel);
             }
         }
     }
@@ -164,13 +164,13 @@ impl<C: Channel> RegionCanvas<'_, C> {
 
 /// Conversion of pixels to the 8-bit canvas and back.
 ///
-/// Pixels of 8 bits are drawn on. Pixels of 16 bits would lose precision: they stay in place, and
+/// Pixels of 8 bits are drawn on. Pixels of 16 bits would lose precision: they are left as they are, and
 /// the drawing is composited over them.
 trait CanvasChannel: Channel {
     /// The pixel of the canvas under the drawing.
     fn to_canvas(pixel: [Self; 4]) -> PremultipliedColorU8;
     /// The pixel of the picture with the drawing.
-    fn from_canvas(pixel: [Self; 4], place: PremultipliedColorU8) -> [Self; 4];
+    fn from_canvas(pixel: [Self; 4], canvas_pixel: PremultipliedColorU8) -> [Self; 4];
 }
 
 impl<C: Channel> CanvasChannel for C {
@@ -182,12 +182,17 @@ impl<C: Channel> CanvasChannel for C {
         ColorU8::from_rgba(r, g, b, alpha).premultiply()
     }
 
-    fn from_canvas(pixel: [C; 4], place: PremultipliedColorU8) -> [C; 4] {
+    fn from_canvas(pixel: [C; 4], canvas_pixel: PremultipliedColorU8) -> [C; 4] {
         if C::BITS > 8 {
-            let over = [place.red(), place.green(), place.blue(), place.alpha()];
+            let over = [
+                canvas_pixel.red(),
+                canvas_pixel.green(),
+                canvas_pixel.blue(),
+                canvas_pixel.alpha(),
+            ];
             return C::composite_under(pixel, over);
         }
-        let straight = place.demultiply();
+        let straight = canvas_pixel.demultiply();
         [straight.red(), straight.green(), straight.blue(), straight.alpha()].map(C::from_byte)
     }
 }
@@ -248,13 +253,13 @@ impl Canvas {
         };
         let columns: Vec<[f64; 2]> = span(0, picture.width, width).collect();
         let rows = span(1, picture.height, height);
-        let places = self.pixmap.pixels_mut().chunks_exact_mut(width as usize);
-        for (row, places) in rows.zip(places) {
-            for (column, place) in columns.iter().zip(places) {
-                let below = place.demultiply();
+        let canvas_pixels = self.pixmap.pixels_mut().chunks_exact_mut(width as usize);
+        for (row, canvas_pixels) in rows.zip(canvas_pixels) {
+            for (column, canvas_pixel) in columns.iter().zip(canvas_pixels) {
+                let below = canvas_pixel.demultiply();
                 let below = [below.red(), below.green(), below.blue(), below.alpha()];
                 let [r, g, b, alpha] = composite_over(area_mean(picture, *column, row), below);
-                *place = ColorU8::from_rgba(r, g, b, alpha).premultiply();
+                *canvas_pixel = ColorU8::from_rgba(r, g, b, alpha).premultiply();
             }
         }
     }

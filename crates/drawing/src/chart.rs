@@ -196,10 +196,10 @@ impl Plot<'_> {
             let at = DVec2::new(self.page_x(mark.value) + by, self.corner.y + LETTER_HEIGHT * 1.8);
             write(&mark.text, at, align);
         }
-        for (place, curve) in self.chart.curves.iter().enumerate() {
+        for (index, curve) in self.chart.curves.iter().enumerate() {
             write(
                 &curve.title,
-                self.legend_point(place) + DVec2::new(LEGEND_SAMPLE + 1.5, 0.0),
+                self.legend_point(index) + DVec2::new(LEGEND_SAMPLE + 1.5, 0.0),
                 TextAlign::Start,
             );
         }
@@ -208,8 +208,8 @@ impl Plot<'_> {
 
     /// The start of a curve's entry in the legend, on the baseline. The legend is flush right above
     /// the plot.
-    fn legend_point(&self, place: usize) -> DVec2 {
-        let names = self.chart.curves.iter().skip(place);
+    fn legend_point(&self, index: usize) -> DVec2 {
+        let names = self.chart.curves.iter().skip(index);
         let width = |curve: &Curve| {
             let name = Label::new(&curve.title, DVec2::ZERO, LETTER_HEIGHT);
             LEGEND_SAMPLE + 1.5 + name.width() + 5.0
@@ -221,12 +221,12 @@ impl Plot<'_> {
     }
 
     /// A curve, and its sample in the legend.
-    fn curve_layer(&self, place: usize, curve: &Curve) -> Layer {
+    fn curve_layer(&self, index: usize, curve: &Curve) -> Layer {
         let on_page = |&[x, y]: &[f64; 2]| DVec2::new(self.page_x(x), self.page_y(y));
-        let places: Vec<DVec2> = curve.points.iter().map(on_page).collect();
-        let sample = self.legend_point(place) - DVec2::new(0.0, LETTER_HEIGHT * 0.5);
+        let points: Vec<DVec2> = curve.points.iter().map(on_page).collect();
+        let sample = self.legend_point(index) - DVec2::new(0.0, LETTER_HEIGHT * 0.5);
         let sample = [sample, sample + DVec2::new(LEGEND_SAMPLE, 0.0)];
-        let line = Polyline::through_points(&places, false);
+        let line = Polyline::through_points(&points, false);
         let strokes = line.into_iter().chain(Polyline::through_points(&sample, false)).collect();
         let line_type = if curve.dashed { LineType::Dashed } else { LineType::Continuous };
         let pen = line_type.to_pen(CURVE_WIDTH, curve.ink, Cap::Butt, Join::Round);
@@ -258,8 +258,8 @@ mod tests {
         let layers = chart.to_layers(DVec2::new(20.0, 30.0), DVec2::new(100.0, 40.0));
         let of = |id: &str| layers.iter().find(|layer| layer.id == id).expect(id);
         let points = &of("c-k").groups[0].strokes[0].points;
-        let places: Vec<[f64; 2]> = points.iter().map(|p| to_millimeters(*p).to_array()).collect();
-        assert_eq!(places, [[20.0, 70.0], [70.0, 40.0], [120.0, 30.0]]);
+        let actual: Vec<[f64; 2]> = points.iter().map(|p| to_millimeters(*p).to_array()).collect();
+        assert_eq!(actual, [[20.0, 70.0], [70.0, 40.0], [120.0, 30.0]]);
         let mark = to_millimeters(of("c-marks").groups[0].strokes[0].points[0]);
         assert_eq!(mark, DVec2::new(70.0, 30.0));
     }

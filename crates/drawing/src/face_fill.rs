@@ -28,12 +28,12 @@ pub(super) struct KeyLight {
     /// The unit vector towards the light, in world space.
     direction: DVec3,
     /// For the direction to the viewer: both sides of a face are lit as the visible one.
-    sight: Projector,
+    projector: Projector,
 }
 
 impl KeyLight {
     /// The key light of a camera.
-    pub(super) fn new(view_projection: &ViewProjection, sight: Projector) -> Self {
+    pub(super) fn new(view_projection: &ViewProjection, projector: Projector) -> Self {
         let towards = Vector::<View>::new(-0.5, 0.7, 0.6);
         let direction = view_projection
             .camera
@@ -41,14 +41,14 @@ impl KeyLight {
             .transform_vector(towards)
             .raw()
             .normalize_or_zero();
-        Self { direction, sight }
+        Self { direction, projector }
     }
 
     /// The linear color of a face by Lambert's cosine law: base color · (ambient + (1 − ambient) ·
     /// max(n·l, 0)).
     pub(super) fn shade_face(&self, [a, b, c]: [DVec3; 3], surface: [f32; 3]) -> [f32; 3] {
         let normal = (b - a).cross(c - a).normalize_or_zero();
-        let normal = normal * normal.dot(self.sight.towards_viewer(a)).signum();
+        let normal = normal * normal.dot(self.projector.towards_viewer(a)).signum();
         let light = AMBIENT_LIGHT + (1.0 - AMBIENT_LIGHT) * normal.dot(self.direction).max(0.0);
         surface.map(|channel| (f64::from(channel) * light) as f32)
     }
@@ -58,8 +58,8 @@ impl KeyLight {
     ///
     /// Hatching compares it with thresholds; encoded values are nearly uniform to the eye, linear
     /// ones are not.
-    pub(super) fn face_luma(&self, corners: [DVec3; 3], surface: [f32; 3]) -> f64 {
-        let [r, g, b] = self.shade_face(corners, surface);
+    pub(super) fn face_luma(&self, vertices: [DVec3; 3], surface: [f32; 3]) -> f64 {
+        let [r, g, b] = self.shade_face(vertices, surface);
         let code = SrgbEncoder::shared().encode_pixel([r, g, b, 1.0]);
         let [r, g, b, _] = code.map(f64::from);
         (r * 0.2126 + g * 0.7152 + b * 0.0722) / 255.0

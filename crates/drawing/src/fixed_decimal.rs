@@ -26,8 +26,8 @@ pub(super) fn format_thousandths(number: i64) -> String {
 }
 
 /// A length in millimeters, rounded to the micrometer, as text.
-pub(super) fn format_millimeters(millimetres: f64) -> String {
-    format_thousandths(libm::round(millimetres * 1000.0) as i64)
+pub(super) fn format_millimeters(millimeters: f64) -> String {
+    format_thousandths(libm::round(millimeters * 1000.0) as i64)
 }
 
 #[cfg(test)]

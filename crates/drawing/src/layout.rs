@@ -64,10 +64,10 @@ struct LineKinds<'a> {
 impl LineDrawing {
     /// The drawing as a page of its own, 96 pixels to the inch.
     #[must_use]
-    pub fn to_page(&self, look: &LineStyle, title: &str, paper: Option<Ink>) -> Page {
+    pub fn to_page(&self, style: &LineStyle, title: &str, paper: Option<Ink>) -> Page {
         let mut page = Page::new(self.size * MILLIMETERS_PER_PIXEL, title, paper);
         page.images.extend(self.face_fill_image(Placement::PICTURE, ""));
-        page.layers = self.to_layers(look, Placement::PICTURE, "", page.ink_for_style(look));
+        page.layers = self.to_layers(style, Placement::PICTURE, "", page.ink_for_style(style));
         page.warnings.clone_from(&self.warnings);
         page
     }
@@ -87,23 +87,23 @@ impl LineDrawing {
     #[must_use]
     pub fn to_layers(
         &self,
-        look: &LineStyle,
+        style: &LineStyle,
         placement: Placement,
         prefix: &str,
         ink: Ink,
     ) -> Vec<Layer> {
-        let kinds = LineKinds::new(self, look);
-        let mut pieces = Vec::new();
+        let kinds = LineKinds::new(self, style);
+        let mut segments = Vec::new();
         for line in &self.segments {
             kinds.for_each_segment(line, |kind, ends, object| {
-                pieces.push(PageSegment {
+                segments.push(PageSegment {
                     ends: ends.map(|end| placement.to_page(end)),
                     layer: kind,
                     object,
                 });
             });
         }
-        let chains = join_into_chains(&remove_overlaps(&pieces));
+        let chains = join_into_chains(&remove_overlaps(&segments));
         let layers = chains.chunk_by(|a, b| a.layer == b.layer);
         let layer = |chains: &[PolylineChain]| self.layer_of_kind(&kinds, chains, prefix, ink);
         layers.rev().map(layer).collect()
@@ -135,12 +135,12 @@ impl Page {
     /// The ink of a style on this page: its own, or a dark or light one that contrasts with the
     /// paper.
     #[must_use]
-    pub fn ink_for_style(&self, look: &LineStyle) -> Ink {
+    pub fn ink_for_style(&self, style: &LineStyle) -> Ink {
         let is_dark = self.paper.is_some_and(|[r, g, b]| {
             let [r, g, b] = [r, g, b].map(u32::from);
             r * 299 + g * 587 + b * 114 < 118_000
         });
-        look.ink.unwrap_or(if is_dark { LIGHT_INK } else { INK })
+        style.ink.unwrap_or(if is_dark { LIGHT_INK } else { INK })
     }
 }
 
@@ -172,8 +172,8 @@ impl<'a> LineKinds<'a> {
             self.kinds.iter().position(|other| *other == kind).map(|at| at as u32)
         };
         if self.style.depth_cue == 0.0 {
-            let number = kind_index(0);
-            return number.into_iter().for_each(|kind| hand_on(kind, line.ends, line.object));
+            let kind = kind_index(0);
+            return kind.into_iter().for_each(|kind| hand_on(kind, line.ends, line.object));
         }
         for (band, ends) in self.split_by_depth(line) {
             kind_index(band).into_iter().for_each(|kind| hand_on(kind, ends, line.object));
@@ -207,14 +207,14 @@ impl<'a> LineKinds<'a> {
     /// The pen of a kind: narrow for hidden, tangent and hatch lines, dashed for hidden ones, faded
     /// by depth.
     fn pen_for_kind(&self, kind: LineKind, ink: Ink) -> Pen {
-        let look = self.style;
-        let [wide, narrow] = look.line_widths.wide_and_narrow();
+        let style = self.style;
+        let [wide, narrow] = style.line_widths.wide_and_narrow();
         let is_narrow =
             kind.hidden || matches!(kind.class, EdgeClass::Tangent | EdgeClass::Hatching);
         let width = if is_narrow { narrow } else { wide };
         let line_type = if kind.hidden { LineType::Dashed } else { LineType::Continuous };
-        let ink = if kind.band == 0 { ink } else { faded_ink(ink, look.depth_cue, kind.band) };
-        line_type.to_pen(width, ink, look.cap, look.join)
+        let ink = if kind.band == 0 { ink } else { faded_ink(ink, style.depth_cue, kind.band) };
+        line_type.to_pen(width, ink, style.cap, style.join)
     }
 }
 
@@ -228,19 +228,20 @@ fn faded_ink(ink: Ink, most: f64, band: u32) -> Ink {
 }
 
 /// Whether a style draws edges of a class.
-fn selects_class(look: &LineStyle, class: EdgeClass, hidden: bool) -> bool {
-    if hidden && look.hidden_lines == HiddenLines::Removed {
+fn selects_class(style: &LineStyle, class: EdgeClass, hidden: bool) -> bool {
+    if hidden && style.hidden_lines == HiddenLines::Removed {
         return false;
     }
     match class {
         EdgeClass::Silhouette | EdgeClass::Boundary => true,
-        EdgeClass::Facet => look.edges == EdgeSelection::Facets,
-        EdgeClass::Hatching => !hidden && look.edges != EdgeSelection::Silhouette,
+        EdgeClass::Facet => style.edges == EdgeSelection::Facets,
+        EdgeClass::Hatching => !hidden && style.edges != EdgeSelection::Silhouette,
         // What is only there in thought is not drawn where it is hidden.
         EdgeClass::Tangent => {
-            look.edges == EdgeSelection::Tangents && !hidden || look.edges == EdgeSelection::Facets
+            style.edges == EdgeSelection::Tangents && !hidden
+                || style.edges == EdgeSelection::Facets
         }
-        _ => look.edges != EdgeSelection::Silhouette,
+        _ => style.edges != EdgeSelection::Silhouette,
     }
 }
 
@@ -279,15 +280,16 @@ impl EdgeClass {
 
 impl LineKind {
     /// The id and the title of the layer.
-    fn layer_names(self, look: &LineStyle) -> (String, String) {
+    fn layer_names(self, style: &LineStyle) -> (String, String) {
         let class = self.class.name();
-        let sight = match (self.hidden, look.hidden_lines) {
+        let visibility = match (self.hidden, style.hidden_lines) {
             (true, _) => "hidden",
             (false, HiddenLines::Drawn) => "all",
             (false, _) => "visible",
         };
-        let (mut id, mut title) = (format!("{sight}-{class}"), format!("{sight}: {class}"));
-        if look.depth_cue > 0.0 {
+        let (mut id, mut title) =
+            (format!("{visibility}-{class}"), format!("{visibility}: {class}"));
+        if style.depth_cue > 0.0 {
             id += &format!("-{}", self.band + 1);
             title += &format!(", depth {} of {DEPTH_BANDS}", self.band + 1);
         }

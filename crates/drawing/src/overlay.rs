@@ -50,7 +50,7 @@ pub enum Overlay {
 const AXES: [(Vector<World>, &str, Ink); 3] =
     [(Vector::X, "x", RED), (Vector::Y, "y", GREEN), (Vector::Z, "z", BLUE)];
 
-/// The width of lines, the height of letters, the length of arrowheads, in millimetres.
+/// The width of lines, the height of letters, the length of arrowheads, in millimeters.
 const LINE_WIDTH: f64 = 0.25;
 const LETTER_HEIGHT: f64 = 3.0;
 const ARROW_LENGTH: f64 = 2.4;
@@ -69,7 +69,7 @@ pub fn overlay_layers(
         return Vec::new();
     }
     let Some(glass) = PicturePlane::new(subject, hidden) else { return Vec::new() };
-    let layers = overlays.iter().enumerate().flat_map(|(number, overlay)| {
+    let layers = overlays.iter().enumerate().flat_map(|(index, overlay)| {
         let layers = match overlay {
             Overlay::Axes(length) => glass.axes_layers(*length),
             Overlay::Grid(step) => glass.grid_layers(*step),
@@ -81,7 +81,7 @@ pub fn overlay_layers(
         };
         layers
             .into_iter()
-            .map(move |layer| Layer { id: format!("overlay-{}-{}", number + 1, layer.id), ..layer })
+            .map(move |layer| Layer { id: format!("overlay-{}-{}", index + 1, layer.id), ..layer })
     });
     layers.filter(|layer| layer.groups.iter().any(|group| !group.strokes.is_empty())).collect()
 }
@@ -122,8 +122,8 @@ impl PicturePlane {
     }
 
     /// The image of a point: x, y and w of its clip coordinates.
-    fn project_point(&self, place: Point<World>) -> DVec3 {
-        drop_depth(self.world_to_clip.transform_point(place).raw())
+    fn project_point(&self, point: Point<World>) -> DVec3 {
+        drop_depth(self.world_to_clip.transform_point(point).raw())
     }
 
     /// The image of a direction, a vanishing point with w ≥ 0.
@@ -183,21 +183,21 @@ impl PicturePlane {
 
     /// The three axes of the world.
     fn axes_layers(&self, length: Option<f64>) -> Vec<Layer> {
-        let reach = self.bounds.diagonal();
-        let length = length.unwrap_or(if reach > 0.0 { 0.6 * reach } else { 1.0 });
+        let diagonal = self.bounds.diagonal();
+        let length = length.unwrap_or(if diagonal > 0.0 { 0.6 * diagonal } else { 1.0 });
         let axes = AXES.into_iter();
         axes.flat_map(|(direction, name, ink)| self.axis_layers(direction * length, name, ink))
             .collect()
     }
 
     /// One axis: its visible and its hidden part, and its arrowhead with its name.
-    fn axis_layers(&self, reach: Vector<World>, name: &str, ink: Ink) -> [Layer; 3] {
-        let tip = Point::ORIGIN + reach;
+    fn axis_layers(&self, direction: Vector<World>, name: &str, ink: Ink) -> [Layer; 3] {
+        let tip = Point::ORIGIN + direction;
         let [visible, hidden] =
             self.line_layers(&format!("axis-{name}"), ink, &[[Point::ORIGIN, tip]]);
         let mut head =
             overlay_layer(&format!("axis-{name}-name"), &format!("axis {name}: name"), ink);
-        let ends = [Point::ORIGIN, tip].map(|place| self.project_point(place));
+        let ends = [Point::ORIGIN, tip].map(|point| self.project_point(point));
         let ends = self
             .clip_to_picture(ends[0], ends[1])
             .filter(|_| self.point_in_picture(ends[1]).is_some());
@@ -256,10 +256,10 @@ fn model_occluders(subject: &Subject<'_>, hidden: HiddenLines) -> Option<Occlude
     // Depth does not decide what is seen beside the models, only its order counts.
     let deep = DMat4::from_diagonal(DVec4::new(1.0, 1.0, 1.0 / DEPTH_RANGE_FACTOR, 1.0));
     let view_to_clip = Projective::from_raw(deep * subject.view_projection.view_to_clip.raw());
-    let sight =
+    let projector =
         Projector::new(&ViewProjection { view_to_clip, ..subject.view_projection }, &viewport);
     let surface = WeldedSurface::new(subject.models, subject.sections);
-    Some(Occluders::new(surface.occluder_triangles(), sight, surface.touch_tolerance()))
+    Some(Occluders::new(surface.occluder_triangles(), projector, surface.touch_tolerance()))
 }
 
 /// The components x, y and w.

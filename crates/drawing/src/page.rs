@@ -158,8 +158,8 @@ impl Polyline {
     ///
     /// `None` if fewer than two are left.
     #[must_use]
-    pub fn through_points(millimetres: &[DVec2], closed: bool) -> Option<Self> {
-        let mut points: Vec<PagePoint> = millimetres.iter().copied().map(to_micrometers).collect();
+    pub fn through_points(millimeters: &[DVec2], closed: bool) -> Option<Self> {
+        let mut points: Vec<PagePoint> = millimeters.iter().copied().map(to_micrometers).collect();
         points.dedup();
         if closed && points.first() == points.last() {
             points.pop();
@@ -178,9 +178,9 @@ impl Polyline {
 
 /// The nearest point of the grid; saturates for points too far away for it.
 #[must_use]
-pub fn to_micrometers(millimetres: DVec2) -> PagePoint {
+pub fn to_micrometers(millimeters: DVec2) -> PagePoint {
     // Casting is exact for whole numbers and cuts off at the ends of the range.
-    (millimetres * 1000.0).to_array().map(|c| libm::round(c) as i32)
+    (millimeters * 1000.0).to_array().map(|c| libm::round(c) as i32)
 }
 
 /// A point of the grid in millimeters.

@@ -127,8 +127,8 @@ impl Panels {
         let mut frames = Layer::new("frames", "the borders of the pictures", pen);
         let mut names = Layer::new("names", "names", Pen::solid(TITLE_HEIGHT * 0.1, INK));
         let mut notes = Layer::new("notes", "notes", Pen::solid(NOTE_HEIGHT * 0.1, INK));
-        for (number, panel) in self.panels.iter().enumerate() {
-            let (x, y) = (number % columns, number / columns);
+        for (index, panel) in self.panels.iter().enumerate() {
+            let (x, y) = (index % columns, index / columns);
             let corner = DVec2::new(MARGIN + sum(&widths[..x]), top + sum(&heights[..y]));
             page.paste_page(&panel.page, corner, &format!("{}-", panel.id));
             frames.groups.push(frame_group(panel, corner));
@@ -167,7 +167,7 @@ impl Page {
     /// `prefix` begins the ids of images and layers, so that they stay unique.
     pub fn paste_page(&mut self, other: &Self, corner: DVec2, prefix: &str) {
         let by = to_micrometers(corner);
-        let moved = |place: PagePoint| [place[0] + by[0], place[1] + by[1]];
+        let moved = |point: PagePoint| [point[0] + by[0], point[1] + by[1]];
         self.images.extend(other.images.iter().cloned().map(|pasted| PlacedImage {
             id: format!("{prefix}{}", pasted.id),
             corner: moved(pasted.corner),
@@ -178,7 +178,7 @@ impl Page {
             layer.id = format!("{prefix}{}", layer.id);
             for group in &mut layer.groups {
                 let lines = group.strokes.iter_mut().chain(&mut group.fills);
-                lines.flat_map(|line| &mut line.points).for_each(|place| *place = moved(*place));
+                lines.flat_map(|line| &mut line.points).for_each(|point| *point = moved(*point));
             }
             self.layers.push(layer);
         }

@@ -1,7 +1,7 @@
 //! PDF output: pages as a Portable Document Format 1.7 file, in millimeters.
 //!
 //! At its beginning each page scales its unit from points to millimeters and flips y; from there on
-//! its numbers are those of the SVG. Layers are optional content groups, which a viewer can switch
+//! its ids are those of the SVG. Layers are optional content groups, which a viewer can switch
 //! on and off. The file holds no dates and no random identifiers: equal pages give equal bytes.
 
 use super::fixed_decimal::write_thousandths;
@@ -33,24 +33,24 @@ impl ObjectIds {
     const INFO: Ref = Ref::new(3);
 
     /// The page object.
-    fn page_id(number: usize) -> Ref {
-        Ref::new(4 + 2 * number as i32)
+    fn page_id(index: usize) -> Ref {
+        Ref::new(4 + 2 * index as i32)
     }
 
     /// The content stream of a page.
-    fn content_id(number: usize) -> Ref {
-        Ref::new(5 + 2 * number as i32)
+    fn content_id(index: usize) -> Ref {
+        Ref::new(5 + 2 * index as i32)
     }
 
     /// The optional content group of a layer.
-    fn layer_id(&self, number: usize) -> Ref {
-        Ref::new(4 + 2 * self.pages as i32 + number as i32)
+    fn layer_id(&self, index: usize) -> Ref {
+        Ref::new(4 + 2 * self.pages as i32 + index as i32)
     }
 
     /// The image object with the colors, and that with the alpha as its soft mask.
-    fn image_ids(&self, number: usize) -> [Ref; 2] {
-        let first = 4 + 2 * self.pages + self.layers + 2 * number;
-        [first, first + 1].map(|number| Ref::new(number as i32))
+    fn image_ids(&self, index: usize) -> [Ref; 2] {
+        let first = 4 + 2 * self.pages + self.layers + 2 * index;
+        [first, first + 1].map(|id| Ref::new(id as i32))
     }
 }
 
@@ -59,16 +59,16 @@ impl ObjectIds {
 pub fn to_pdf(pages: &[Page]) -> Vec<u8> {
     let mut pdf = Pdf::new();
     let layers = pages.iter().map(|page| page.layers.len()).sum();
-    let numbers = ObjectIds { pages: pages.len(), layers };
+    let ids = ObjectIds { pages: pages.len(), layers };
     let (mut layers, mut pictures) = (0, 0);
-    for (number, page) in pages.iter().enumerate() {
-        write_page(&mut pdf, &numbers, number, page, [layers, pictures]);
+    for (index, page) in pages.iter().enumerate() {
+        write_page(&mut pdf, &ids, index, page, [layers, pictures]);
         for (at, pasted) in page.images.iter().enumerate() {
-            write_image(&mut pdf, numbers.image_ids(pictures + at), &pasted.picture);
+            write_image(&mut pdf, ids.image_ids(pictures + at), &pasted.picture);
         }
         pictures += page.images.len();
         for (at, layer) in page.layers.iter().enumerate() {
-            let mut group = pdf.indirect(numbers.layer_id(layers + at)).dict();
+            let mut group = pdf.indirect(ids.layer_id(layers + at)).dict();
             group.pair(Name(b"Type"), Name(b"OCG"));
             let name: String = layer.title.chars().take(MAX_LAYER_NAME).collect();
             group.pair(Name(b"Name"), TextStr(&name));
@@ -80,7 +80,7 @@ pub fn to_pdf(pages: &[Page]) -> Vec<u8> {
     let mut catalog = pdf.catalog(ObjectIds::CATALOG);
     catalog.pages(ObjectIds::PAGE_TREE);
     if layers > 0 {
-        write_optional_content(&mut catalog, (0..layers).map(|layer| numbers.layer_id(layer)));
+        write_optional_content(&mut catalog, (0..layers).map(|layer| ids.layer_id(layer)));
     }
     catalog.finish();
     let mut info = pdf.document_info(ObjectIds::INFO);
@@ -119,34 +119,34 @@ fn write_image(pdf: &mut Pdf, [color, mask]: [Ref; 2], picture: &Picture) {
 /// those of the pages before.
 fn write_page(
     pdf: &mut Pdf,
-    numbers: &ObjectIds,
-    number: usize,
+    ids: &ObjectIds,
+    index: usize,
     page: &Page,
     [layers, pictures]: [usize; 2],
 ) {
     let [width, height] = page.size.to_array().map(|side| (side * POINTS_PER_MILLIMETER) as f32);
-    let mut entry = pdf.page(ObjectIds::page_id(number));
+    let mut entry = pdf.page(ObjectIds::page_id(index));
     entry.media_box(Rect::new(0.0, 0.0, width, height));
     entry.parent(ObjectIds::PAGE_TREE);
-    entry.contents(ObjectIds::content_id(number));
+    entry.contents(ObjectIds::content_id(index));
     let mut resources = entry.resources();
     if !page.layers.is_empty() {
         let mut properties = resources.insert(Name(b"Properties")).dict();
         for at in 0..page.layers.len() {
             let name = format!("L{at}");
-            properties.pair(Name(name.as_bytes()), numbers.layer_id(layers + at));
+            properties.pair(Name(name.as_bytes()), ids.layer_id(layers + at));
         }
     }
     if !page.images.is_empty() {
         let mut objects = resources.x_objects();
         for at in 0..page.images.len() {
-            objects.pair(Name(format!("P{at}").as_bytes()), numbers.image_ids(pictures + at)[0]);
+            objects.pair(Name(format!("P{at}").as_bytes()), ids.image_ids(pictures + at)[0]);
         }
     }
     resources.finish();
     entry.finish();
     let content = miniz_oxide::deflate::compress_to_vec_zlib(&page_content(page), DEFLATE_LEVEL);
-    pdf.stream(ObjectIds::content_id(number), &content).filter(Filter::FlateDecode);
+    pdf.stream(ObjectIds::content_id(index), &content).filter(Filter::FlateDecode);
 }
 
 /// The content stream of a page, uncompressed.
@@ -195,8 +195,8 @@ impl ContentStream {
     }
 
     /// Appends a length in millimeters.
-    fn push_length(&mut self, millimetres: f64) {
-        self.push_number(libm::round(millimetres * 1000.0) as i64);
+    fn push_length(&mut self, millimeters: f64) {
+        self.push_number(libm::round(millimeters * 1000.0) as i64);
     }
 
     /// Appends a point of the page in millimeters.

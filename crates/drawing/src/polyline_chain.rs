@@ -32,9 +32,9 @@ const COLLINEAR_TOLERANCE: f64 = 1.0;
 const MAX_DROPPED_RUN: usize = 64;
 
 /// Joins segments into chains: by layer, by object, and in the order of their first segments.
-pub(super) fn join_into_chains(pieces: &[PageSegment]) -> Vec<PolylineChain> {
-    let mut order: Vec<&PageSegment> = pieces.iter().collect();
-    order.sort_by_key(|piece| (piece.layer, piece.object));
+pub(super) fn join_into_chains(segments: &[PageSegment]) -> Vec<PolylineChain> {
+    let mut order: Vec<&PageSegment> = segments.iter().collect();
+    order.sort_by_key(|segment| (segment.layer, segment.object));
     let alike = order.chunk_by(|a, b| (a.layer, a.object) == (b.layer, b.object));
     alike
         .flat_map(|group| {
@@ -58,9 +58,9 @@ struct SegmentGraph {
 
 impl SegmentGraph {
     /// Snaps segments to the grid, and drops those without length and duplicates.
-    fn new(pieces: &[&PageSegment]) -> Self {
-        let on_grid = |piece: &&PageSegment| piece.ends.map(to_micrometers);
-        let sides: Vec<_> = pieces.iter().map(on_grid).filter(|[a, b]| a != b).collect();
+    fn new(segments: &[&PageSegment]) -> Self {
+        let on_grid = |segment: &&PageSegment| segment.ends.map(to_micrometers);
+        let sides: Vec<_> = segments.iter().map(on_grid).filter(|[a, b]| a != b).collect();
         let segments = drop_duplicate_segments(&sides);
         let mut ends: Vec<_> = (0_u32..)
             .zip(&segments)
@@ -114,8 +114,8 @@ impl SegmentGraph {
     /// Where only two segments meet the other one is taken whatever the angle; at junctions only
     /// one that turns by less than 60°.
     fn next_segment(&self, before: PagePoint, here: PagePoint) -> Option<(usize, PagePoint)> {
-        let first = self.ends.partition_point(|(place, ..)| *place < here);
-        let incident = self.ends[first..].iter().take_while(|(place, ..)| *place == here);
+        let first = self.ends.partition_point(|(point, ..)| *point < here);
+        let incident = self.ends[first..].iter().take_while(|(point, ..)| *point == here);
         let is_crossing = incident.clone().nth(2).is_some();
         let mut best: Option<(f64, usize, PagePoint)> = None;
         for &(_, side, end) in incident {
@@ -193,19 +193,19 @@ mod tests {
     use super::*;
     use glam::DVec2;
 
-    /// The chains of segments given in millimetres, all of one layer and object.
+    /// The chains of segments given in millimeters, all of one layer and object.
     fn chains_in_millimeters(segments: &[[f64; 4]]) -> Vec<(Vec<[i32; 2]>, bool)> {
-        let piece = |&[x0, y0, x1, y1]: &[f64; 4]| PageSegment {
+        let segment = |&[x0, y0, x1, y1]: &[f64; 4]| PageSegment {
             ends: [DVec2::new(x0, y0), DVec2::new(x1, y1)],
             layer: 0,
             object: 0,
         };
-        let pieces: Vec<PageSegment> = segments.iter().map(piece).collect();
-        let in_millimetres =
+        let segments: Vec<PageSegment> = segments.iter().map(segment).collect();
+        let in_millimeters =
             |line: Polyline| line.points.iter().map(|p| p.map(|c| c / 1000)).collect();
-        join_into_chains(&pieces)
+        join_into_chains(&segments)
             .into_iter()
-            .map(|chain| (in_millimetres(chain.polyline.clone()), chain.polyline.closed))
+            .map(|chain| (in_millimeters(chain.polyline.clone()), chain.polyline.closed))
             .collect()
     }
 
@@ -264,7 +264,7 @@ mod tests {
             [x0, y0, x1, y1]
         };
         let sides: Vec<[f64; 4]> = (0..1000).map(side).collect();
-        let pieces: Vec<PageSegment> = sides
+        let segments: Vec<PageSegment> = sides
             .iter()
             .map(|s| PageSegment {
                 ends: [DVec2::new(s[0], s[1]), DVec2::new(s[2], s[3])],
@@ -272,7 +272,7 @@ mod tests {
                 object: 7,
             })
             .collect();
-        let chains = join_into_chains(&pieces);
+        let chains = join_into_chains(&segments);
         assert_eq!(chains.len(), 1);
         let Polyline { points, closed } = &chains[0].polyline;
         assert!(*closed && points.len() > 400 && points.len() <= 1000, "{}", points.len());

@@ -97,12 +97,12 @@ fn parse_point(word: &str) -> DVec2 {
     word.split_once(',').map_or(DVec2::ZERO, |(x, y)| DVec2::new(number(x), number(y)))
 }
 
-/// A quarter of an ellipse about `centre`, without its first point.
-fn quarter_ellipse(from: DVec2, to: DVec2, centre: DVec2) -> impl Iterator<Item = DVec2> {
+/// A quarter of an ellipse about `center`, without its first point.
+fn quarter_ellipse(from: DVec2, to: DVec2, center: DVec2) -> impl Iterator<Item = DVec2> {
     (1..=CURVE_STEPS).map(move |step| {
         let angle = core::f64::consts::FRAC_PI_2 * f64::from(step) / f64::from(CURVE_STEPS);
         let (sin, cos) = libm::sincos(angle);
-        if step == CURVE_STEPS { to } else { centre + (from - centre) * cos + (to - centre) * sin }
+        if step == CURVE_STEPS { to } else { center + (from - center) * cos + (to - center) * sin }
     })
 }
 

@@ -262,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_are_as_on_a_web_page() {
+    fn colors_are_as_on_a_web_page() {
         assert_eq!(css_color([255, 0, 0x33]), "#f03");
         assert_eq!(css_color([1, 0, 0x33]), "#010033");
     }

@@ -61,23 +61,23 @@ pub fn verify_with_z_buffer(
 ) -> Result<Agreement, DrawError> {
     let image = ZBufferImage::rasterize_subject(subject)?;
     let mut agreement = Agreement::default();
-    for (place, line) in drawing.segments.iter().enumerate() {
-        let [a, b] = line.ends;
+    for (index, segment) in drawing.segments.iter().enumerate() {
+        let [a, b] = segment.ends;
         let length = (b - a).length();
         let count = (length / SEARCH_RADIUS).ceil().max(1.0);
         let step = length / count;
         let at = |n: f64| {
             let s = (n + 0.5) / count;
-            (a + (b - a) * s, line.depths[0] + (line.depths[1] - line.depths[0]) * s)
+            (a + (b - a) * s, segment.depths[0] + (segment.depths[1] - segment.depths[0]) * s)
         };
         let samples = (0..count as usize).map(|n| at(n as f64));
-        if line.visible {
+        if segment.visible {
             let denied =
                 samples.filter(|&(p, depth)| !image.shows_point(p, depth)).count() as f64 * step;
             agreement.visible_length += length;
             agreement.denied_length += denied;
             if denied > 0.0 {
-                agreement.denied_segments.push((place, denied));
+                agreement.denied_segments.push((index, denied));
             }
         } else {
             let shown =
@@ -113,9 +113,9 @@ struct FacePlane {
 
 impl FacePlane {
     /// The plane of a triangle, oriented towards the viewer.
-    fn from_triangle([a, b, c]: [DVec3; 3], sight: &Projector) -> Self {
+    fn from_triangle([a, b, c]: [DVec3; 3], projector: &Projector) -> Self {
         let normal = (b - a).cross(c - a).normalize_or_zero();
-        let normal = normal * normal.dot(sight.towards_viewer(a)).signum();
+        let normal = normal * normal.dot(projector.towards_viewer(a)).signum();
         Self { normal, offset: normal.dot(a) }
     }
 }
@@ -148,20 +148,20 @@ impl ZBufferImage {
     }
 
     /// Whether something that is not in front of a point is visible near it.
-    fn shows_point(&self, place: DVec2, depth: f64) -> bool {
-        let at = self.unproject_point(place, depth);
-        self.face_ids_near(place).any(|id| id.is_none_or(|id| !self.is_face_in_front(id, at)))
+    fn shows_point(&self, point: DVec2, depth: f64) -> bool {
+        let at = self.unproject_point(point, depth);
+        self.face_ids_near(point).any(|id| id.is_none_or(|id| !self.is_face_in_front(id, at)))
     }
 
     /// Whether something in front of a point is visible near it.
-    fn hides_point(&self, place: DVec2, depth: f64) -> bool {
-        let at = self.unproject_point(place, depth);
-        self.face_ids_near(place).any(|id| id.is_some_and(|id| self.is_face_in_front(id, at)))
+    fn hides_point(&self, point: DVec2, depth: f64) -> bool {
+        let at = self.unproject_point(point, depth);
+        self.face_ids_near(point).any(|id| id.is_some_and(|id| self.is_face_in_front(id, at)))
     }
 
     /// A point of the drawing with its depth in world space.
-    fn unproject_point(&self, place: DVec2, depth: f64) -> DVec3 {
-        let at = self.to_world * place.extend(depth).extend(1.0);
+    fn unproject_point(&self, point: DVec2, depth: f64) -> DVec3 {
+        let at = self.to_world * point.extend(depth).extend(1.0);
         at.truncate() / at.w
     }
 
@@ -173,15 +173,15 @@ impl ZBufferImage {
 
     /// The ids in the pixels within [`SEARCH_RADIUS`] of a point of the drawing; `None` where there
     /// is no face.
-    fn face_ids_near(&self, place: DVec2) -> impl Iterator<Item = Option<u32>> {
-        let at = place * self.scale;
-        let reach = SEARCH_RADIUS * self.scale;
-        let (left, right) = ((at.x - reach).floor() as i64, (at.x + reach).floor() as i64);
-        let (top, bottom) = ((at.y - reach).floor() as i64, (at.y + reach).floor() as i64);
+    fn face_ids_near(&self, point: DVec2) -> impl Iterator<Item = Option<u32>> {
+        let at = point * self.scale;
+        let radius = SEARCH_RADIUS * self.scale;
+        let (left, right) = ((at.x - radius).floor() as i64, (at.x + radius).floor() as i64);
+        let (top, bottom) = ((at.y - radius).floor() as i64, (at.y + radius).floor() as i64);
         let pixels = (top..=bottom).flat_map(move |y| (left..=right).map(move |x| (x, y)));
         pixels.filter_map(move |(x, y)| {
             let center = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
-            let is_near = (center - at).length() <= reach + std::f64::consts::FRAC_1_SQRT_2;
+            let is_near = (center - at).length() <= radius + std::f64::consts::FRAC_1_SQRT_2;
             let is_inside = (0..self.width).contains(&x) && (0..self.height).contains(&y);
             let id = || self.ids[(y * self.width + x) as usize];
             (is_near && is_inside).then(id)

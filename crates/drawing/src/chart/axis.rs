@@ -142,17 +142,17 @@ mod tests {
             for power in -300..300 {
                 for ratio in [1.001, 1.5, 7.0, 1e3, 1e7] {
                     let from = power_of_ten(power) * 1.7;
-                    let found = ticks(from, from * ratio, spacing);
-                    assert!((2..=MAX_TICKS).contains(&found.len()), "{from} {ratio} {found:?}");
-                    assert!(found.windows(2).all(|pair| pair[0] < pair[1]), "{found:?}");
+                    let actual = ticks(from, from * ratio, spacing);
+                    assert!((2..=MAX_TICKS).contains(&actual.len()), "{from} {ratio} {actual:?}");
+                    assert!(actual.windows(2).all(|pair| pair[0] < pair[1]), "{actual:?}");
                     if (-9..9).contains(&power) && ratio > 1.4 {
                         let long =
-                            found.iter().map(|tick| format_tick(*tick)).find(|t| t.len() > 7);
+                            actual.iter().map(|tick| format_tick(*tick)).find(|t| t.len() > 7);
                         assert_eq!(long, None, "{from} {ratio} {spacing:?}");
                     }
-                    let room = from * (ratio - 1.0) * 1e-3;
-                    let on_axis = from - room..=from * ratio + room;
-                    assert!(found.iter().all(|tick| on_axis.contains(tick)), "{from} {found:?}");
+                    let tolerance = from * (ratio - 1.0) * 1e-3;
+                    let on_axis = from - tolerance..=from * ratio + tolerance;
+                    assert!(actual.iter().all(|tick| on_axis.contains(tick)), "{from} {actual:?}");
                 }
             }
         }

@@ -25,13 +25,13 @@ struct FaceNormals(Vec<(DVec3, bool)>);
 
 impl FaceNormals {
     /// Computes normals, and their signs towards the viewer, for all faces.
-    fn new(shape: &WorldMesh, sight: &Projector) -> Self {
+    fn new(mesh: &WorldMesh, projector: &Projector) -> Self {
         let normal = |face: &Face| {
-            let [a, b, c] = face.vertices.map(|corner| shape.points[corner as usize]);
+            let [a, b, c] = face.vertices.map(|vertex| mesh.points[vertex as usize]);
             let normal = (b - a).cross(c - a).normalize_or_zero();
-            (normal, normal.dot(sight.towards_viewer(a)) > 0.0)
+            (normal, normal.dot(projector.towards_viewer(a)) > 0.0)
         };
-        Self(shape.faces.iter().map(normal).collect())
+        Self(mesh.faces.iter().map(normal).collect())
     }
 
     /// The normal and facing of the face at a half-edge, flipped where the half-edge runs backward.
@@ -39,8 +39,8 @@ impl FaceNormals {
     /// Seen along the edge from its lower to its higher end, the faces at both sides then need no
     /// common orientation: meshes with inconsistent winding classify like others.
     fn normal_along(&self, side: HalfEdge) -> (DVec3, bool) {
-        let (normal, looks) = self.0[side.face as usize];
-        if side.is_forward { (normal, looks) } else { (-normal, !looks) }
+        let (normal, is_front) = self.0[side.face as usize];
+        if side.is_forward { (normal, is_front) } else { (-normal, !is_front) }
     }
 }
 
@@ -56,11 +56,11 @@ pub(super) struct EdgeClassifier<'a> {
 
 impl<'a> EdgeClassifier<'a> {
     /// A classifier of a mesh's edges for a viewer and its crease angle.
-    pub(super) fn new(shape: &'a WorldMesh, sight: &Projector, options: &DrawOptions) -> Self {
-        let normals = FaceNormals::new(shape, sight);
+    pub(super) fn new(mesh: &'a WorldMesh, projector: &Projector, options: &DrawOptions) -> Self {
+        let normals = FaceNormals::new(mesh, projector);
         Self {
-            faces: &shape.faces,
-            section_edges: &shape.section_edges,
+            faces: &mesh.faces,
+            section_edges: &mesh.section_edges,
             normals,
             crease_cosine: libm::cos(options.crease_angle),
         }
@@ -82,12 +82,12 @@ impl<'a> EdgeClassifier<'a> {
         if self.section_edges.binary_search(&ends).is_ok() {
             return EdgeClass::Section;
         }
-        let shape = self.class_by_geometry(sides);
+        let mesh = self.class_by_geometry(sides);
         let mark = |&side: &HalfEdge| {
             Some(self.face_of_half_edge(side).edge_visibility?[usize::from(side.side)])
         };
-        match (sides.iter().filter_map(mark).max(), shape) {
-            (None, shape) => shape,
+        match (sides.iter().filter_map(mark).max(), mesh) {
+            (None, mesh) => mesh,
             (Some(EdgeVisibility::Hard | EdgeVisibility::RepeatedHard), _) => EdgeClass::Marked,
             (Some(EdgeVisibility::Silhouette), EdgeClass::Silhouette) => EdgeClass::Silhouette,
             _ => EdgeClass::Facet,
@@ -131,10 +131,10 @@ impl<'a> EdgeClassifier<'a> {
     /// The class of the edge between two faces: silhouette, crease, tangent (materials differ) or
     /// facet.
     fn class_between(&self, one: HalfEdge, other: HalfEdge) -> EdgeClass {
-        let ((n, looks), (m, other_looks)) =
+        let ((n, is_front), (m, other_is_front)) =
             (self.normals.normal_along(one), self.normals.normal_along(other));
         // As if both ran along the rising edge: then one of the normals of a smooth surface points inwards.
-        if looks == other_looks {
+        if is_front == other_is_front {
             EdgeClass::Silhouette
         } else if n.dot(-m) < self.crease_cosine {
             EdgeClass::Crease

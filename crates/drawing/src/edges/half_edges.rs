@@ -42,13 +42,13 @@ impl HalfEdges {
         }
         let none = HalfEdge { high_vertex: 0, face: 0, side: 0, is_forward: false };
         let mut half_edges = vec![none; faces.len() * 3];
-        for (face, number) in faces.iter().zip(0..) {
+        for (face, index) in faces.iter().zip(0..) {
             for (ends, side) in face_sides(face).into_iter().zip(0..) {
                 let slot = &mut starts[low(ends) + 1];
                 let [from, to] = ends;
                 half_edges[*slot as usize] = HalfEdge {
                     high_vertex: from.max(to),
-                    face: number,
+                    face: index,
                     side,
                     is_forward: from < to,
                 };

@@ -49,50 +49,50 @@ const MAX_INTERSECTIONS: usize = 1 << 22;
 /// larger: large faces are few wherever one looks. The work is bounded by [`Bvh::query_budget`] and
 /// [`MAX_INTERSECTIONS`]; whether a bound was met is in the result.
 pub(super) fn intersect_faces(
-    shape: &WorldMesh,
-    (borders, reach): (&[BorderEdge], &WeldRadii),
+    mesh: &WorldMesh,
+    (borders, weld_radii): (&[BorderEdge], &WeldRadii),
     touching: f64,
     threads: usize,
 ) -> Intersections {
     let mut triangles: Vec<IntersectionTriangle> =
-        shape.faces.iter().map(|face| IntersectionTriangle::from_face(shape, face)).collect();
+        mesh.faces.iter().map(|face| IntersectionTriangle::from_face(mesh, face)).collect();
     for (ends, side) in borders {
         let triangle = &mut triangles[side.face as usize];
         triangle.borders[usize::from(side.side)] = true;
-        triangle.border_distance = 2.0 * reach.edge_radius(*ends);
+        triangle.border_distance = 2.0 * weld_radii.edge_radius(*ends);
     }
     let boxes: Vec<Aabb> = triangles.iter().map(|t| Aabb::from_points(t.vertices)).collect();
     let tree = Bvh::new(&boxes, half_surface_area);
     // The lesser of two asks for the greater, of which there are few where it is.
     let size = |at: usize| (half_surface_area(boxes[at].max - boxes[at].min), at);
-    let count = shape.faces.len();
+    let count = mesh.faces.len();
     let (most, most_crossed) =
         (Bvh::query_budget(count), (MAX_INTERSECTIONS / count.max(1)).max(16));
     let is_cut_off = AtomicBool::new(false);
-    let crossings = map_in_order(count, threads, |range, open: &mut Vec<u32>, found| {
+    let segments = map_in_order(count, threads, |range, open: &mut Vec<u32>, found| {
         for one in range {
             let before = found.len();
             let visited = tree.for_each_overlapping(&boxes[one], most, open, |other| {
                 let other = other as usize;
-                let faces = [&shape.faces[one], &shape.faces[other]];
+                let faces = [&mesh.faces[one], &mesh.faces[other]];
                 let is_asked = size(one) < size(other) && found.len() - before < most_crossed;
                 if !is_asked || shares_edge(faces) {
                     return;
                 }
-                let crossing = triangles[one].intersect_triangle(&triangles[other], touching);
-                found.extend(crossing.map(|ends| (ends, faces[0].object.min(faces[1].object))));
+                let segment = triangles[one].intersect_triangle(&triangles[other], touching);
+                found.extend(segment.map(|ends| (ends, faces[0].object.min(faces[1].object))));
             });
             if !visited || found.len() - before >= most_crossed {
                 is_cut_off.store(true, Ordering::Relaxed);
             }
         }
     });
-    Intersections { segments: crossings, is_cut_off: is_cut_off.into_inner() }
+    Intersections { segments: segments, is_cut_off: is_cut_off.into_inner() }
 }
 
 /// Whether two faces share two vertices: neighbors meet in an edge and do not intersect.
 fn shares_edge([one, other]: [&Face; 2]) -> bool {
-    one.vertices.iter().filter(|corner| other.vertices.contains(corner)).count() > 1
+    one.vertices.iter().filter(|vertex| other.vertices.contains(vertex)).count() > 1
 }
 
 /// A triangle with what the intersection test needs of it.
@@ -109,8 +109,8 @@ struct IntersectionTriangle {
 
 impl IntersectionTriangle {
     /// The triangle of a face, without boundary sides.
-    fn from_face(shape: &WorldMesh, face: &Face) -> Self {
-        let vertices = face.vertices.map(|corner| shape.points[corner as usize]);
+    fn from_face(mesh: &WorldMesh, face: &Face) -> Self {
+        let vertices = face.vertices.map(|vertex| mesh.points[vertex as usize]);
         let [a, b, c] = vertices;
         let normal = (b - a).cross(c - a).normalize_or_zero();
         Self { vertices, normal, borders: [false; 3], border_distance: 0.0 }
@@ -155,8 +155,8 @@ impl IntersectionTriangle {
     /// The signed distances of the vertices from another triangle's plane, with those below
     /// `touching` made zero.
     fn distances_to_plane(&self, other: &Self, touching: f64) -> [f64; 3] {
-        self.vertices.map(|corner| {
-            let height = other.normal.dot(corner - other.vertices[0]);
+        self.vertices.map(|vertex| {
+            let height = other.normal.dot(vertex - other.vertices[0]);
             if height.abs() <= touching { 0.0 } else { height }
         })
     }

@@ -32,20 +32,20 @@ pub(super) struct WeldRadii(Vec<f64>);
 
 impl WeldRadii {
     /// The radii of all vertices of a mesh; infinite for vertices without a face.
-    pub(super) fn from_mesh(shape: &WorldMesh) -> Self {
-        let mut boxes = vec![Aabb::EMPTY; shape.objects.len()];
-        let corners =
-            || shape.faces.iter().flat_map(|f| f.vertices.map(|c| (c as usize, f.object)));
-        for (corner, object) in corners() {
+    pub(super) fn from_mesh(mesh: &WorldMesh) -> Self {
+        let mut boxes = vec![Aabb::EMPTY; mesh.objects.len()];
+        let vertices =
+            || mesh.faces.iter().flat_map(|f| f.vertices.map(|c| (c as usize, f.object)));
+        for (vertex, object) in vertices() {
             let bounds = &mut boxes[object as usize];
-            *bounds = bounds.union(Aabb::from_points([shape.points[corner]]));
+            *bounds = bounds.union(Aabb::from_points([mesh.points[vertex]]));
         }
-        let mut reach = vec![f64::INFINITY; shape.points.len()];
-        for (corner, object) in corners() {
+        let mut radii = vec![f64::INFINITY; mesh.points.len()];
+        for (vertex, object) in vertices() {
             let bounds = boxes[object as usize];
-            reach[corner] = reach[corner].min((bounds.max - bounds.min).length() * WELD_FRACTION);
+            radii[vertex] = radii[vertex].min((bounds.max - bounds.min).length() * WELD_FRACTION);
         }
-        Self(reach)
+        Self(radii)
     }
 
     /// The lesser radius of the two ends of an edge.
@@ -65,29 +65,29 @@ pub(super) fn border_edges(sides: &HalfEdges) -> Vec<BorderEdge> {
 /// Vertices are visited by index, and each one takes in its unwelded neighbors. A chain of near
 /// vertices does not collapse into one, because a vertex that was taken in does not search again.
 pub(super) fn weld_near_borders(
-    shape: &mut WorldMesh,
+    mesh: &mut WorldMesh,
     borders: &[BorderEdge],
-    reach: &WeldRadii,
+    radii: &WeldRadii,
 ) -> bool {
     let points = border_vertices(borders);
     let boxes: Vec<Aabb> =
-        points.iter().map(|&at| Aabb::from_points([shape.points[at as usize]])).collect();
+        points.iter().map(|&at| Aabb::from_points([mesh.points[at as usize]])).collect();
     let tree = Bvh::new(&boxes, half_surface_area);
-    let mut same: Vec<u32> = (0..shape.points.len() as u32).collect();
+    let mut same: Vec<u32> = (0..mesh.points.len() as u32).collect();
     let mut is_taken = vec![false; points.len()];
     let mut open = Vec::new();
     let mut any = false;
-    for (number, &at) in points.iter().enumerate() {
-        if is_taken[number] {
+    for (index, &at) in points.iter().enumerate() {
+        if is_taken[index] {
             continue;
         }
-        let (here, far) = (boxes[number].min, reach.0[at as usize]);
-        let area = boxes[number].expanded_by(DVec3::splat(far));
+        let (here, far) = (boxes[index].min, radii.0[at as usize]);
+        let area = boxes[index].expanded_by(DVec3::splat(far));
         tree.for_each_overlapping(&area, usize::MAX, &mut open, |item| {
             let other = points[item as usize];
-            let radius = far.min(reach.0[other as usize]);
+            let radius = far.min(radii.0[other as usize]);
             let is_near = (boxes[item as usize].min - here).length() <= radius;
-            if item as usize > number && !is_taken[item as usize] && is_near {
+            if item as usize > index && !is_taken[item as usize] && is_near {
                 is_taken[item as usize] = true;
                 same[other as usize] = at;
                 any = true;
@@ -95,7 +95,7 @@ pub(super) fn weld_near_borders(
         });
     }
     if any {
-        remap_vertices(shape, &same);
+        remap_vertices(mesh, &same);
     }
     any
 }
@@ -115,12 +115,12 @@ pub(super) fn weld_near_borders(
 ///
 /// Parts are sorted by their ends, so that coincident ones of both sides of a seam are neighbors.
 pub(super) fn split_at_t_junctions(
-    shape: &WorldMesh,
+    mesh: &WorldMesh,
     borders: &[BorderEdge],
-    reach: &WeldRadii,
+    radii: &WeldRadii,
 ) -> (Vec<BorderEdge>, Vec<Face>) {
     let points = border_vertices(borders);
-    let position = |at: u32| shape.points[at as usize];
+    let position = |at: u32| mesh.points[at as usize];
     let boxes: Vec<Aabb> = points.iter().map(|&at| Aabb::from_points([position(at)])).collect();
     let tree = Bvh::new(&boxes, half_surface_area);
     let (mut open, mut cuts) = (Vec::new(), Vec::new());
@@ -128,7 +128,7 @@ pub(super) fn split_at_t_junctions(
     let (mut parts, mut fillings) = (Vec::with_capacity(borders.len()), Vec::new());
     for &([a, b], side) in borders {
         let (from, along) = (position(a), position(b) - position(a));
-        let radius = reach.edge_radius([a, b]);
+        let radius = radii.edge_radius([a, b]);
         cuts.clear();
         let area = Aabb::from_points([position(a), position(b)]).expanded_by(DVec3::splat(radius));
         tree.for_each_overlapping(&area, most, &mut open, |item| {
@@ -142,7 +142,7 @@ pub(super) fn split_at_t_junctions(
         cuts.sort_unstable_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
         let neighbors =
             cuts.iter().map(|&(_, at)| at).zip(cuts.iter().skip(1).map(|&(_, at)| at).chain([b]));
-        let face = shape.faces[side.face as usize];
+        let face = mesh.faces[side.face as usize];
         let filling = |(from, to)| Face { vertices: [a, from, to], ..face };
         fillings.extend(neighbors.map(filling));
         let stops = cuts.iter().map(|&(_, at)| at).chain([b]);

@@ -122,12 +122,12 @@ mod tests {
     use homog::Normal;
 
     fn square_loop(x: f64, r: f64, turns_left: bool) -> SectionLoop {
-        let mut corners =
+        let mut vertices =
             [[-r, -r], [r, -r], [r, r], [-r, r]].map(|[a, b]| Point::new(x + a, b, 5.0));
         if !turns_left {
-            corners.reverse();
+            vertices.reverse();
         }
-        corners.to_vec()
+        vertices.to_vec()
     }
 
     fn cap_area(loops: Vec<SectionLoop>) -> f64 {

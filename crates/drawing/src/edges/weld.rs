@@ -12,16 +12,16 @@ use glam::DVec3;
 /// Gives all points with exactly equal coordinates one index, that of the first of them.
 ///
 /// Faces that lose a vertex by it, and duplicates of other faces, are removed.
-pub(super) fn weld_equal_vertices(shape: &mut WorldMesh) {
-    let sorted_order = sort_by_position(&shape.points);
-    let mut representative: Vec<u32> = (0..shape.points.len() as u32).collect();
+pub(super) fn weld_equal_vertices(mesh: &mut WorldMesh) {
+    let sorted_order = sort_by_position(&mesh.points);
+    let mut representative: Vec<u32> = (0..mesh.points.len() as u32).collect();
     for pair in sorted_order.windows(2) {
         let [a, b] = [pair[0], pair[1]].map(|at| at as usize);
-        if shape.points[a] == shape.points[b] {
+        if mesh.points[a] == mesh.points[b] {
             representative[b] = representative[a];
         }
     }
-    remap_vertices(shape, &representative);
+    remap_vertices(mesh, &representative);
 }
 
 /// The indices of the points sorted by x, y, z and index.
@@ -36,22 +36,22 @@ fn sort_by_position(points: &[DVec3]) -> Vec<u32> {
 }
 
 /// Replaces each vertex index `v` by `same[v]`, and removes faces and lines that degenerate by it.
-pub(super) fn remap_vertices(shape: &mut WorldMesh, same: &[u32]) {
-    for face in &mut shape.faces {
-        face.vertices = face.vertices.map(|corner| same[corner as usize]);
+pub(super) fn remap_vertices(mesh: &mut WorldMesh, same: &[u32]) {
+    for face in &mut mesh.faces {
+        face.vertices = face.vertices.map(|vertex| same[vertex as usize]);
     }
-    for stroke in &mut shape.line_edges {
+    for stroke in &mut mesh.line_edges {
         stroke.ends = stroke.ends.map(|end| same[end as usize]);
     }
-    for cut in &mut shape.section_edges {
+    for cut in &mut mesh.section_edges {
         let [a, b] = cut.map(|end| same[end as usize]);
         *cut = [a.min(b), a.max(b)];
     }
-    shape.section_edges.sort_unstable();
-    shape.section_edges.dedup();
-    shape.faces.retain(|Face { vertices: [a, b, c], .. }| a != b && b != c && c != a);
-    shape.line_edges.retain(|stroke| stroke.ends[0] != stroke.ends[1]);
-    drop_duplicate_faces(&mut shape.faces, shape.keeps_duplicates);
+    mesh.section_edges.sort_unstable();
+    mesh.section_edges.dedup();
+    mesh.faces.retain(|Face { vertices: [a, b, c], .. }| a != b && b != c && c != a);
+    mesh.line_edges.retain(|stroke| stroke.ends[0] != stroke.ends[1]);
+    drop_duplicate_faces(&mut mesh.faces, mesh.keeps_duplicates);
 }
 
 /// Removes all but the first of faces with the same three vertices, whatever their orientation.
@@ -64,9 +64,9 @@ fn drop_duplicate_faces(faces: &mut Vec<Face>, by_object: bool) {
         .iter()
         .zip(0..)
         .map(|(face, at)| {
-            let mut corners = face.vertices;
-            corners.sort_unstable();
-            ((corners, if by_object { face.object } else { 0 }), at)
+            let mut vertices = face.vertices;
+            vertices.sort_unstable();
+            ((vertices, if by_object { face.object } else { 0 }), at)
         })
         .collect();
     keyed.sort_unstable();

@@ -61,28 +61,28 @@ pub(crate) struct WorldMesh {
 impl WorldMesh {
     /// Gathers all visible primitives of the models in their current pose.
     pub(crate) fn from_models(models: &[ModelInstance]) -> Self {
-        let mut shape = Self::default();
+        let mut mesh = Self::default();
         let mut first_material = 0;
         for placed in models {
             let model = &*placed.model;
             for instance in model.mesh_instances() {
-                let object = shape.objects.len() as u32;
-                shape.objects.push(object_name(model, instance));
-                let mesh = model.nodes[instance.node].mesh.map(|mesh| &model.meshes[mesh]);
-                for primitive in mesh.into_iter().flat_map(|mesh| &mesh.primitives) {
+                let object = mesh.objects.len() as u32;
+                mesh.objects.push(object_name(model, instance));
+                let node_mesh = model.nodes[instance.node].mesh.map(|index| &model.meshes[index]);
+                for primitive in node_mesh.into_iter().flat_map(|mesh| &mesh.primitives) {
                     let SkinnedPrimitive { positions, to_model, .. } =
                         model.skin_primitive(instance, primitive);
                     let to_world = to_model.then(placed.model_to_world);
                     let material = first_material + primitive.material.map_or(0, |m| m as u32 + 1);
-                    shape.add_primitive(primitive, &positions, to_world, (object, material));
+                    mesh.add_primitive(primitive, &positions, to_world, (object, material));
                 }
             }
             let colors = model.materials.iter().map(|material| material.base_color);
-            shape.colors.push([1.0; 3]);
-            shape.colors.extend(colors.map(|[r, g, b, _]| [r, g, b]));
+            mesh.colors.push([1.0; 3]);
+            mesh.colors.extend(colors.map(|[r, g, b, _]| [r, g, b]));
             first_material += model.materials.len() as u32 + 1;
         }
-        shape
+        mesh
     }
 
     /// Appends a primitive whose vertices are transformed to world space.
@@ -97,18 +97,18 @@ impl WorldMesh {
         (object, material): (u32, u32),
     ) {
         let first = self.points.len() as u32;
-        let place =
+        let to_position =
             |position: &[f32; 3]| to_world.transform_point(position.map(f64::from).into()).raw();
-        self.points.extend(positions.iter().map(place));
+        self.points.extend(positions.iter().map(to_position));
         let points = &self.points;
-        let is_here = |corners: &[u32]| corners.iter().all(|&at| points[at as usize].is_finite());
+        let is_here = |vertices: &[u32]| vertices.iter().all(|&at| points[at as usize].is_finite());
         match primitive.topology {
             Topology::Points => {}
             Topology::Lines => {
                 let ends =
                     primitive.indices.as_chunks::<2>().0.iter().map(|e| e.map(|v| v + first));
-                let strokes = ends.filter(|ends| is_here(ends));
-                self.line_edges.extend(strokes.map(|ends| LineEdge {
+                let lines = ends.filter(|ends| is_here(ends));
+                self.line_edges.extend(lines.map(|ends| LineEdge {
                     ends,
                     object,
                     is_marked: false,
@@ -119,11 +119,11 @@ impl WorldMesh {
                 let marks = |at: usize| Some(*edges?.visibility.as_ref()?.get(at)?);
                 // Who names the lines to be seen wants no others.
                 let rest = edges.map(|_| [EdgeVisibility::Silhouette; 3]);
-                let corners = primitive.indices.as_chunks::<3>().0.iter();
-                let faces = corners.enumerate().map(|(at, corners)| {
-                    let corners = corners.map(|corner| corner + first);
+                let vertices = primitive.indices.as_chunks::<3>().0.iter();
+                let faces = vertices.enumerate().map(|(at, vertices)| {
+                    let vertices = vertices.map(|vertex| vertex + first);
                     Face {
-                        vertices: corners,
+                        vertices,
                         object,
                         material,
                         edge_visibility: marks(at).or(rest),
@@ -134,8 +134,8 @@ impl WorldMesh {
                 let lines = edges.into_iter().flat_map(|edges| &edges.lines);
                 let ends =
                     lines.flat_map(|lines| &lines.vertex_pairs).map(|ends| ends.map(|v| v + first));
-                let strokes = ends.filter(|ends| is_here(ends));
-                self.line_edges.extend(strokes.map(|ends| LineEdge {
+                let lines = ends.filter(|ends| is_here(ends));
+                self.line_edges.extend(lines.map(|ends| LineEdge {
                     ends,
                     object,
                     is_marked: true,

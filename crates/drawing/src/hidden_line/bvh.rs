@@ -145,9 +145,9 @@ impl Bvh {
             }
             match self.contents(node) {
                 NodeContents::Nodes(children) => open.extend(children),
-                NodeContents::Items(places) if places.len() <= remaining => {
-                    remaining -= places.len();
-                    self.order[places].iter().for_each(|&item| visit(item));
+                NodeContents::Items(range) if range.len() <= remaining => {
+                    remaining -= range.len();
+                    self.order[range].iter().for_each(|&item| visit(item));
                 }
                 NodeContents::Items(_) => return false,
             }

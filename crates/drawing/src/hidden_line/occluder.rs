@@ -69,13 +69,13 @@ impl Occluder {
         }
         let side_along_edge =
             (0..3).find(|&k| runs_along_side(k, &sides, lengths[k], edge, tolerance));
-        let span =
+        let interval =
             positive_interval((0..3).filter(|&k| Some(k) != side_along_edge).map(|k| sides[k]))?;
-        let span = self.interval_behind_plane(edge, span, tolerance)?;
-        let Some(k) = side_along_edge else { return Some(Occlusion::Interior(span)) };
+        let interval = self.interval_behind_plane(edge, interval, tolerance)?;
+        let Some(k) = side_along_edge else { return Some(Occlusion::Interior(interval)) };
         let side = self.vertices[(k + 1) % 3] - self.vertices[k];
         let runs_with = side.dot(edge.screen[1] - edge.screen[0]) > 0.0;
-        Some(if runs_with { Occlusion::FaceLeft(span) } else { Occlusion::FaceRight(span) })
+        Some(if runs_with { Occlusion::FaceLeft(interval) } else { Occlusion::FaceRight(interval) })
     }
 
     /// The signed distances of the edge from the three sides, each times the length of its side,
@@ -105,22 +105,24 @@ impl Occluder {
     fn interval_behind_plane(
         &self,
         edge: &ProjectedEdge,
-        span: [f64; 2],
+        interval: [f64; 2],
         tolerance: &Tolerance,
     ) -> Option<[f64; 2]> {
         let height = edge.world.map(|end| self.normal.dot(end) - self.offset);
-        let ends = span.map(|s| evaluate_linear(height, edge.world_fraction(s)));
+        let ends = interval.map(|s| evaluate_linear(height, edge.world_fraction(s)));
         if ends[0].min(ends[1]) >= -tolerance.world {
             return None;
         }
-        let pierced =
-            || edge.screen_fraction(height[0] / (height[0] - height[1])).clamp(span[0], span[1]);
-        let span = match ends.map(|height| height < 0.0) {
-            [true, false] => [span[0], pierced()],
-            [false, true] => [pierced(), span[1]],
-            _ => span,
+        let pierced = || {
+            edge.screen_fraction(height[0] / (height[0] - height[1]))
+                .clamp(interval[0], interval[1])
         };
-        (span[0] < span[1]).then_some(span)
+        let interval = match ends.map(|height| height < 0.0) {
+            [true, false] => [interval[0], pierced()],
+            [false, true] => [pierced(), interval[1]],
+            _ => interval,
+        };
+        (interval[0] < interval[1]).then_some(interval)
     }
 }
 
@@ -140,16 +142,16 @@ fn side_function([from, to]: [DVec2; 2], edge: &ProjectedEdge) -> LinearFunction
 
 /// The open interval of s in [0, 1] where all functions are positive; `None` if it is empty.
 fn positive_interval(functions: impl Iterator<Item = LinearFunction>) -> Option<[f64; 2]> {
-    let mut span = [0.0_f64, 1.0];
+    let mut interval = [0.0_f64, 1.0];
     for [start, end] in functions {
         match [start > 0.0, end > 0.0] {
             [true, true] => {}
             [false, false] => return None,
-            [true, false] => span[1] = span[1].min(start / (start - end)),
-            [false, true] => span[0] = span[0].max(start / (start - end)),
+            [true, false] => interval[1] = interval[1].min(start / (start - end)),
+            [false, true] => interval[0] = interval[0].max(start / (start - end)),
         }
     }
-    (span[0] < span[1]).then_some(span)
+    (interval[0] < interval[1]).then_some(interval)
 }
 
 /// Whether the edge runs along side `k`: within `tolerance.screen` of it as long as it is inside
@@ -170,8 +172,8 @@ fn runs_along_side(
         return false;
     }
     let others = [sides[(k + 1) % 3], sides[(k + 2) % 3]];
-    positive_interval(others.into_iter()).is_some_and(|span| {
-        let is_long = (span[1] - span[0]) * edge.screen_length() > 8.0 * tolerance.screen;
-        is_long && span.iter().all(|&s| evaluate_linear(sides[k], s).abs() <= near)
+    positive_interval(others.into_iter()).is_some_and(|interval| {
+        let is_long = (interval[1] - interval[0]) * edge.screen_length() > 8.0 * tolerance.screen;
+        is_long && interval.iter().all(|&s| evaluate_linear(sides[k], s).abs() <= near)
     })
 }

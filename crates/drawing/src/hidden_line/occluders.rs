@@ -98,6 +98,26 @@ pub(crate) struct OcclusionScratch {
     node_stack: Vec<u32>,
 }
 
+impl OcclusionScratch {
+    /// Starts a query at a node.
+    fn restart(&mut self, root: Option<u32>) {
+        self.hidden.clear();
+        self.face_left.clear();
+        self.face_right.clear();
+        self.node_stack.clear();
+        self.node_stack.extend(root);
+    }
+
+    /// Adds what one face hides to the set that its kind belongs to.
+    fn insert(&mut self, occlusion: Occlusion) {
+        match occlusion {
+            Occlusion::Interior(interval) => self.hidden.insert_interval(interval),
+            Occlusion::FaceLeft(interval) => self.face_left.insert_interval(interval),
+            Occlusion::FaceRight(interval) => self.face_right.insert_interval(interval),
+        }
+    }
+}
+
 impl Occluders {
     /// Projects triangles and builds the hierarchy: O(n log n).
     ///
@@ -108,22 +128,17 @@ impl Occluders {
         projector: Projector,
         tolerance: Tolerance,
     ) -> Self {
-        let (mut pieces, mut boxes) = (Vec::new(), Vec::new());
+        let (mut unsorted, mut boxes) = (Vec::new(), Vec::new());
         for triangle in triangles {
-            let corners = triangle.map(Point::raw);
-            push_occluders(
-                corners,
-                corners.map(|c| projector.world_to_clip_point(c)),
-                &projector,
-                &tolerance,
-                |piece, bounds| {
-                    pieces.push(piece);
-                    boxes.push(bounds);
-                },
-            );
+            let vertices = triangle.map(Point::raw);
+            push_occluders(vertices, &projector, &tolerance, |occluder, bounds| {
+                unsorted.push(occluder);
+                boxes.push(bounds);
+            });
         }
+        // Long edges meet a box on the screen in proportion to half its perimeter.
         let bvh = Bvh::new(&boxes, |size| size.x + size.y);
-        let occluders = bvh.order.iter().map(|&at| pieces[at as usize]).collect();
+        let occluders = bvh.order.iter().map(|&index| unsorted[index as usize]).collect();
         Self { projector, tolerance, occluders, bvh }
     }
 
@@ -136,9 +151,10 @@ impl Occluders {
             return parts;
         };
         let mut scratch = OcclusionScratch::default();
-        for (span, hidden) in self.hidden_intervals(&edge, &mut scratch).divide_unit_interval() {
+        for (interval, hidden) in self.hidden_intervals(&edge, &mut scratch).divide_unit_interval()
+        {
             let list = if hidden { &mut parts.hidden } else { &mut parts.visible };
-            list.push(span.map(|s| edge.edge_fraction(s)));
+            list.push(interval.map(|s| edge.edge_fraction(s)));
         }
         parts
     }
@@ -153,40 +169,37 @@ impl Occluders {
         edge: &ProjectedEdge,
         scratch: &'a mut OcclusionScratch,
     ) -> &'a OcclusionIntervals {
-        let OcclusionScratch { hidden, face_left: left, face_right: right, node_stack: open } =
-            scratch;
-        hidden.clear();
-        left.clear();
-        right.clear();
-        open.clear();
-        open.extend(self.bvh.root_node());
-        while let Some(node) = open.pop() {
-            let Some(span) = interval_behind_box(edge, self.bvh.bounds(node)) else { continue };
-            if hidden.contains_interval(span) {
+        scratch.restart(self.bvh.root_node());
+        while let Some(node) = scratch.node_stack.pop() {
+            let Some(interval) = interval_behind_box(edge, self.bvh.bounds(node)) else { continue };
+            if scratch.hidden.contains_interval(interval) {
                 continue;
             }
             match self.bvh.contents(node) {
-                NodeContents::Nodes([a, b]) => {
-                    let depth = |node| self.bvh.bounds(node).max.z;
-                    open.extend(if depth(a) > depth(b) { [b, a] } else { [a, b] });
+                NodeContents::Nodes(children) => {
+                    scratch.node_stack.extend(self.far_to_near(children));
                 }
-                NodeContents::Items(places) => {
-                    for piece in &self.occluders[places] {
-                        match piece.occlude_edge(edge, &self.tolerance) {
-                            Some(Occlusion::Interior(span)) => hidden.insert_interval(span),
-                            Some(Occlusion::FaceLeft(span)) => left.insert_interval(span),
-                            Some(Occlusion::FaceRight(span)) => right.insert_interval(span),
-                            None => {}
-                        }
+                NodeContents::Items(range) => {
+                    for occluder in &self.occluders[range] {
+                        let occlusion = occluder.occlude_edge(edge, &self.tolerance);
+                        occlusion.into_iter().for_each(|occlusion| scratch.insert(occlusion));
                     }
                 }
             }
         }
-        hidden.insert_intersection(left, right);
+        let OcclusionScratch { hidden, face_left, face_right, .. } = scratch;
+        // Where faces meet at a side that the edge runs behind, they hide it together.
+        hidden.insert_intersection(face_left, face_right);
         if !hidden.is_empty() {
             hidden.remove_slivers(self.tolerance.min_part / edge.screen_length());
         }
         hidden
+    }
+
+    /// Two nodes in the order for a stack: the nearer one is popped first.
+    fn far_to_near(&self, [a, b]: [u32; 2]) -> [u32; 2] {
+        let nearest_depth = |node| self.bvh.bounds(node).max.z;
+        if nearest_depth(a) > nearest_depth(b) { [b, a] } else { [a, b] }
     }
 }
 
@@ -198,23 +211,23 @@ impl Occluders {
 /// hide it.
 fn interval_behind_box(edge: &ProjectedEdge, bounds: &Aabb) -> Option<[f64; 2]> {
     let [a, b] = edge.screen;
-    let mut span = [0.0_f64, 1.0];
+    let mut interval = [0.0_f64, 1.0];
     for axis in 0..2 {
-        let (from, by) = (a[axis], b[axis] - a[axis]);
-        if by == 0.0 {
+        let (from, step) = (a[axis], b[axis] - a[axis]);
+        if step == 0.0 {
             if from < bounds.min[axis] || from > bounds.max[axis] {
                 return None;
             }
             continue;
         }
-        let (s, t) = ((bounds.min[axis] - from) / by, (bounds.max[axis] - from) / by);
-        span = [span[0].max(s.min(t)), span[1].min(s.max(t))];
+        let (s, t) = ((bounds.min[axis] - from) / step, (bounds.max[axis] - from) / step);
+        interval = [interval[0].max(s.min(t)), interval[1].min(s.max(t))];
     }
-    if span[0] > span[1] {
+    if interval[0] > interval[1] {
         return None;
     }
-    let farthest = edge.depth_at(span[0]).min(edge.depth_at(span[1]));
-    (farthest <= bounds.max.z).then_some(span)
+    let farthest = edge.depth_at(interval[0]).min(edge.depth_at(interval[1]));
+    (farthest <= bounds.max.z).then_some(interval)
 }
 
 /// Clips a face to the view volume and hands on each triangle that is left, with its box on the
@@ -223,33 +236,33 @@ fn interval_behind_box(edge: &ProjectedEdge, bounds: &Aabb) -> Option<[f64; 2]> 
 /// All triangles of a face keep its plane in the world, computed before clipping: clipping must not
 /// tilt it.
 fn push_occluders(
-    corners: [DVec3; 3],
-    clip: [HPoint<Clip>; 3],
-    sight: &Projector,
+    vertices: [DVec3; 3],
+    projector: &Projector,
     tolerance: &Tolerance,
     mut push: impl FnMut(Occluder, Aabb),
 ) {
+    let clip = vertices.map(|vertex| projector.world_to_clip_point(vertex));
     let outcodes = clip.map(|point| Volume::CHAPTER.outcode(point));
     if !Outcode::trivially_rejects(&outcodes).is_inside() {
         return;
     }
-    let [a, b, c] = corners;
+    let [a, b, c] = vertices;
     let normal = (b - a).cross(c - a).normalize_or_zero();
-    let towards = normal.dot(sight.towards_viewer(a));
+    let towards = normal.dot(projector.towards_viewer(a));
     if towards == 0.0 {
         return;
     }
     let normal = normal * towards.signum();
     let offset = normal.dot(a);
     let mut push_clipped = |points: [HPoint<Clip>; 3]| {
-        let [Some(a), Some(b), Some(c)] = points.map(|point| sight.to_screen(point)) else {
+        let [Some(a), Some(b), Some(c)] = points.map(|point| projector.to_screen(point)) else {
             return;
         };
         let bounds = Aabb::from_points([a, b, c]);
-        if let Some(corners) = with_positive_area([a, b, c].map(DVec3::truncate), tolerance.screen)
+        if let Some(vertices) = with_positive_area([a, b, c].map(DVec3::truncate), tolerance.screen)
         {
-            let by = DVec3::new(tolerance.screen, tolerance.screen, 0.0);
-            push(Occluder { vertices: corners, normal, offset }, bounds.expanded_by(by));
+            let margin = DVec3::new(tolerance.screen, tolerance.screen, 0.0);
+            push(Occluder { vertices, normal, offset }, bounds.expanded_by(margin));
         }
     };
     if Outcode::trivially_accepts(&outcodes) {
@@ -257,7 +270,7 @@ fn push_occluders(
     } else {
         clip_triangle(clip, &Volume::CHAPTER)
             .triangles()
-            .for_each(|t| push_clipped(t.map(|v| v.point)));
+            .for_each(|triangle| push_clipped(triangle.map(|vertex| vertex.point)));
     }
 }
 

@@ -38,9 +38,9 @@ impl ProjectedEdge {
     /// `None` if nothing of the edge is within the volume, or an end has no finite image. An end
     /// that was not clipped keeps the bits of the vertex, so that edges with a common vertex meet
     /// exactly.
-    pub(crate) fn clip_and_project(ends: [DVec3; 2], sight: &Projector) -> Option<Self> {
-        let clipped = sight.clip_edge(ends)?;
-        let [a, b] = [sight.to_screen(clipped.start)?, sight.to_screen(clipped.end)?];
+    pub(crate) fn clip_and_project(ends: [DVec3; 2], projector: &Projector) -> Option<Self> {
+        let clipped = projector.clip_edge(ends)?;
+        let [a, b] = [projector.to_screen(clipped.start)?, projector.to_screen(clipped.end)?];
         let position = |t: f64| match t {
             0.0 => ends[0],
             1.0 => ends[1],

@@ -49,12 +49,12 @@ impl PicturePlane {
         let normal = line.truncate();
         let foot = normal * (-line.z / normal.length_squared());
         // Straight down there is none, or only one far beyond the picture.
-        let reach = foot.length() + 4.0;
-        if !reach.is_finite() || reach > 1e6 {
+        let half_length = foot.length() + 4.0;
+        if !half_length.is_finite() || half_length > 1e6 {
             return None;
         }
-        let along = DVec2::new(normal.y, -normal.x).normalize_or(DVec2::X) * reach;
-        let [from, to] = [foot - along, foot + along].map(|place| place.extend(1.0));
+        let along = DVec2::new(normal.y, -normal.x).normalize_or(DVec2::X) * half_length;
+        let [from, to] = [foot - along, foot + along].map(|center| center.extend(1.0));
         let [a, b] = self.clip_to_picture(from, to)?;
         Some(if a.x <= b.x { [a, b] } else { [b, a] })
     }
@@ -78,7 +78,7 @@ impl PicturePlane {
             let mut mark = overlay_layer(&format!("vanishing-{name}"), &title, ink);
             let strokes = self
                 .point_in_picture(image)
-                .map(|place| vanishing_point_mark(place, name))
+                .map(|center| vanishing_point_mark(center, name))
                 .unwrap_or_default();
             mark.groups.push(Group { strokes, ..Group::default() });
             layers.extend([lines, mark]);
@@ -93,15 +93,15 @@ impl PicturePlane {
 }
 
 /// A ring with a name.
-fn vanishing_point_mark(place: DVec2, name: &str) -> Vec<Polyline> {
+fn vanishing_point_mark(center: DVec2, name: &str) -> Vec<Polyline> {
     let point = |k: u32| {
         let (sin, cos) =
             libm::sincos(core::f64::consts::TAU * f64::from(k) / f64::from(RING_SIDES));
-        place + DVec2::new(cos, sin) * RING_RADIUS
+        center + DVec2::new(cos, sin) * RING_RADIUS
     };
     let circle = Polyline::through_points(&(0..RING_SIDES).map(point).collect::<Vec<_>>(), true);
     let text = format!("V{name}");
-    let label = Label::new(&text, place - DVec2::new(0.0, 1.8), LETTER_HEIGHT)
+    let label = Label::new(&text, center - DVec2::new(0.0, 1.8), LETTER_HEIGHT)
         .with_align(TextAlign::Middle);
     circle.into_iter().chain(label.strokes()).collect()
 }

@@ -32,8 +32,8 @@ impl PicturePlane {
     /// The label of the eye.
     fn eye_layer(&self, eye: Point<World>) -> Layer {
         let mut layer = overlay_layer("volume-eye", "eye of the view volume", BLUE);
-        let strokes = self.point_in_picture(self.project_point(eye)).map(|place| {
-            let at = place - DVec2::new(0.0, 1.5);
+        let strokes = self.point_in_picture(self.project_point(eye)).map(|point| {
+            let at = point - DVec2::new(0.0, 1.5);
             Label::new("eye", at, 0.8 * LETTER_HEIGHT).with_align(TextAlign::Middle).strokes()
         });
         layer.groups.push(Group { strokes: strokes.unwrap_or_default(), ..Group::default() });

@@ -46,7 +46,7 @@ struct LinearDimension {
 /// The overall width, height and depth of the object: a layer of lines and one of texts.
 pub(super) fn overall_dimension_layers(
     sheet: &Sheet,
-    arrangement: &ViewLayout<'_>,
+    layout: &ViewLayout<'_>,
     ink: Ink,
 ) -> Vec<Layer> {
     let height = sheet.lettering_height();
@@ -55,7 +55,7 @@ pub(super) fn overall_dimension_layers(
     let mut lines = Layer::new("dimensions", "dimensions", lines);
     let mut texts =
         Layer::new("dimensions-text", "dimensions: text", Pen::solid(height * 0.1, ink));
-    for dimension in overall_dimensions(arrangement, sheet.side_view) {
+    for dimension in overall_dimensions(layout, sheet.side_view) {
         let text = format_length(dimension.length);
         lines.groups.push(dimension.line_group(height, &text));
         texts
@@ -67,12 +67,12 @@ pub(super) fn overall_dimension_layers(
 
 /// The dimensions of the front view in both directions, and of the side view's width; none where
 /// there is no extent.
-fn overall_dimensions(arrangement: &ViewLayout<'_>, side: NamedView) -> Vec<LinearDimension> {
-    let scale = arrangement.scale;
+fn overall_dimensions(layout: &ViewLayout<'_>, side: NamedView) -> Vec<LinearDimension> {
+    let scale = layout.scale;
     let horizontal = |name: NamedView| {
-        let area = arrangement.view_area(name)?;
+        let area = layout.view_area(name)?;
         let (left, right) = (area.x(), area.x() + area.width());
-        let (y, out) = if arrangement.is_top_below {
+        let (y, out) = if layout.is_top_below {
             (area.y(), -DVec2::Y)
         } else {
             (area.y() + area.height(), DVec2::Y)
@@ -81,7 +81,7 @@ fn overall_dimensions(arrangement: &ViewLayout<'_>, side: NamedView) -> Vec<Line
         Some(LinearDimension { ends, outward: out, length: scale.to_object_length(area.width()) })
     };
     let vertical = |name: NamedView| {
-        let area = arrangement.view_area(name)?;
+        let area = layout.view_area(name)?;
         let (x, bottom) = (area.x(), area.y() + area.height());
         let ends = [DVec2::new(x, bottom), DVec2::new(x, area.y())];
         Some(LinearDimension {
@@ -98,8 +98,8 @@ fn overall_dimensions(arrangement: &ViewLayout<'_>, side: NamedView) -> Vec<Line
 /// A length in millimeters: to a hundredth, above ten meters to a millimeter, without trailing
 /// zeros.
 fn format_length(length: f64) -> String {
-    let places = if length < 10_000.0 { 2 } else { 0 };
-    let text = format!("{length:.places$}");
+    let decimals = if length < 10_000.0 { 2 } else { 0 };
+    let text = format!("{length:.decimals$}");
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
@@ -135,8 +135,8 @@ impl LinearDimension {
             outwards
         };
         let mut strokes: Vec<Polyline> = Vec::new();
-        for (place, line) in self.ends.iter().zip([start, end]) {
-            let from = *place + self.outward * (EXTENSION_GAP * height);
+        for (end, line) in self.ends.iter().zip([start, end]) {
+            let from = *end + self.outward * (EXTENSION_GAP * height);
             strokes.extend(Polyline::through_points(
                 &[from, line + self.outward * (EXTENSION_OVERHANG * height)],
                 false,
@@ -154,8 +154,8 @@ impl LinearDimension {
 
     /// Whether the text is wider than the dimension, so that it stands beside it.
     fn is_text_outside(&self, height: f64, text: &str) -> bool {
-        let room = (self.ends[1] - self.ends[0]).length();
-        self.unplaced_label(height, text).width() > room - 0.5 * height
+        let available = (self.ends[1] - self.ends[0]).length();
+        self.unplaced_label(height, text).width() > available - 0.5 * height
     }
 
     /// The text in its direction, at the origin: to measure it, or to move it.

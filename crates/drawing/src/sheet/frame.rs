@@ -53,13 +53,13 @@ fn centering_marks(paper: Paper, block: Rectangle) -> Vec<Polyline> {
     let (middle, area) = (size * 0.5, area_within_frame(paper));
     let (left, top) = (area.x(), area.y());
     let (right, bottom) = (left + area.width(), top + area.height());
-    let [edge, reach] = CENTERING_MARK;
-    let at_foot = if block.x() > middle.x { reach } else { 0.0 };
+    let [inset, length] = CENTERING_MARK;
+    let at_foot = if block.x() > middle.x { length } else { 0.0 };
     let marks = [
-        [DVec2::new(edge, middle.y), DVec2::new(left + reach, middle.y)],
-        [DVec2::new(size.x - edge, middle.y), DVec2::new(right - reach, middle.y)],
-        [DVec2::new(middle.x, edge), DVec2::new(middle.x, top + reach)],
-        [DVec2::new(middle.x, size.y - edge), DVec2::new(middle.x, bottom - at_foot)],
+        [DVec2::new(inset, middle.y), DVec2::new(left + length, middle.y)],
+        [DVec2::new(size.x - inset, middle.y), DVec2::new(right - length, middle.y)],
+        [DVec2::new(middle.x, inset), DVec2::new(middle.x, top + length)],
+        [DVec2::new(middle.x, size.y - inset), DVec2::new(middle.x, bottom - at_foot)],
     ];
     marks.iter().filter_map(|mark| Polyline::through_points(mark, false)).collect()
 }

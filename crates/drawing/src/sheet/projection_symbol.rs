@@ -33,8 +33,8 @@ pub(super) fn projection_symbol(angle: SheetAngle, middle: DVec2, height: f64) -
         cone_point(1.0, 1.0),
         cone_point(-1.0, 0.5),
     ];
-    let axis_ends = |centre: DVec2| {
-        [centre - DVec2::new(half * 1.4, 0.0), centre + DVec2::new(half * 1.4, 0.0)]
+    let axis_ends = |center: DVec2| {
+        [center - DVec2::new(half * 1.4, 0.0), center + DVec2::new(half * 1.4, 0.0)]
     };
     let upright = [eye - DVec2::new(0.0, half * 1.2), eye + DVec2::new(0.0, half * 1.2)];
     let lines = [
@@ -49,11 +49,11 @@ pub(super) fn projection_symbol(angle: SheetAngle, middle: DVec2, height: f64) -
 }
 
 /// A circle as a closed polyline.
-fn circle_polygon(centre: DVec2, radius: f64) -> Option<Polyline> {
+fn circle_polygon(center: DVec2, radius: f64) -> Option<Polyline> {
     let point = |k: u32| {
         let angle = core::f64::consts::TAU * f64::from(k) / f64::from(CIRCLE_SIDES);
         let (sin, cos) = libm::sincos(angle);
-        centre + DVec2::new(cos, sin) * radius
+        center + DVec2::new(cos, sin) * radius
     };
     Polyline::through_points(&(0..CIRCLE_SIDES).map(point).collect::<Vec<_>>(), true)
 }

@@ -51,9 +51,9 @@ impl PlacedView<'_> {
             return None;
         }
         let away = plane.evaluate(camera.eye());
-        let millimetres = self.scale.to_paper_length(self.view.millimeters_per_unit * away);
-        let kept = DVec2::new(retained_direction.x, -retained_direction.y).normalize_or_zero();
-        Some((self.center - kept * millimetres, kept))
+        let millimeters = self.scale.to_paper_length(self.view.millimeters_per_unit * away);
+        let retained = DVec2::new(retained_direction.x, -retained_direction.y).normalize_or_zero();
+        Some((self.center - retained * millimeters, retained))
     }
 }
 
@@ -61,10 +61,10 @@ impl PlacedView<'_> {
 pub(super) fn section_line_layers(
     sheet: &Sheet,
     sections: &[Plane<World>],
-    arrangement: &ViewLayout<'_>,
+    layout: &ViewLayout<'_>,
     ink: Ink,
 ) -> Vec<Layer> {
-    let principal: Vec<&PlacedView<'_>> = arrangement
+    let principal: Vec<&PlacedView<'_>> = layout
         .views
         .iter()
         .filter(|placed| NamedView::PRINCIPAL.contains(&placed.view.name))
@@ -128,10 +128,10 @@ struct SectionLine {
 impl SectionLine {
     /// The line of a plane in a view; `None` if the plane is not edge-on, or misses the object.
     fn in_view(placed: &PlacedView<'_>, plane: Plane<World>) -> Option<Self> {
-        let (point, kept) = placed.section_trace(plane)?;
+        let (point, retained) = placed.section_trace(plane)?;
         let area = placed.object_area();
         let half = DVec2::new(area.width(), area.height()) * 0.5;
-        let along = DVec2::new(-kept.y, kept.x);
+        let along = DVec2::new(-retained.y, retained.x);
         // From where to where the line is within the area of the view.
         let mut span = [f64::NEG_INFINITY, f64::INFINITY];
         for axis in 0..2 {
@@ -147,7 +147,7 @@ impl SectionLine {
         }
         let is_there = span[0] < span[1] && span[0].is_finite() && span[1].is_finite();
         let ends = [span[0] - OVERHANG, span[1] + OVERHANG].map(|t| point + along * t);
-        is_there.then_some(Self { ends, retained_direction: kept })
+        is_there.then_some(Self { ends, retained_direction: retained })
     }
 
     /// The length in millimeters.

@@ -50,9 +50,9 @@ impl SheetView {
         let framed = frame_parallel(points.iter().copied(), name.basis(), 1.0, 0.0)
             .map_err(framing_error)?;
         let world_to_view = framed.camera.world_to_view();
-        let reach =
+        let extents =
             points.iter().map(|&point| world_to_view.transform_point(point).raw().truncate());
-        let half = reach.fold(DVec2::ZERO, |most, point| most.max(point.abs()));
+        let half = extents.fold(DVec2::ZERO, |most, point| most.max(point.abs()));
         let (camera, depths) = (framed.camera, [framed.near, framed.far]);
         Ok(Self { name, camera, depths, size: half * 2.0 * unit, millimeters_per_unit: unit })
     }
@@ -94,15 +94,15 @@ impl SheetView {
         Ok(draw_surface(surface, &view_projection, size, &options, threads)?)
     }
 
-    /// The placement of the view's drawing on the sheet: at this scale, centered at `centre`.
+    /// The placement of the view's drawing on the sheet: at this scale, centered at `center`.
     pub(super) fn placement(
         &self,
         drawing: &LineDrawing,
         scale: DrawingScale,
-        centre: DVec2,
+        center: DVec2,
     ) -> Placement {
         let window = self.window_size() * self.millimeters_per_unit;
         let window = DVec2::new(scale.to_paper_length(window.x), scale.to_paper_length(window.y));
-        Placement { corner: centre - window * 0.5, scale: window / drawing.size }
+        Placement { corner: center - window * 0.5, scale: window / drawing.size }
     }
 }

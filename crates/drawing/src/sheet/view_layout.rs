@@ -58,33 +58,33 @@ impl<'a> ViewLayout<'a> {
         principal: [&'a SheetView; 3],
         axonometric: Option<&'a SheetView>,
     ) -> Result<Self, SheetError> {
-        let table = ViewGrid::new(sheet, principal);
+        let grid = ViewGrid::new(sheet, principal);
         let area = sheet.drawing_area();
         let block = sheet.title_block_area();
         let height = area.height() - block.height();
         let above_block = rectangle_from_size(area.x(), area.y(), area.width(), height);
         let candidates = [area, above_block].into_iter().filter_map(|area| {
             let scale = match sheet.scale {
-                Some(scale) => table.fits_at_scale(scale, area).then_some(scale)?,
-                None => table.largest_fitting_scale(area)?,
+                Some(scale) => grid.fits_at_scale(scale, area).then_some(scale)?,
+                None => grid.largest_fitting_scale(area)?,
             };
-            let placed = table.place_views(scale, area);
+            let placed = grid.place_views(scale, area);
             let keeps_off = |placed: &PlacedView<'_>| {
                 placed.keeps_distance(block, VIEW_GAP * 0.5)
                     && placed.keeps_distance(sheet.scale_bar_area(), 1.5)
             };
             placed.iter().all(keeps_off).then_some((scale, placed, area))
         });
-        // At equal scales the first has more room.
+        // At equal scales the first area is larger.
         let best = candidates.reduce(|a, b| if b.0.ratio() > a.0.ratio() { b } else { a });
         let (scale, mut placed, area) = best.ok_or_else(|| {
             let any = Sheet { scale: None, ..sheet.clone() };
             let fitting = sheet.scale.and_then(|_| Self::arrange_views(&any, principal, None).ok());
-            table.too_large_error(sheet, above_block, fitting.map(|fitting| fitting.scale))
+            grid.too_large_error(sheet, above_block, fitting.map(|fitting| fitting.scale))
         })?;
         let corner = free_corner_area(&placed, area, block);
         placed.extend(axonometric.and_then(|view| place_in_corner(view, corner?, scale)));
-        Ok(Self { scale, views: placed, is_top_below: table.is_top_below })
+        Ok(Self { scale, views: placed, is_top_below: grid.is_top_below })
     }
 
     /// The area that the object takes in a view on the sheet.
@@ -185,13 +185,13 @@ impl<'a> ViewGrid<'a> {
             (top, [front_column, 1 - front_row]),
             (side, [1 - front_column, front_row]),
         ];
-        let most = |axis: usize, number: usize| {
-            let sizes = views.iter().filter(|(_, place)| place[axis] == number);
+        let largest = |axis: usize, index: usize| {
+            let sizes = views.iter().filter(|(_, cell)| cell[axis] == index);
             sizes.map(|(view, _)| view.size[axis]).fold(0.0, f64::max)
         };
         Self {
-            columns: [most(0, 0), most(0, 1)],
-            rows: [most(1, 0), most(1, 1)],
+            columns: [largest(0, 0), largest(0, 1)],
+            rows: [largest(1, 0), largest(1, 1)],
             views,
             dimension_margin: if sheet.dimensions {
                 DIMENSION_MARGIN * sheet.lettering_height()
@@ -239,7 +239,7 @@ impl<'a> ViewGrid<'a> {
         let rows = middles(self.rows, area.y() + above, gaps[1]);
         let center = |[column, row]: [usize; 2]| DVec2::new(columns[column], rows[row]);
         let placed =
-            |&(view, place): &(&'a SheetView, _)| PlacedView { view, center: center(place), scale };
+            |&(view, cell): &(&'a SheetView, _)| PlacedView { view, center: center(cell), scale };
         self.views.iter().map(placed).collect()
     }
 

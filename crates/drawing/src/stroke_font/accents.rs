@@ -69,7 +69,7 @@ fn glyph_with_mark(letter: char, mark: &str) -> Glyph {
     let is_below = mark == CEDILLA;
     let top = glyph.strokes.iter().flatten().fold(0.0, |top: f64, point| point.y.max(top));
     let middle = glyph.width * 0.5;
-    // A letter that is no wider than its stroke makes room for its mark.
+    // A letter that is no wider than its stroke is moved aside to center its mark.
     if middle == 0.0 {
         glyph.strokes.iter_mut().flatten().for_each(|point| point.x += 0.8);
         glyph.width = 1.6;
