@@ -76,6 +76,7 @@ mod rays;
 mod screen_corners;
 mod stereo;
 mod view_projection;
+mod view_transform;
 mod window;
 
 pub use basis::Basis;
@@ -90,4 +91,5 @@ pub use rays::{PixelCenters, PixelGrid, Ray, Rays, VerticalAxis};
 pub use screen_corners::ScreenCorners;
 pub use stereo::{CameraView, StereoPair, StereoRig, apex_moved_view};
 pub use view_projection::ViewProjection;
+pub use view_transform::ViewTransform;
 pub use window::Window;
