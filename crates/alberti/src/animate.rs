@@ -42,10 +42,10 @@ pub(crate) struct AnimateArgs {
     #[arg(long, value_name = "N", default_value = "30", value_parser = parse_frame_rate)]
     fps: f64,
     /// Start time in seconds [default: 0]
-    #[arg(long, value_name = "SECONDS", value_parser = parse_finite, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_finite, allow_hyphen_values = true)]
     from: Option<Finite>,
     /// End time in seconds [default: the end of the animation]
-    #[arg(long, value_name = "SECONDS", value_parser = parse_finite, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_finite, allow_hyphen_values = true)]
     to: Option<Finite>,
     /// Number of threads; the frames do not depend on it [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]

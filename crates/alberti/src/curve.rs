@@ -25,10 +25,10 @@ enum CurveSubject {
 #[derive(Debug, clap::Args)]
 struct DepthArgs {
     /// Distance of the near plane
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
     near: f64,
     /// Distance of the far plane; `inf` for an infinite projection
-    #[arg(long, value_name = "F", allow_negative_numbers = true)]
+    #[arg(long, value_name = "F", allow_hyphen_values = true)]
     far: f64,
     /// Format of the depth buffer: fixed point of 1 to 64 bits, or 32f for floating point
     #[arg(long, value_name = "N|32f", default_value = "24", value_parser = parse_depth_format)]
@@ -37,7 +37,7 @@ struct DepthArgs {
     #[arg(long, value_name = "RANGE", default_value = "zero-one")]
     range: DepthRangeArg,
     /// Distances of the table, separated by commas [default: 16 from near to far, in equal ratios]
-    #[arg(long, value_name = "DISTANCES", value_delimiter = ',', allow_negative_numbers = true)]
+    #[arg(long, value_name = "DISTANCES", value_delimiter = ',', allow_hyphen_values = true)]
     distances: Vec<f64>,
     /// Output file: .svg, .pdf or .png for the plot, .txt, .md or .csv for the table alone
     /// [default: the table on the standard output]

@@ -17,7 +17,7 @@ pub(crate) struct LightArgs {
     #[arg(long, value_name = "studio|sky|none|FILE", value_parser = parse_environment)]
     environment: Option<EnvironmentArg>,
     /// Exposure in stops, such as 1 or -0.5; each stop doubles the light
-    #[arg(long, value_name = "EV", allow_negative_numbers = true, value_parser = parse_exposure)]
+    #[arg(long, value_name = "EV", allow_hyphen_values = true, value_parser = parse_exposure)]
     exposure: Option<Finite>,
     /// Tone mapping: the curve that compresses bright light into the range of a picture
     #[arg(long, value_name = "CURVE")]

@@ -10,7 +10,7 @@ pub(crate) struct MatrixArgs {
     /// Sixteen numbers, row by row [default: read from the standard input]
     ///
     /// Brackets and commas between them are ignored; fractions such as 2/3 are numbers.
-    #[arg(allow_negative_numbers = true, allow_hyphen_values = true)]
+    #[arg(allow_hyphen_values = true)]
     numbers: Vec<String>,
     /// Read the numbers column by column, as OpenGL, glTF and glam store them
     #[arg(long)]

@@ -15,7 +15,7 @@ pub(crate) struct ModelStateArgs {
     #[arg(long, value_name = "NAME|INDEX", value_parser = parse_choice)]
     pub(crate) animation: Option<Choice>,
     /// Time of the animation in seconds [default: 0, with --animation]
-    #[arg(long, value_name = "SECONDS", value_parser = parse_time, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_time, allow_hyphen_values = true)]
     pub(crate) time: Option<Finite>,
 }
 

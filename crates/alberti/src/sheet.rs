@@ -37,7 +37,7 @@ pub(crate) struct SheetArgs {
     /// Arrangement of the views: first-angle or third-angle projection (ISO 5456-2)
     /// [default: first]
     #[arg(long)]
-    angle: Option<AngleArg>,
+    projection_angle: Option<AngleArg>,
     /// Scale, paper to model, such as 1:50 [default: the largest standard scale that fits]
     #[arg(long, value_name = "N:M", value_parser = parse_scale)]
     scale: Option<(u32, u32)>,
@@ -49,7 +49,7 @@ pub(crate) struct SheetArgs {
     axonometric: Option<AxonometricArg>,
     /// Hidden lines of the three principal views [default: dashed]
     #[arg(long)]
-    hidden: Option<HiddenArg>,
+    hidden_lines: Option<HiddenArg>,
     /// Omit the overall dimensions
     #[arg(long)]
     no_dimensions: bool,
@@ -175,10 +175,10 @@ pub(super) fn rasterize_page(page: &Page) -> Result<Picture, CliError> {
 fn apply_overrides(sheet: &mut SheetFile, args: &SheetArgs) {
     args.paper.into_iter().for_each(|paper| sheet.paper = paper.into());
     args.orientation.into_iter().for_each(|way| sheet.orientation = Some(way.into()));
-    args.angle.into_iter().for_each(|angle| sheet.angle = angle.into());
+    args.projection_angle.into_iter().for_each(|angle| sheet.angle = angle.into());
     args.unit.into_iter().for_each(|unit| sheet.unit = unit.into());
     args.axonometric.into_iter().for_each(|view| sheet.axonometric = view.into());
-    args.hidden.into_iter().for_each(|hidden| sheet.hidden = hidden.into());
+    args.hidden_lines.into_iter().for_each(|hidden| sheet.hidden = hidden.into());
     sheet.scale = args.scale.or(sheet.scale);
     sheet.dimensions &= !args.no_dimensions;
     let texts = [
