@@ -70,9 +70,9 @@ fn describe_model(model: &Model) -> String {
     }
     line("extensions", extensions_line(model));
     // Warnings about extensions are in the line of the extensions already.
-    let is_about_file = |warning: &&Warning| !warning.pointer.starts_with("/extensions");
+    let is_about_file = |warning: &&Warning| !warning.location.starts_with("/extensions");
     for warning in model.warnings.iter().filter(is_about_file) {
-        line("warning", format!("{}: {}", warning.pointer, warning.message));
+        line("warning", format!("{}: {}", warning.location, warning.message));
     }
     text
 }

@@ -176,7 +176,7 @@ pub(super) fn print_warnings(scene: &Scene, drawing: &[drawing::Warning]) {
         }
         printed.push(&model.name);
         for warning in model.warnings.iter().take(MAX_WARNINGS) {
-            let message = format!("{}: {}: {}", model.name, warning.pointer, warning.message);
+            let message = format!("{}: {}: {}", model.name, warning.location, warning.message);
             print_message("warning", &message);
         }
         let rest = model.warnings.len().saturating_sub(MAX_WARNINGS);

@@ -75,7 +75,7 @@ fn models_json(job: &RenderJob<'_>) -> Vec<Value> {
             shown.filter(|p| p.topology == topology).map(model::Primitive::item_count).sum()
         };
         let warnings = model.warnings.iter().map(|warning| {
-            json!({"pointer": warning.pointer.to_string(), "message": warning.message.to_string()})
+            json!({"pointer": warning.location.to_string(), "message": warning.message.to_string()})
         });
         json!({
             "name": model.name,

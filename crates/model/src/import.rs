@@ -56,14 +56,15 @@ mod webp;
 
 pub use image_decoder::decode_bounded as decode_image;
 
-pub use check::{CheckReport, Problem, Severity, check_bytes, check_file};
-pub use error::{Diagnostic, ImportError, ImportErrorKind};
+pub use check::{CheckReport, check_bytes, check_file};
+pub use error::ImportError;
 pub use extensions::{ExtensionUse, extension_use};
 pub use limits::Limits;
 pub use selection::NameOrIndex;
 
 use crate::Model;
 use crate::Timings;
+use crate::diagnostic::Diagnostic;
 use accessor::AccessorReader;
 use buffers::Buffers;
 use container::Container;
@@ -111,9 +112,9 @@ pub enum ImageLoading {
 /// ```no_run
 /// use model::{ImportOptions, load};
 /// let model = load("chair.glb".as_ref(), &ImportOptions::default())?;
-/// let triangles: usize = model.meshes.iter().flat_map(|mesh| &mesh.primitives).map(|p| p.count()).sum();
+/// let triangles: usize = model.meshes.iter().flat_map(|mesh| &mesh.primitives).map(|p| p.item_count()).sum();
 /// for warning in &model.warnings {
-///     println!("{}: {}", warning.pointer, warning.message);
+///     println!("{warning}");
 /// }
 /// # Ok::<(), model::ImportError>(())
 /// ```

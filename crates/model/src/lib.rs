@@ -6,6 +6,7 @@
 mod animation;
 mod animation_curve;
 mod camera;
+mod diagnostic;
 mod edge_visibility;
 mod image;
 pub mod import;
@@ -28,6 +29,7 @@ mod uv_transform;
 pub use animation::{Animation, AnimationChannel, AnimationTarget, NodeProperty};
 pub use animation_curve::{AnimationCurve, Interpolation};
 pub use camera::{CameraProjection, ModelCamera};
+pub use diagnostic::{Diagnostic, Severity, codes};
 pub use edge_visibility::{EdgeList, EdgeVisibility, PrimitiveEdges};
 pub use image::{
     Image, ImageHeader, ImageInfo, MipmapMode, Sampler, Texture, TextureFilter, WrapMode,
@@ -97,7 +99,7 @@ pub struct Model {
     /// What the file says of its images, as numbered in it.
     pub image_infos: Vec<ImageInfo>,
     /// Soft faults: what was wrong or left out, and where.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Diagnostic>,
 }
 
 /// A node of the tree: a place for a mesh or a camera, and for other nodes.
@@ -165,13 +167,4 @@ pub struct Skin {
     pub joints: Vec<usize>,
     /// For each joint, the map from the mesh's coordinates to the joint's in the pose the mesh was made in.
     pub inverse_bind_matrices: Vec<Affine<ModelSpace, ModelSpace>>,
-}
-
-/// A soft fault of a file: the model is shown all the same.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Warning {
-    /// Where, as a JSON pointer (RFC 6901) such as `/meshes/3/primitives/0/attributes/NORMAL`.
-    pub pointer: String,
-    /// What is wrong and what was done about it.
-    pub message: String,
 }

@@ -111,7 +111,7 @@ impl BatchRun<'_> {
         }
         pipeline::write_file(output, &png)?;
         let warnings = scene.models.iter().flat_map(|placed| &placed.model.warnings);
-        let warnings = warnings.map(|warning| format!("{}: {}", warning.pointer, warning.message));
+        let warnings = warnings.map(|warning| format!("{}: {}", warning.location, warning.message));
         Ok(warnings.chain(drawing.iter().map(ToString::to_string)).collect())
     }
 }

@@ -75,8 +75,8 @@ fn diagnostic_json(problem: &Problem) -> Value {
     json!({
         "severity": problem.severity.name(),
         "code": problem.code,
-        "pointer": problem.pointer,
+        "pointer": problem.location,
         "message": problem.message,
-        "remedy": problem.remedy,
+        "remedy": problem.help,
     })
 }

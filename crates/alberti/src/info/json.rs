@@ -186,6 +186,6 @@ fn extensions_json(model: &Model) -> Value {
 
 fn warnings_json(model: &Model) -> Value {
     let describe =
-        |warning: &model::Warning| json!({"pointer": warning.pointer, "message": warning.message});
+        |warning: &model::Warning| json!({"pointer": warning.location, "message": warning.message});
     model.warnings.iter().map(describe).collect()
 }

@@ -7,8 +7,8 @@
 
 use super::buffers::{Buffers, checked_slice};
 use super::elements::{ResolvedAccessor, SparseElements, StridedBytes};
-use super::error::Diagnostic;
 use super::limits::Limits;
+use crate::diagnostic::Diagnostic;
 use gltf::json::Root;
 use gltf::json::accessor::{Accessor, ComponentType, IndexComponentType, Type, sparse};
 use gltf::json::validation::Checked;

@@ -5,9 +5,9 @@ use super::animation_pointer::{self, ChannelValueKind};
 use super::attribute::{
     AllowedFormats, ROTATION, SCALAR_VALUES, TRANSLATION_OR_SCALE, VEC2_VALUES, VEC3_VALUES,
 };
-use super::error::Diagnostic;
 use super::untyped_members::PointerChannel;
 use super::warnings::ImportWarnings;
+use crate::diagnostic::Diagnostic;
 use crate::{
     Animation, AnimationChannel, AnimationCurve, AnimationTarget, Interpolation, Material,
     ModelCamera, Node, NodeProperty, PunctualLight, UvTransform,

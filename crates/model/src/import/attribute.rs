@@ -3,8 +3,8 @@
 use super::accessor::AccessorReader;
 use super::draco::DracoData;
 use super::elements::ResolvedAccessor;
-use super::error::Diagnostic;
 use super::warnings::ImportWarnings;
+use crate::diagnostic::Diagnostic;
 use gltf::json::accessor::ComponentType::{self, F32, I8, I16, U8, U16, U32};
 use gltf::json::accessor::Type;
 use std::ops::Range;

@@ -1,10 +1,10 @@
 //! The bytes of the file's buffers and buffer views, each read, and decompressed, once and when it is first needed.
 
-use super::error::{Diagnostic, ImportErrorKind};
 use super::limits::Limits;
 use super::memory_budget::MemoryBudget;
 use super::meshopt::CompressedView;
 use super::uri_resolver::UriResolver;
+use crate::diagnostic::{Diagnostic, codes};
 use gltf::json::Root;
 use std::sync::OnceLock;
 
@@ -131,11 +131,9 @@ impl<'a> Buffers<'a> {
 impl Buffers<'_> {
     /// A file that is missing is no reason to stop for a reader who is lenient: its data is missing, and no more.
     fn soften_missing_file(&self, fault: Diagnostic) -> Diagnostic {
-        let is_file =
-            matches!(fault.kind, ImportErrorKind::Unreadable | ImportErrorKind::Forbidden);
-        let kind =
-            if self.resolver.lenient && is_file { ImportErrorKind::NoData } else { fault.kind };
-        Diagnostic { kind, ..fault }
+        let is_file = matches!(fault.code, codes::IO_ERROR | codes::FORBIDDEN_PATH);
+        let code = if self.resolver.lenient && is_file { codes::MISSING_DATA } else { fault.code };
+        Diagnostic { code, ..fault }
     }
 }
 

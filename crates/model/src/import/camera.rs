@@ -1,7 +1,7 @@
 //! Cameras: their numbers, checked for sense. One that makes no view is left out with a warning.
 
-use super::error::Diagnostic;
 use super::warnings::ImportWarnings;
+use crate::diagnostic::Diagnostic;
 use crate::{CameraProjection, ModelCamera};
 use gltf::json::Root;
 use gltf::json::camera::{Camera, Orthographic, Perspective, Type};

@@ -11,8 +11,8 @@
 //!
 //! with all numbers little-endian (glTF 2.0 §4.4). The lengths are not believed before they are checked.
 
-use super::error::{Diagnostic, ImportErrorKind};
 use super::warnings::ImportWarnings;
+use crate::diagnostic::{Diagnostic, codes};
 use std::ops::Range;
 
 /// Where the parts of a file lie in its bytes.
@@ -76,8 +76,8 @@ fn check_glb_header(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<usize
         return Err(format_error(&format!("the file has only {} bytes", bytes.len()), TRUNCATED));
     };
     if version != 2 {
-        return Err(Diagnostic::new(
-            ImportErrorKind::Version,
+        return Err(Diagnostic::error(
+            codes::UNSUPPORTED_VERSION,
             "",
             format!("the file is glTF {version}.0 and only glTF 2 is read"),
             "convert it to glTF 2.0",
@@ -136,7 +136,7 @@ fn read_u32(bytes: &[u8], at: usize) -> Option<usize> {
 }
 
 fn format_error(problem: &str, remedy: &str) -> Diagnostic {
-    Diagnostic::new(ImportErrorKind::Format, "", problem.to_owned(), remedy)
+    Diagnostic::error(codes::NOT_GLTF, "", problem.to_owned(), remedy)
 }
 
 #[cfg(test)]

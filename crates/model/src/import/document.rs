@@ -4,12 +4,12 @@
 //! without a target) and accept invalid ones (an index of 2³² becomes 0). Both is mended on the value, before the
 //! types see it. Depth and number of values are counted before there is a value at all.
 
-use super::error::{Diagnostic, ImportErrorKind};
 use super::json_repair;
 use super::limits::Limits;
 use super::node_transform::NodeTransform;
 use super::untyped_members::UntypedMembers;
 use super::warnings::ImportWarnings;
+use crate::diagnostic::{Diagnostic, codes};
 use gltf::json::Root;
 use serde_json::{Map, Number, Value};
 
@@ -110,16 +110,16 @@ fn check_gltf_version(value: &Value, warnings: &mut ImportWarnings) -> Result<()
     let Some(version) = asset["version"].as_str() else {
         let problem = "the version of glTF is missing";
         let remedy = "check that this is a glTF file; a glTF 2.0 file says \"asset\": {\"version\": \"2.0\"}";
-        return Err(Diagnostic::new(
-            ImportErrorKind::Version,
+        return Err(Diagnostic::error(
+            codes::UNSUPPORTED_VERSION,
             "/asset/version",
             problem.to_owned(),
             remedy,
         ));
     };
     let unknown = |key: &str, version: &str| {
-        Diagnostic::new(
-            ImportErrorKind::Version,
+        Diagnostic::error(
+            codes::UNSUPPORTED_VERSION,
             &format!("/asset/{key}"),
             format!("the file is glTF {version} and only glTF 2.0 is read"),
             "convert it to glTF 2.0",
@@ -202,12 +202,7 @@ fn objects_in<'a>(
 
 fn syntax_error(error: &serde_json::Error) -> Diagnostic {
     let problem = format!("the JSON is not well formed: {error}");
-    Diagnostic::new(
-        ImportErrorKind::Format,
-        "",
-        problem,
-        "correct it there or export the file again",
-    )
+    Diagnostic::error(codes::NOT_GLTF, "", problem, "correct it there or export the file again")
 }
 
 pub(super) fn type_error(error: &serde_path_to_error::Error<serde_json::Error>) -> Diagnostic {
@@ -300,14 +295,14 @@ mod tests {
     fn depth_and_size_are_bounded() {
         let deep = format!(r#", "extras": {}"#, "[".repeat(100_000));
         let fault = parse(&deep).unwrap_err();
-        assert_eq!(fault.kind, ImportErrorKind::Limit);
-        assert!(fault.help.contains("json_depth"), "{fault}");
+        assert_eq!(fault.code, codes::LIMIT_EXCEEDED);
+        assert!(fault.sentence().contains("json_depth"), "{fault}");
         let text = br#"{"asset": {"version": "2.0"}, "extras": "[[[[[[[\"[[[["}"#;
         let limits = Limits { json_depth: 2, json_values: 24, ..Limits::default() };
         let parse =
             |text: &[u8]| GltfDocument::parse_json(text, &limits, &mut ImportWarnings::default());
         assert!(parse(text).is_ok(), "brackets in strings do not count");
         let fault = parse(b"[{},{},{}]").unwrap_err();
-        assert!(fault.help.contains("json_values"), "{fault}");
+        assert!(fault.sentence().contains("json_values"), "{fault}");
     }
 }

@@ -6,7 +6,7 @@
 
 use super::accessor::AccessorReader;
 use super::elements::{ResolvedAccessor, StridedBytes};
-use super::error::Diagnostic;
+use crate::diagnostic::Diagnostic;
 use gltf::json::mesh::Primitive;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;

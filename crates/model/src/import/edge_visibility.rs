@@ -6,8 +6,8 @@
 
 use super::accessor::AccessorReader;
 use super::attribute::INDICES;
-use super::error::Diagnostic;
 use super::warnings::ImportWarnings;
+use crate::diagnostic::Diagnostic;
 use crate::{EdgeList, EdgeVisibility, PrimitiveEdges, Topology};
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::mesh::Primitive as Json;

@@ -1,7 +1,7 @@
 //! What is done about each extension.
 
-use super::error::{Diagnostic, ImportErrorKind};
 use super::warnings::ImportWarnings;
+use crate::diagnostic::{Diagnostic, codes};
 use gltf::json::Root;
 use std::collections::BTreeSet;
 
@@ -83,8 +83,8 @@ pub(super) fn check_extensions(
             Some(_) => continue,
             None => "it is not known here",
         };
-        let fault = Diagnostic::new(
-            ImportErrorKind::Extension,
+        let fault = Diagnostic::error(
+            codes::UNSUPPORTED_REQUIRED_EXTENSION,
             &format!("/extensionsRequired/{at}"),
             format!("the file requires the extension {name}: {reason}"),
             "export the file without it, or load what can be loaded with --lenient",

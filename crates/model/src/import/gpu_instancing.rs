@@ -2,9 +2,9 @@
 
 use super::accessor::AccessorReader;
 use super::attribute::{AllowedFormats, ROTATION, TRANSLATION_OR_SCALE};
-use super::error::Diagnostic;
 use super::warnings::ImportWarnings;
 use crate::Node;
+use crate::diagnostic::Diagnostic;
 use homog::{Affine, Model as ModelSpace, Vector};
 use serde_json::{Map, Value};
 

@@ -5,12 +5,12 @@
 
 use super::ImageLoading;
 use super::accessor::AccessorReader;
-use super::error::Diagnostic;
 use super::image_decoder;
 use super::limits::Limits;
 use super::parallel_decoding::{DecodeResult, decode_images};
 use super::selection;
 use super::warnings::ImportWarnings;
+use crate::diagnostic::Diagnostic;
 use crate::{ImageHeader, ImageInfo, Material, Model};
 use gltf::json::Root;
 use gltf::json::image::Image as JsonImage;

@@ -5,8 +5,8 @@
 //! their numbers; then the types have another look.
 
 use super::document::type_error;
-use super::error::Diagnostic;
 use super::warnings::ImportWarnings;
+use crate::diagnostic::Diagnostic;
 use gltf::json::Root;
 use serde_json::{Value, json};
 
@@ -105,7 +105,8 @@ mod tests {
         let mut warnings = ImportWarnings::new(true);
         let root = deserialize_leniently(&mut document, 1000, &mut warnings)
             .map_err(|fault| fault.to_string());
-        let told = warnings.into_list().into_iter().map(|w| format!("{} {}", w.pointer, w.message));
+        let told =
+            warnings.into_list().into_iter().map(|w| format!("{} {}", w.location, w.message));
         (root, told.collect())
     }
 

@@ -1,7 +1,7 @@
 //! Lights (KHR_lights_punctual): their numbers, checked for sense. One that makes none is left out with a warning.
 
-use super::error::Diagnostic;
 use super::warnings::ImportWarnings;
+use crate::diagnostic::Diagnostic;
 use crate::{LightKind, Node, PunctualLight};
 use gltf::json::Root;
 use serde_json::{Map, Value};

@@ -3,8 +3,8 @@
 //! The numbers of extensions are found by the table of [`Field`](crate::Field)s, which says where they stand and
 //! within which bounds they must be; textures by the table of [`TextureSlot`]s.
 
-use super::error::Diagnostic;
 use super::warnings::ImportWarnings;
+use crate::diagnostic::Diagnostic;
 use crate::{
     AlphaMode, Material, Model, NormalTexture, OcclusionTexture, TextureInfo, TextureSlot,
     UvTransform,

@@ -1,7 +1,7 @@
 //! How much memory the arrays that a file asks for may take.
 
-use super::error::{Diagnostic, ImportErrorKind};
 use super::limits::Limits;
+use crate::diagnostic::{Diagnostic, codes};
 use std::cell::Cell;
 
 /// Arrays may take so many bytes however small the files are.
@@ -37,7 +37,7 @@ impl<'a> MemoryBudget<'a> {
         if made.saturating_sub(FREE_ARRAY_BYTES) > files.saturating_mul(array_growth) {
             let problem = format!("{what}, more than {array_growth} times the files");
             let remedy = Diagnostic::raise_limit_help("array_growth");
-            return Err(Diagnostic::new(ImportErrorKind::Limit, pointer, problem, &remedy));
+            return Err(Diagnostic::error(codes::LIMIT_EXCEEDED, pointer, problem, &remedy));
         }
         Ok(())
     }

@@ -18,7 +18,7 @@ mod tests;
 mod vertex_codec;
 mod vertex_filters;
 
-use super::error::Diagnostic;
+use crate::diagnostic::Diagnostic;
 use byte_stream::StreamError;
 use gltf::json::buffer::View;
 use serde_json::{Map, Value};

@@ -3,7 +3,6 @@
 use super::accessor::AccessorReader;
 use super::animation::{self, AnimatedObjects};
 use super::document::GltfDocument;
-use super::error::Diagnostic;
 use super::images::EncodedImages;
 use super::parallel_decoding::decode_images_alongside;
 use super::warnings::ImportWarnings;
@@ -11,6 +10,7 @@ use super::{
     ImageLoading, ImportOptions, camera, gpu_instancing, images, lights, material, primitive,
     scene_graph, selection, skin, texture,
 };
+use crate::diagnostic::Diagnostic;
 use crate::{Model, Node};
 
 /// Builds the model of a document. The images are decoded while the meshes are read.

@@ -1,8 +1,8 @@
 //! Morph targets: differences of the attributes of vertices. One that cannot be read is left out with a warning.
 
 use super::attribute::{AllowedFormats, AttributeReader, COLOR, POSITION, TEXCOORD};
-use super::error::Diagnostic;
 use crate::MorphTarget;
+use crate::diagnostic::Diagnostic;
 use gltf::json;
 
 /// Reads one morph target.

@@ -1,8 +1,8 @@
 //! The transforms of nodes, in the double precision that JSON has.
 
-use super::error::Diagnostic;
 use super::warnings::ImportWarnings;
 use crate::Trs;
+use crate::diagnostic::Diagnostic;
 use glam::{DMat4, DVec4};
 use homog::{Affine, Model};
 use serde_json::{Map, Value};

@@ -9,11 +9,11 @@ use super::attribute::{
 };
 use super::draco::DracoData;
 use super::elements::ResolvedAccessor;
-use super::error::{Diagnostic, ImportErrorKind};
 use super::morph_target::MorphTargetReader;
 use super::untyped_members::UntypedMembers;
 use super::warnings::ImportWarnings;
 use super::{draco, edge_visibility, normals, selection, topology};
+use crate::diagnostic::{Diagnostic, codes};
 use crate::{Material, Mesh, Primitive, PrimitiveEdges, Topology, VariantMaterial};
 use gltf::json;
 use gltf::json::mesh::Semantic;
@@ -54,7 +54,7 @@ pub(super) fn import_meshes(
                 warnings: &mut *warnings,
             };
             primitives.push(match reader.read_primitive() {
-                Err(fault) if fault.kind == ImportErrorKind::NoData => {
+                Err(fault) if fault.code == codes::MISSING_DATA => {
                     warnings.downgrade(&fault, "the primitive is left out");
                     Primitive::default()
                 }

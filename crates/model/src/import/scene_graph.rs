@@ -1,10 +1,10 @@
 //! The node tree: nodes with their transforms, proof that they form a forest, and the roots of the shown scene.
 
 use super::document::GltfDocument;
-use super::error::Diagnostic;
 use super::limits::Limits;
 use super::node_transform::NodeTransform;
 use super::warnings::ImportWarnings;
+use crate::diagnostic::Diagnostic;
 use crate::{Mesh, MeshInstance, Model, Node, Primitive, SceneRoots, Trs};
 use gltf::json::{Index, Root};
 use homog::Affine;

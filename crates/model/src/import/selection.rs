@@ -1,7 +1,7 @@
 //! What can be asked of a file: which of its scenes, and which of its variants.
 
-use super::error::{Diagnostic, ImportErrorKind};
 use super::warnings::ImportWarnings;
+use crate::diagnostic::{Diagnostic, codes};
 use crate::{Mesh, VariantMaterial};
 use gltf::json::{Root, mesh};
 use serde_json::Value;
@@ -41,7 +41,7 @@ impl NameOrIndex {
                 [] => format!("leave it out: the file has no {what}s"),
                 known => format!("choose one of {}", known.join(", ")),
             };
-            Diagnostic::new(ImportErrorKind::NotFound, pointer, problem, &remedy)
+            Diagnostic::error(codes::NO_SUCH_ITEM, pointer, problem, &remedy)
         })
     }
 }
@@ -148,10 +148,10 @@ mod tests {
         assert_eq!(among(NameOrIndex::Index(7)), Ok(2), "a name of digits");
         assert_eq!(among(NameOrIndex::Name("day".to_owned())), Ok(0));
         let fault = among(NameOrIndex::Name("night".to_owned())).unwrap_err();
-        assert_eq!(fault.kind, ImportErrorKind::NotFound);
+        assert_eq!(fault.code, codes::NO_SUCH_ITEM);
         assert_eq!(fault.message, "there is no scene `night`");
-        assert_eq!(fault.help, "choose one of 0 `day`, 1, 2 `7`");
+        assert_eq!(fault.help.unwrap(), "choose one of 0 `day`, 1, 2 `7`");
         let fault = NameOrIndex::Index(0).find_among(&[], "variant", "/v").unwrap_err();
-        assert_eq!(fault.help, "leave it out: the file has no variants");
+        assert_eq!(fault.help.unwrap(), "leave it out: the file has no variants");
     }
 }

@@ -1,10 +1,10 @@
 //! Skins: joints and the matrices that go with them. One that is wrong is left out with a warning.
 
 use super::accessor::AccessorReader;
-use super::error::Diagnostic;
 use super::node_transform::affine_from_columns;
 use super::warnings::ImportWarnings;
 use crate::Skin;
+use crate::diagnostic::Diagnostic;
 use gltf::json::accessor::{ComponentType, Type};
 use homog::Affine;
 

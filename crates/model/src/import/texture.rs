@@ -1,7 +1,7 @@
 //! Textures: which image, read how.
 
-use super::error::Diagnostic;
 use super::warnings::ImportWarnings;
+use crate::diagnostic::Diagnostic;
 use crate::{MipmapMode, Sampler, Texture, TextureFilter, WrapMode};
 use gltf::json::Root;
 use gltf::json::texture::{MagFilter, MinFilter, WrappingMode};

@@ -7,8 +7,8 @@
 //! model may name other folders: then `..` and symbolic links may lead there too, and nothing else changes.
 
 use super::ImportOptions;
-use super::error::{Diagnostic, ImportErrorKind};
 use super::limits::Limits;
+use crate::diagnostic::{Diagnostic, codes};
 use base64::Engine;
 use base64::alphabet;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
@@ -125,8 +125,8 @@ impl<'a> UriResolver<'a> {
             Some(scheme) => {
                 forbidden_path(pointer, &format!("the scheme {scheme:?} of {uri:?} is not read"))
             }
-            None => Diagnostic::new(
-                ImportErrorKind::Unreadable,
+            None => Diagnostic::error(
+                codes::IO_ERROR,
                 pointer,
                 format!("the file {uri:?} does not exist"),
                 "put it beside the glTF file",
@@ -188,12 +188,7 @@ pub(super) fn read_file(
     if !metadata.is_file() {
         let problem =
             if metadata.is_dir() { "this is a folder" } else { "this is not a regular file" };
-        return Err(Diagnostic::new(
-            ImportErrorKind::Unreadable,
-            pointer,
-            problem.to_owned(),
-            "give a file",
-        ));
+        return Err(Diagnostic::error(codes::IO_ERROR, pointer, problem.to_owned(), "give a file"));
     }
     let allowed = limits.file_bytes;
     let mut bytes = Vec::new();
@@ -216,7 +211,7 @@ fn canonical_allowed_folder(folder: &Path) -> Result<PathBuf, Diagnostic> {
     folder.canonicalize().map_err(|error| {
         let problem =
             format!("the folder {}, allowed for files, cannot be used: {error}", folder.display());
-        Diagnostic::new(ImportErrorKind::Unreadable, "", problem, "name a folder that exists")
+        Diagnostic::error(codes::IO_ERROR, "", problem, "name a folder that exists")
     })
 }
 
@@ -234,13 +229,13 @@ fn unreadable_file(pointer: &str, path: &Path, error: &std::io::Error) -> Diagno
         }
         _ => (format!("{name} cannot be read: {error}"), "check the file"),
     };
-    Diagnostic::new(ImportErrorKind::Unreadable, pointer, problem, remedy)
+    Diagnostic::error(codes::IO_ERROR, pointer, problem, remedy)
 }
 
 fn forbidden_path(pointer: &str, problem: &str) -> Diagnostic {
     let remedy = "copy the file beside the glTF file and name it by a relative path, or allow its folder \
                   with --allow-outside DIR";
-    Diagnostic::new(ImportErrorKind::Forbidden, pointer, problem.to_owned(), remedy)
+    Diagnostic::error(codes::FORBIDDEN_PATH, pointer, problem.to_owned(), remedy)
 }
 
 /// The scheme of a URI (RFC 3986 §3.1), if it has one.

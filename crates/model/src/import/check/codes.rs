@@ -3,7 +3,7 @@
 //! Names and severities are those of the Khronos glTF validator 2.0 (its ISSUES.md) wherever it knows the problem, so that
 //! whoever knows them finds them here; its "information" and "hint" are notes. The last few are our own.
 
-use super::report::Severity;
+use crate::diagnostic::Severity;
 
 /// A kind of problem.
 #[derive(Debug)]
@@ -118,7 +118,7 @@ codes! {
         "export the file again if something is missing in the picture" => LEFT_OUT;
         "nothing, unless it is missed in the picture" => NOT_SHOWN;
     }
-    Note {
+    Info {
         "remove it" => ACCESSOR_INDEX_TRIANGLE_DEGENERATE NODE_EMPTY NODE_MATRIX_DEFAULT UNUSED_OBJECT;
         "nothing: extensions that are not known here are not checked" => UNSUPPORTED_EXTENSION;
     }

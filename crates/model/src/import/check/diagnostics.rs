@@ -1,7 +1,7 @@
 //! The list of problems, kept short even if a file has millions, and without doubles.
 
 use super::codes::Code;
-use super::report::{Problem, Severity};
+use crate::diagnostic::{Diagnostic, Severity};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::fmt::Display;
@@ -14,13 +14,13 @@ const MAX_TEXT_LENGTH: usize = 500;
 /// Collects problems while a file is checked.
 #[derive(Default, Debug)]
 pub(super) struct Diagnostics {
-    lists: RefCell<[SeverityList; 3]>,
+    lists: RefCell<[SeverityList; Severity::ALL.len()]>,
 }
 
 /// The problems of one severity.
 #[derive(Default, Debug)]
 struct SeverityList {
-    retained: Vec<Problem>,
+    retained: Vec<Diagnostic>,
     known_keys: BTreeSet<(&'static str, String)>,
     count: usize,
 }
@@ -47,12 +47,12 @@ impl Diagnostics {
         let pointer = truncate_text(pointer.to_string());
         if list.known_keys.insert((code.name, pointer.clone())) {
             list.count += 1;
-            list.retained.push(Problem {
+            list.retained.push(Diagnostic {
                 severity: code.severity,
                 code: code.name,
-                pointer,
+                location: pointer,
                 message: truncate_text(message.to_string()),
-                remedy: remedy.to_owned(),
+                help: Some(remedy.to_owned()),
             });
         }
     }
@@ -60,8 +60,8 @@ impl Diagnostics {
     /// Whether something at least so bad is known of this very place, or of a place in it.
     pub(super) fn has_at_or_below(&self, worst: Severity, pointer: &str) -> bool {
         let lists = self.lists.borrow();
-        let concerns = |problem: &Problem| {
-            let rest = problem.pointer.strip_prefix(pointer);
+        let concerns = |problem: &Diagnostic| {
+            let rest = problem.location.strip_prefix(pointer);
             rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
         };
         let worse = &lists[..=worst as usize];
@@ -80,9 +80,10 @@ impl Diagnostics {
     }
 
     /// All that is kept, the worst first, and how many there are of each severity.
-    pub(super) fn into_parts(self) -> (Vec<Problem>, [usize; 3]) {
+    pub(super) fn into_parts(self) -> (Vec<Diagnostic>, [usize; 3]) {
         let lists = self.lists.into_inner();
-        let counts = [lists[0].count, lists[1].count, lists[2].count];
+        let [errors, warnings, info, hints] = Severity::ALL.map(|s| lists[s as usize].count);
+        let counts = [errors, warnings, info + hints];
         (lists.into_iter().flat_map(|list| list.retained).collect(), counts)
     }
 }
@@ -120,6 +121,6 @@ mod tests {
         assert_eq!(counts, [3, 1_000_000, 1]);
         assert_eq!(problems.len(), 3 + MAX_PER_SEVERITY + 1);
         assert!(problems.windows(2).all(|pair| pair[0].severity <= pair[1].severity));
-        assert!(problems[2].pointer.len() < MAX_TEXT_LENGTH + 5);
+        assert!(problems[2].location.len() < MAX_TEXT_LENGTH + 5);
     }
 }

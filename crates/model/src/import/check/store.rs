@@ -115,7 +115,12 @@ impl<'a> BufferStore<'a> {
             self.exhausted.set(true);
             let message = format_args!("{}; the data from here on is not checked", fault.message);
             let findings = self.document.diagnostics;
-            findings.add_with_help(&codes::LIMIT_EXCEEDED, pointer, message, &fault.help);
+            findings.add_with_help(
+                &codes::LIMIT_EXCEEDED,
+                pointer,
+                message,
+                fault.help.as_deref().unwrap_or_default(),
+            );
         }
         charged.is_ok()
     }

@@ -2,7 +2,7 @@
 
 use super::codes;
 use super::diagnostics::Diagnostics;
-use crate::import::error::{Diagnostic, ImportErrorKind};
+use crate::diagnostic::{Diagnostic, codes as load};
 use crate::import::uri_resolver::UriResolver;
 
 /// The media type of a data URI, in lower case; `None` for another URI.
@@ -58,10 +58,15 @@ pub(super) fn read_uri(
 }
 
 fn add_read_error(fault: &Diagnostic, findings: &Diagnostics) {
-    let code = match fault.kind {
-        ImportErrorKind::Invalid => &codes::INVALID_URI,
-        ImportErrorKind::Limit => &codes::LIMIT_EXCEEDED,
+    let code = match fault.code {
+        load::INVALID_DATA => &codes::INVALID_URI,
+        load::LIMIT_EXCEEDED => &codes::LIMIT_EXCEEDED,
         _ => &codes::IO_ERROR,
     };
-    findings.add_with_help(code, &fault.location, &fault.message, &fault.help);
+    findings.add_with_help(
+        code,
+        &fault.location,
+        &fault.message,
+        fault.help.as_deref().unwrap_or_default(),
+    );
 }
