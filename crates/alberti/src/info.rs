@@ -9,7 +9,7 @@ use super::args::InfoArgs;
 use super::model_state::ModelStateArgs;
 use model::import::{ExtensionUse, ImageLoading, ImportOptions, extension_use, load};
 use model::{
-    AlphaMode, CameraProjection, LightKind, Model, PunctualLight, SceneRoots, Topology, Warning,
+    AlphaMode, CameraProjection, Diagnostic, LightKind, Model, PunctualLight, SceneRoots, Topology,
 };
 use pipeline::scene::file::Finite;
 use pipeline::scene::select_animation;
@@ -70,7 +70,7 @@ fn describe_model(model: &Model) -> String {
     }
     line("extensions", extensions_line(model));
     // Warnings about extensions are in the line of the extensions already.
-    let is_about_file = |warning: &&Warning| !warning.location.starts_with("/extensions");
+    let is_about_file = |warning: &&Diagnostic| !warning.location.starts_with("/extensions");
     for warning in model.warnings.iter().filter(is_about_file) {
         line("warning", format!("{}: {}", warning.location, warning.message));
     }

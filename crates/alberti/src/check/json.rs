@@ -1,7 +1,7 @@
 //! The JSON reports of `alberti check` and `alberti scene check`.
 
 use super::CheckResult;
-use model::import::{CheckReport, Problem};
+use model::import::{CheckReport, Diagnostic};
 use pipeline::SceneError;
 use pipeline::scene::Lint;
 use serde_json::{Value, json};
@@ -71,12 +71,12 @@ fn report_json(report: &CheckReport) -> Value {
     })
 }
 
-fn diagnostic_json(problem: &Problem) -> Value {
+fn diagnostic_json(diagnostic: &Diagnostic) -> Value {
     json!({
-        "severity": problem.severity.name(),
-        "code": problem.code,
-        "pointer": problem.location,
-        "message": problem.message,
-        "remedy": problem.help,
+        "severity": diagnostic.severity.name(),
+        "code": diagnostic.code,
+        "pointer": diagnostic.location,
+        "message": diagnostic.message,
+        "remedy": diagnostic.help,
     })
 }

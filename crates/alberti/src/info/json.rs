@@ -185,7 +185,6 @@ fn extensions_json(model: &Model) -> Value {
 }
 
 fn warnings_json(model: &Model) -> Value {
-    let describe =
-        |warning: &model::Warning| json!({"pointer": warning.location, "message": warning.message});
+    let describe = |warning: &model::Diagnostic| json!({"pointer": warning.location, "message": warning.message});
     model.warnings.iter().map(describe).collect()
 }
