@@ -7,7 +7,7 @@ use crate::diagnostic::Severity;
 
 /// A kind of problem.
 #[derive(Debug)]
-pub(super) struct Code {
+pub(super) struct DiagnosticCode {
     pub(super) name: &'static str,
     pub(super) severity: Severity,
     /// What to do about it.
@@ -16,8 +16,8 @@ pub(super) struct Code {
 
 macro_rules! codes {
     ($($severity:ident { $($remedy:literal => $($name:ident)*;)* })*) => {$($($(
-        pub(super) const $name: Code =
-            Code { name: stringify!($name), severity: Severity::$severity, remedy: $remedy };
+        pub(super) const $name: DiagnosticCode =
+            DiagnosticCode { name: stringify!($name), severity: Severity::$severity, remedy: $remedy };
     )*)*)*};
 }
 

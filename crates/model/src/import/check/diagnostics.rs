@@ -1,6 +1,6 @@
 //! The list of problems, kept short even if a file has millions, and without doubles.
 
-use super::codes::Code;
+use super::codes::DiagnosticCode;
 use crate::diagnostic::{Diagnostic, Severity};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -27,14 +27,14 @@ struct SeverityList {
 
 impl Diagnostics {
     /// Adds a problem, with the remedy that goes with its code. Nothing is formatted if the list is full.
-    pub(super) fn add(&self, code: &Code, pointer: impl Display, message: impl Display) {
+    pub(super) fn add(&self, code: &DiagnosticCode, pointer: impl Display, message: impl Display) {
         self.add_with_help(code, pointer, message, code.remedy);
     }
 
     /// Adds a problem with a remedy of its own.
     pub(super) fn add_with_help(
         &self,
-        code: &Code,
+        code: &DiagnosticCode,
         pointer: impl Display,
         message: impl Display,
         remedy: &str,
@@ -74,7 +74,7 @@ impl Diagnostics {
     }
 
     /// Whether a problem of this kind is known.
-    pub(super) fn has_code(&self, code: &Code) -> bool {
+    pub(super) fn has_code(&self, code: &DiagnosticCode) -> bool {
         let list = &self.lists.borrow()[code.severity as usize];
         list.retained.iter().any(|problem| problem.code == code.name)
     }
@@ -104,20 +104,20 @@ mod tests {
 
     #[test]
     fn the_list_is_short_sorted_and_without_doubles() {
-        let findings = Diagnostics::default();
-        findings.add(&codes::NODE_EMPTY, "/nodes/0", "empty");
+        let diagnostics = Diagnostics::default();
+        diagnostics.add(&codes::NODE_EMPTY, "/nodes/0", "empty");
         for at in [1, 1, 2] {
-            findings.add(&codes::ACCESSOR_TOO_LONG, format_args!("/accessors/{at}"), "too long");
+            diagnostics.add(&codes::ACCESSOR_TOO_LONG, format_args!("/accessors/{at}"), "too long");
         }
         for at in 0..1_000_000 {
-            findings.add(&codes::NON_RELATIVE_URI, format_args!("/images/{at}/uri"), "absolute");
+            diagnostics.add(&codes::NON_RELATIVE_URI, format_args!("/images/{at}/uri"), "absolute");
         }
-        findings.add(&codes::EMPTY_ENTITY, "é".repeat(10_000), "empty");
-        let knows = |pointer| findings.has_at_or_below(Severity::Warning, pointer);
+        diagnostics.add(&codes::EMPTY_ENTITY, "é".repeat(10_000), "empty");
+        let knows = |pointer| diagnostics.has_at_or_below(Severity::Warning, pointer);
         assert!(knows("/accessors/1") && knows("/accessors") && knows("/images/7"));
         assert!(!knows("/accessors/11") && !knows("/nodes/0") && !knows(""));
-        assert!(!findings.has_at_or_below(Severity::Error, "/images/7"));
-        let (problems, counts) = findings.into_parts();
+        assert!(!diagnostics.has_at_or_below(Severity::Error, "/images/7"));
+        let (problems, counts) = diagnostics.into_parts();
         assert_eq!(counts, [3, 1_000_000, 1]);
         assert_eq!(problems.len(), 3 + MAX_PER_SEVERITY + 1);
         assert!(problems.windows(2).all(|pair| pair[0].severity <= pair[1].severity));
