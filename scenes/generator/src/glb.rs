@@ -1,6 +1,9 @@
-//! Writing binary glTF files: for the scenes' models, and for all that tests and fuzzers build.
+//! The binary glTF container, for the models of the scenes and for files that tests and fuzzers
+//! build.
 
-/// A `.glb` file of a JSON text and a binary chunk (glTF 2.0, §4.4), each filled up to a multiple of four bytes.
+/// Encodes a `.glb` file: header, JSON chunk, binary chunk, both padded to a multiple of four bytes
+/// (glTF 2.0, §4.4).
+#[must_use]
 pub fn encode_glb(json: &[u8], bytes: &[u8]) -> Vec<u8> {
     let mut file = b"glTF\x02\0\0\0\0\0\0\0".to_vec();
     for (kind, filler, data) in [(b"JSON", b' ', json), (b"BIN\0", 0, bytes)] {

@@ -1,15 +1,14 @@
-//! A wooden crate with a picture on each side, and panes of glass with a cut-out screen between
-//! them.
+//! Wooden crate (base color texture) and glass panes (alpha modes BLEND, MASK and OPAQUE).
 
-use super::document::Document;
-use super::mesh::Mesh;
-use super::palette::{CLAY, OCHRE, SLATE, TEAL};
-use super::wood;
+use crate::document::Document;
+use crate::mesh::Mesh;
+use crate::palette::{CLAY, OCHRE, SLATE, TEAL};
+use crate::wood;
 use glam::{DVec3, dvec3};
 use serde_json::json;
 
-/// A cube of one metre standing on the ground, the same picture on all six sides.
-pub fn wooden_crate() -> Result<Document, String> {
+/// A cube of one meter on the ground with one texture on all six faces.
+pub(crate) fn wooden_crate() -> Result<Document, String> {
     let mut document = Document::default();
     let planks = document.add_texture("planks", &wood::crate_side_png()?);
     let wood = document.add_textured("wood", planks, json!({}));
@@ -18,17 +17,17 @@ pub fn wooden_crate() -> Result<Document, String> {
     Ok(document)
 }
 
-/// Three panes of coloured glass (BLEND) with a perforated screen (MASK) behind them, in a slate
+/// Three panes of colored glass (BLEND) with a perforated screen (MASK) behind them, in a slate
 /// rail (OPAQUE).
 ///
 /// The panes are listed from front to back, against the order in which they must be blended from a
 /// camera in front.
-pub fn panes() -> Result<Document, String> {
+pub(crate) fn panes() -> Result<Document, String> {
     let mut document = Document::default();
     let rail = document.add_material("rail", SLATE);
     let rail = document.add_mesh(
         "rail",
-        &[(&Mesh::block_on(DVec3::ZERO, dvec3(3.4, 0.16, 2.6)).without_normals(), rail)],
+        &[(&Mesh::block_on(DVec3::ZERO, dvec3(3.4, 0.16, 2.6)).without_uvs(), rail)],
     );
     document.add_root("rail", Some(rail), json!({}));
 
@@ -38,10 +37,8 @@ pub fn panes() -> Result<Document, String> {
         ("teal pane", TEAL, 0.5, -0.3),
     ] {
         let glass = document.add_glass(name, color, 0.55);
-        let pane = document.add_mesh(
-            name,
-            &[(&upright_pane(dvec3(x, 0.16, z), 1.5, 1.8).without_normals(), glass)],
-        );
+        let pane = document
+            .add_mesh(name, &[(&upright_pane(dvec3(x, 0.16, z), 1.5, 1.8).without_uvs(), glass)]);
         document.add_root(name, Some(pane), json!({}));
     }
 
@@ -54,7 +51,7 @@ pub fn panes() -> Result<Document, String> {
     Ok(document)
 }
 
-/// A rectangle facing +z, standing with the middle of its foot at `at`.
+/// A rectangle that faces +z; `at` is the center of its lower edge.
 fn upright_pane(at: DVec3, width: f64, height: f64) -> Mesh {
     let side = DVec3::X * (width / 2.0);
     let up = DVec3::Y * height;

@@ -1,21 +1,20 @@
-//! A small room without its ceiling and two of its walls, with three cameras in the file: a view
-//! from the door, a plan and an elevation.
+//! Open room with three cameras in the file: a view from the door, a plan and an elevation.
 
-use super::document::{Document, rotation_quaternion};
-use super::mesh::Mesh;
-use super::palette::{BARK, BRICK, CREAM, OCHRE, PAPER, PLUM, SAGE, SKY, TEAL, WOOD};
+use crate::document::{Document, rotation_quaternion};
+use crate::mesh::Mesh;
+use crate::palette::{BARK, BRICK, CREAM, OCHRE, PAPER, PLUM, SAGE, SKY, TEAL, WOOD};
 use glam::{DVec3, dvec3};
 use serde_json::json;
 
 /// The floor goes from −2.5 to 2.5 in x and from −2 to 2 in z; the walls that stand are those at −x
 /// and −z.
-pub fn room() -> Document {
+pub(crate) fn room() -> Document {
     let mut document = Document::default();
     let mut piece = |name: &str, color, boxes: &[(DVec3, DVec3)]| {
         let material = document.add_material(name, color);
         let mut mesh = Mesh::default();
         for (at, size) in boxes {
-            mesh.append(&Mesh::block_on(*at, *size).without_normals());
+            mesh.append(&Mesh::block_on(*at, *size).without_uvs());
         }
         let mesh = document.add_mesh(name, &[(&mesh, material)]);
         document.add_root(name, Some(mesh), json!({}));

@@ -2,17 +2,17 @@
 //!
 //! `P(u, v) = Σ B_i(v) B_j(u) p_ij` with Bernstein's cubics (Bézier 1968; Foley et al., 2nd ed.,
 //! §11.3.2); `u` runs along a row of control points, `v` from row to row. The normal is
-//! `P_u × P_v`. Where a whole row is one place, a pole, `P_u` is zero on it; but near it
+//! `P_u × P_v`. Where all control points of a row coincide, at a pole, `P_u` is zero; near it
 //! `P_u ≈ ±v P_uv`, so the mixed derivative gives the limit of the direction.
 
-use super::mesh::Mesh;
+use crate::mesh::Mesh;
 use glam::{DVec3, DVec4, dvec4};
 
 /// Four rows of four control points.
 type Patch = [[DVec3; 4]; 4];
 
-/// Adds a patch as a grid of `steps` by `steps` cells, outside being where `P_u × P_v` points.
-pub fn tessellate(mesh: &mut Mesh, patch: &Patch, steps: u32) {
+/// Adds a patch as a grid of `steps` by `steps` cells whose front faces along `P_u × P_v`.
+pub(crate) fn tessellate(mesh: &mut Mesh, patch: &Patch, steps: u32) {
     let first = mesh.positions.len() as u32;
     for row in 0..=steps {
         for column in 0..=steps {
@@ -64,7 +64,7 @@ fn bernstein_slopes(t: f64) -> DVec4 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::models::teapot_patches::teapot_parts;
+    use crate::teapot_patches::teapot_parts;
 
     #[test]
     fn normals_are_perpendicular_to_small_steps_on_the_surface() {

@@ -1,11 +1,11 @@
-//! Balls of many finishes: metals and paints from mirrors to chalk, and layers over them.
+//! Material spheres: metals and dielectrics by roughness, and one sphere per layer extension.
 
-use super::document::Document;
-use super::mesh::Mesh;
+use crate::document::Document;
+use crate::mesh::Mesh;
 use serde_json::{Value, json};
 
-/// Metal, paint and layers, row by row from above.
-pub fn finishes() -> Document {
+/// Rows from above: metals, dielectrics, layers.
+pub(crate) fn finishes() -> Document {
     let mut document = Document::default();
     let ball = Mesh::sphere(0.45, 28);
     let gold = json!([1.0, 0.71, 0.29, 1.0]);
@@ -33,7 +33,8 @@ pub fn finishes() -> Document {
     document
 }
 
-/// One extension each: a clear coat, fibres, a thin film, glass, and a strong index of refraction.
+/// The material extension of a column: clearcoat, sheen, iridescence, transmission, index of
+/// refraction.
 fn layer_extension(which: u32) -> Value {
     let (color, metallic, roughness, name, extension) = match which {
         0 => (

@@ -1,8 +1,8 @@
 //! One star for each of glTF's seven primitive modes, in their numerical order, two rows.
 
-use super::document::{Document, PrimitiveMode};
-use super::mesh::Mesh;
-use super::palette::{BRICK, CLAY, Color, OCHRE, PLUM, SAGE, SLATE, TEAL};
+use crate::document::{Document, PrimitiveMode};
+use crate::mesh::Mesh;
+use crate::palette::{BRICK, CLAY, Color, OCHRE, PLUM, SAGE, SLATE, TEAL};
 use glam::{DVec3, dvec3};
 use serde_json::json;
 use std::f64::consts::{PI, TAU};
@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 /// Points of the star.
 const RAY_COUNT: u32 = 7;
 
-pub fn primitives() -> Document {
+pub(crate) fn primitives() -> Document {
     let mut document = Document::default();
     let count = 2 * RAY_COUNT;
     let around: Vec<u32> = (0..count).collect();
@@ -38,8 +38,8 @@ pub fn primitives() -> Document {
     document
 }
 
-/// The outline's points and hollows in turn, then the middle, then an inner ring. Normals only
-/// where there are faces.
+/// Outer and inner points of the outline in turn, then the center, then an inner ring. Normals only
+/// for triangles.
 fn star_mesh(faces: bool) -> Mesh {
     let at = |step: u32, radius: f64| {
         let (sine, cosine) =

@@ -3,7 +3,7 @@
 //! IEEE Computer Graphics and Applications 7(1), 1987).
 //!
 //! The published table lists 306 control points, of which all but a few dozen follow from the
-//! others: body, lid and bottom are outlines turned about the axis in four quarters, with 0.56 of
+//! others: body, lid and bottom are outlines swept about the axis in four quarters, with 0.56 of
 //! the radius where an exact circle would ask for 0.5523, and handle and spout are halves with
 //! their mirror images. So the outlines and halves are written here, and the 32 patches are made
 //! from them; the test compares with the table's own entries.
@@ -13,16 +13,16 @@
 use glam::{DVec3, dvec3};
 
 /// A bicubic patch: four rows of four control points.
-pub type Patch = [[DVec3; 4]; 4];
+pub(crate) type Patch = [[DVec3; 4]; 4];
 
 /// A part of the pot and its patches.
-pub struct Part {
-    pub name: &'static str,
-    pub patches: Vec<Patch>,
+pub(crate) struct Part {
+    pub(crate) name: &'static str,
+    pub(crate) patches: Vec<Patch>,
 }
 
-/// A point of an outline: radius, height, and the share of the radius that the inner control points
-/// of a quarter circle get.
+/// A point of an outline: radius, height, and the fraction of the radius at which the inner control
+/// points of a quarter circle stand.
 type Ring = (f64, f64, f64);
 
 const QUARTER: f64 = 0.56;
@@ -43,8 +43,7 @@ const LID_KNOB: [Ring; 4] =
     [(0.0, 3.15, QUARTER), (0.8, 3.15, KNOB), (0.0, 2.85, QUARTER), (0.2, 2.7, QUARTER)];
 const LID: [Ring; 4] =
     [(0.2, 2.7, QUARTER), (0.4, 2.55, QUARTER), (1.3, 2.55, QUARTER), (1.3, 2.4, QUARTER)];
-/// Here alone the rows run against the table's, from the foot to the middle: turned like the
-/// others, it then looks down.
+/// From the foot to the center, against the order of the table, so that its outside faces down.
 const BOTTOM: [Ring; 4] =
     [(1.5, 0.15, QUARTER), (1.5, 0.075, QUARTER), (1.425, 0.0, QUARTER), (0.0, 0.0, QUARTER)];
 
@@ -78,7 +77,7 @@ const UPPER_SPOUT: HalfPatch = [
 
 /// The pot, part by part, in the order of the published table.
 #[must_use]
-pub fn teapot_parts() -> Vec<Part> {
+pub(crate) fn teapot_parts() -> Vec<Part> {
     let turned = |outlines: &[&[Ring; 4]]| {
         outlines.iter().flat_map(|rings| quarter_patches(rings)).collect()
     };
@@ -93,7 +92,7 @@ pub fn teapot_parts() -> Vec<Part> {
     ]
 }
 
-/// An outline turned about the z axis: four patches, clockwise seen from above.
+/// An outline swept about the z axis: four patches, clockwise seen from above.
 fn quarter_patches(outline: &[Ring; 4]) -> [Patch; 4] {
     let first = outline.map(|(radius, z, share)| {
         let inner = radius * share;

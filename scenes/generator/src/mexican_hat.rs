@@ -5,20 +5,20 @@
 //! 0.715, the second crest just outside the edges' middles. (Angel's *Interactive Computer
 //! Graphics* draws the same surface.)
 
-use super::document::{Document, PrimitiveMode};
-use super::mesh::Mesh;
-use super::palette::{BRICK, CLAY, CREAM, Color, INK, OCHRE, SAND, SKY, TEAL, color_ramp};
+use crate::document::{Document, PrimitiveMode};
+use crate::mesh::Mesh;
+use crate::palette::{BRICK, CLAY, CREAM, Color, INK, OCHRE, SAND, SKY, TEAL, color_ramp};
 use glam::{DVec3, dvec3};
 use serde_json::json;
 use std::f64::consts::TAU;
 
 const ROWS: u32 = 49;
 const COLUMNS: u32 = 49;
-/// Heights are drawn at this share, so that the hat is about as high as half its brim is wide.
+/// Factor of the heights: the peak is about as high as half of the brim is wide.
 const HEIGHT: f64 = 0.9;
 
-/// The surface, coloured by height.
-pub fn hat_surface() -> Document {
+/// The surface with vertex colors by height.
+pub(crate) fn hat_surface() -> Document {
     let mut mesh = Mesh::default();
     for (x, z) in grid_points() {
         let hat = HatPoint::at(x, z);
@@ -34,7 +34,7 @@ pub fn hat_surface() -> Document {
 }
 
 /// Every second row and column of the grid as polylines, each a LINE_STRIP without indices.
-pub fn hat_lines() -> Document {
+pub(crate) fn hat_lines() -> Document {
     let mut document = Document::default();
     let ink = document.add_material("ink", INK);
     let vertices: Vec<DVec3> =
@@ -53,13 +53,13 @@ pub fn hat_lines() -> Document {
     document
 }
 
-/// The places of the grid, row by row.
+/// The grid points, row by row.
 fn grid_points() -> impl Iterator<Item = (f64, f64)> {
     let place = |index, count| 2.0 * f64::from(index) / f64::from(count - 1) - 1.0;
     (0..ROWS).flat_map(move |i| (0..COLUMNS).map(move |j| (place(i, ROWS), place(j, COLUMNS))))
 }
 
-/// The hat at one place: its height and its slopes.
+/// Height and slopes of the surface at a grid point.
 struct HatPoint {
     height: f64,
     slope_x: f64,

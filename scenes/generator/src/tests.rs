@@ -1,5 +1,4 @@
-//! What every model must keep to be a valid glTF file, read back from its bytes by a reader that
-//! shares no code with the writer.
+//! Invariants of every model, checked by a reader that shares no code with the writer.
 
 use super::all_models;
 use serde_json::Value;

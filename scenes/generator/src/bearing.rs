@@ -1,15 +1,15 @@
-//! A shaft in a plain bearing: parts that fit, and are closed, for cuts to show what is inside.
+//! Plain bearing: a shaft in its housing, closed solids that fit each other, for section views.
 
-use super::document::Document;
-use super::mesh::{Mesh, sharp_outline};
-use super::palette::{CLAY, OCHRE, SAND, SLATE, TEAL};
+use crate::document::Document;
+use crate::mesh::{Mesh, sharp_outline};
+use crate::palette::{CLAY, OCHRE, SAND, SLATE, TEAL};
 use glam::{DVec3, dvec3};
 use serde_json::json;
 
-/// Sides of the round parts.
+/// Segments around the axis.
 const SEGMENTS: u32 = 48;
 
-/// Outlines by radius and height, once around, so that what they sweep has a bore.
+/// A closed outline of radius and height: the solid of revolution has a bore.
 type Profile<'a> = &'a [(f64, f64)];
 
 const HOUSING: Profile<'_> = &[
@@ -25,7 +25,7 @@ const HOUSING: Profile<'_> = &[
 ];
 const BUSH: Profile<'_> = &[(0.45, -0.1), (0.6, -0.1), (0.6, 1.3), (0.45, 1.3), (0.45, -0.1)];
 const RING: Profile<'_> = &[(0.45, 1.3), (0.75, 1.3), (0.75, 1.5), (0.45, 1.5), (0.45, 1.3)];
-/// The shaft reaches its axis, and needs no way back.
+/// The shaft reaches the axis at both ends, so its outline is open.
 const SHAFT: Profile<'_> = &[
     (0.0, -0.5),
     (0.4, -0.5),
@@ -40,7 +40,7 @@ const SHAFT: Profile<'_> = &[
 /// The head alone.
 const BOLT: Profile<'_> = &[(0.0, 0.3), (0.2, 0.3), (0.2, 0.45), (0.0, 0.45)];
 
-pub fn bearing() -> Document {
+pub(crate) fn bearing() -> Document {
     let mut document = Document::default();
     for (name, profile, color) in [
         ("housing", HOUSING, SLATE),

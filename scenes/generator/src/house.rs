@@ -1,9 +1,8 @@
-//! A small house, once solid and once as its edges (glTF LINES), both from the same list of
-//! corners.
+//! Small house, as a solid and as its edges (glTF LINES), both from one list of points.
 
-use super::document::{Document, PrimitiveMode};
-use super::mesh::Mesh;
-use super::palette::{BRICK, CREAM, INK, PAPER, SKY, SLATE, TEAL};
+use crate::document::{Document, PrimitiveMode};
+use crate::mesh::Mesh;
+use crate::palette::{BRICK, CREAM, INK, PAPER, SKY, SLATE, TEAL};
 use glam::{DVec3, dvec3};
 use serde_json::json;
 
@@ -17,7 +16,7 @@ const ROOF_THICKNESS: f64 = 0.18;
 const OVERHANG: f64 = 0.35;
 
 /// The solid house: walls, roof, chimney, door and windows.
-pub fn solid_house() -> Document {
+pub(crate) fn solid_house() -> Document {
     let mut document = Document::default();
     let plaster = document.add_material("plaster", CREAM);
     let tiles = document.add_material("roof tiles", BRICK);
@@ -26,10 +25,9 @@ pub fn solid_house() -> Document {
     let pane = document.add_material("window panes", SKY);
     let frame = document.add_material("window frames", PAPER);
 
-    let mut door =
-        Mesh::block_on(dvec3(0.7, 0.0, HALF_DEPTH), dvec3(0.9, 1.9, 0.12)).without_normals();
+    let mut door = Mesh::block_on(dvec3(0.7, 0.0, HALF_DEPTH), dvec3(0.9, 1.9, 0.12)).without_uvs();
     door.append(
-        &Mesh::block_on(dvec3(0.7, 0.0, HALF_DEPTH + 0.3), dvec3(1.3, 0.12, 0.6)).without_normals(),
+        &Mesh::block_on(dvec3(0.7, 0.0, HALF_DEPTH + 0.3), dvec3(1.3, 0.12, 0.6)).without_uvs(),
     );
     let (panes, frames) = window_meshes();
     let house = document.add_mesh(
@@ -69,7 +67,7 @@ fn wall_mesh() -> Mesh {
     mesh
 }
 
-/// Two slabs that lie on the gables and reach over the walls.
+/// Two slabs on the gables that overhang the walls.
 fn roof_mesh() -> Mesh {
     let slope = dvec3(HALF_WIDTH, EAVES - RIDGE, 0.0);
     let reach = slope * (1.0 + OVERHANG / slope.length());
@@ -102,7 +100,7 @@ fn add_prism(mesh: &mut Mesh, section: &[DVec3; 4], half: f64) {
 }
 
 fn chimney_mesh() -> Mesh {
-    Mesh::block_on(dvec3(-1.0, 3.0, -1.3), dvec3(0.55, 1.75, 0.55)).without_normals()
+    Mesh::block_on(dvec3(-1.0, 3.0, -1.3), dvec3(0.55, 1.75, 0.55)).without_uvs()
 }
 
 /// The panes of all windows and the frames about them.
@@ -113,9 +111,9 @@ fn window_meshes() -> (Mesh, Mesh) {
         let size = |wide: f64, high: f64, deep: f64| {
             if along_z { dvec3(deep, high, wide) } else { dvec3(wide, high, deep) }
         };
-        frames.append(&Mesh::block_on(at, size(1.0, 1.0, thin)).without_normals());
+        frames.append(&Mesh::block_on(at, size(1.0, 1.0, thin)).without_uvs());
         let raised = at + dvec3(0.0, 0.1, 0.0);
-        panes.append(&Mesh::block_on(raised, size(0.8, 0.8, thin + 0.05)).without_normals());
+        panes.append(&Mesh::block_on(raised, size(0.8, 0.8, thin + 0.05)).without_uvs());
     };
     window(dvec3(-0.8, 0.9, HALF_DEPTH), false);
     window(dvec3(0.0, 2.5, HALF_DEPTH), false);
@@ -126,8 +124,8 @@ fn window_meshes() -> (Mesh, Mesh) {
     (panes, frames)
 }
 
-/// The house as a draughtsman's line drawing: edges only, so that one sees through it.
-pub fn house_edges() -> Document {
+/// The edges of the house as segments, without faces to hide them.
+pub(crate) fn house_edges() -> Document {
     let mut drawing = Mesh::default();
     for z in [HALF_DEPTH, -HALF_DEPTH] {
         add_closed_line(&mut drawing, &gable_outline(z));
@@ -157,7 +155,7 @@ pub fn house_edges() -> Document {
     document
 }
 
-/// The chimney's uprights end where they meet the roof: at the height of its slope.
+/// The vertical edges of the chimney end at the height of the roof's slope.
 fn chimney_edges(drawing: &mut Mesh) {
     let (top, half) = (4.75, 0.275);
     let roof_at = |x: f64| RIDGE + (EAVES - RIDGE) * x.abs() / HALF_WIDTH;

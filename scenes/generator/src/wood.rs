@@ -1,12 +1,12 @@
-//! Pictures made by code: the planks of the crate and the leaves of the screen, as PNG bytes.
+//! Procedural textures as PNG: the planks of the crate and the perforated screen.
 
-use super::palette::{BARK, Color, SAGE, WOOD, mix_colors};
+use crate::palette::{BARK, Color, SAGE, WOOD, mix_colors};
 
-/// Width and height of the pictures, in texels.
+/// Width and height in texels.
 const TEXTURE_SIZE: u32 = 128;
 
 /// The side of a crate: five planks in a frame with a diagonal brace, nails at its corners. RGB.
-pub fn crate_side_png() -> Result<Vec<u8>, String> {
+pub(crate) fn crate_side_png() -> Result<Vec<u8>, String> {
     let mut texels = Vec::new();
     for y in 0..TEXTURE_SIZE {
         for x in 0..TEXTURE_SIZE {
@@ -18,7 +18,7 @@ pub fn crate_side_png() -> Result<Vec<u8>, String> {
     encode_png(&texels, png::ColorType::Rgb)
 }
 
-/// Colour of the crate's side at a texel.
+/// Color of the crate's side at a texel.
 fn plank_color(x: u32, y: u32) -> [f64; 3] {
     let (light, dark) = (WOOD.srgb(), BARK.srgb());
     if is_nail(x, y) {
@@ -46,15 +46,14 @@ fn is_nail(x: u32, y: u32) -> bool {
     near(x) && near(y)
 }
 
-/// Wood between `light` and `dark`: long streaks that differ from line to line, `shade` of the way
-/// to dark in the mean.
+/// Wood grain: streaks between `light` and `dark` that differ from line to line; `shade` is their
+/// mean.
 fn grain_color(light: [f64; 3], dark: [f64; 3], along: u32, across: u32, shade: f64) -> [f64; 3] {
     let streak = value_noise(across, along / 24) * 0.6 + value_noise(across, along / 7 + 99) * 0.4;
     mix_colors(light, dark, shade + (streak - 0.5) * 0.3)
 }
 
-/// A number from 0 to 1 that looks random and is always the same for the same place (an integer
-/// hash).
+/// Value noise in 0 to 1: an integer hash of the position.
 fn value_noise(x: u32, y: u32) -> f64 {
     let mut hash = x.wrapping_mul(0x9e37_79b1) ^ y.wrapping_mul(0x85eb_ca77);
     hash = (hash ^ (hash >> 15)).wrapping_mul(0x2c1b_3c6d);
@@ -62,9 +61,8 @@ fn value_noise(x: u32, y: u32) -> f64 {
     f64::from((hash ^ (hash >> 15)) & 0xffff) / 65535.0
 }
 
-/// A screen of round holes in a square lattice, for cut-out materials: alpha is 0 in the holes.
-/// RGBA.
-pub fn lattice_png() -> Result<Vec<u8>, String> {
+/// Round holes in a square lattice, RGBA, alpha 0 in the holes.
+pub(crate) fn lattice_png() -> Result<Vec<u8>, String> {
     let Color(r, g, b) = SAGE;
     let mut texels = Vec::new();
     for y in 0..TEXTURE_SIZE {

@@ -1,12 +1,12 @@
-//! A glTF 2.0 document while it is being made, and its `.glb` form.
+//! A glTF 2.0 document under construction, and its binary container.
 //!
-//! Every index that glTF asks for is a small type of its own here, so a mesh cannot be named where
-//! a node is due. The bytes depend on nothing but the model: keys are sorted, floats are written by
-//! their shortest decimal.
+//! Each kind of index is a type of its own, so that a mesh index cannot be used for a node. The
+//! bytes are a function of the model alone: JSON keys are sorted, floats are written by their
+//! shortest decimal.
 
-use super::mesh::Mesh;
-use super::palette::Color;
 use crate::glb::encode_glb;
+use crate::mesh::Mesh;
+use crate::palette::Color;
 use glam::DVec3;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
@@ -27,17 +27,24 @@ pub struct TextureId(usize);
 /// How the indices of a primitive are read (glTF 2.0, §3.7.2.1).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum PrimitiveMode {
+    /// A point per index.
     Points = 0,
+    /// A segment per pair.
     Lines = 1,
+    /// A closed polyline.
     LineLoop = 2,
+    /// An open polyline.
     LineStrip = 3,
+    /// A triangle per three.
     Triangles = 4,
+    /// Each index after the second makes a triangle with the two before it.
     TriangleStrip = 5,
+    /// Each index after the second makes a triangle with the one before it and the first.
     TriangleFan = 6,
 }
 
 /// A document under construction.
-#[derive(Default)]
+#[derive(Default, Debug)]
 pub struct Document {
     binary: Vec<u8>,
     buffer_views: Vec<Value>,
@@ -58,12 +65,12 @@ const UNSIGNED_INT: u32 = 5125;
 const FLOAT: u32 = 5126;
 
 impl Document {
-    /// A plain, rough material of one colour.
+    /// A rough dielectric of one color.
     pub fn add_material(&mut self, name: &str, color: Color) -> MaterialId {
         self.add_surface(name, json!({ "baseColorFactor": opaque_factor(color) }), json!({}))
     }
 
-    /// A plain material seen from both sides.
+    /// A rough dielectric of one color without back-face culling.
     pub fn add_double_sided(&mut self, name: &str, color: Color) -> MaterialId {
         self.add_surface(
             name,
@@ -72,7 +79,7 @@ impl Document {
         )
     }
 
-    /// A material that lets what is behind it through, by `alpha` (glTF's BLEND).
+    /// A transparent material: alpha mode BLEND, both faces drawn.
     pub fn add_glass(&mut self, name: &str, color: Color, alpha: f64) -> MaterialId {
         let [r, g, b] = color.linear();
         self.add_surface(
@@ -82,8 +89,8 @@ impl Document {
         )
     }
 
-    /// A material with a picture; `others` are further members of the material, such as its alpha
-    /// mode.
+    /// A material with a base color texture; `others` are further members of the material, such as
+    /// its alpha mode.
     pub fn add_textured(&mut self, name: &str, texture: TextureId, others: Value) -> MaterialId {
         self.add_surface(name, json!({ "baseColorTexture": { "index": texture.0 } }), others)
     }
@@ -97,14 +104,14 @@ impl Document {
         MaterialId(self.materials.len() - 1)
     }
 
-    /// A material as glTF has it, with all of its members but the name.
+    /// A material by its glTF members; only the name is added.
     pub fn add_finish(&mut self, name: &str, mut material: Value) -> MaterialId {
         material["name"] = json!(name);
         self.materials.push(material);
         MaterialId(self.materials.len() - 1)
     }
 
-    /// A PNG picture, smoothly filtered and repeated in both directions.
+    /// A texture from the bytes of a PNG, filtered trilinearly and repeated in both directions.
     pub fn add_texture(&mut self, name: &str, png: &[u8]) -> TextureId {
         let view = self.add_buffer_view(png, None);
         let image = push_index(
@@ -124,7 +131,7 @@ impl Document {
         self.add_mesh_of_modes(name, &parts)
     }
 
-    /// A mesh whose parts say how their indices are read.
+    /// A mesh whose parts have a primitive mode each.
     pub fn add_mesh_of_modes(
         &mut self,
         name: &str,
@@ -162,8 +169,8 @@ impl Document {
         primitive
     }
 
-    /// Positions are the one attribute that must come with its bounds (glTF 2.0, §3.7.2.1), as the
-    /// stored f32 have them.
+    /// Positions are the only attribute that must have bounds (glTF 2.0, §3.7.2.1): those of the
+    /// stored f32 values.
     fn add_positions(&mut self, positions: &[DVec3]) -> Value {
         let stored = positions.iter().map(|position| position.as_vec3().as_dvec3());
         let low = stored.clone().fold(DVec3::INFINITY, DVec3::min);
@@ -184,7 +191,7 @@ impl Document {
         }))
     }
 
-    /// Sixteen bits a channel: linear light in eight would show bands in the dark.
+    /// Vertex colors in 16 bits: linear light in 8 would show bands in the dark.
     fn add_colors(&mut self, colors: &[[f64; 3]]) -> Value {
         let channels = |color: &[f64; 3]| [color[0], color[1], color[2], 1.0];
         let bytes: Vec<u8> = colors
@@ -199,7 +206,7 @@ impl Document {
         }))
     }
 
-    /// Sixteen-bit indices where they suffice; 65535 itself is reserved.
+    /// 16-bit indices where they suffice; 65535 is the primitive restart value.
     fn add_indices(&mut self, mesh: &Mesh) -> Value {
         let short = mesh.positions.len() < 65535;
         let bytes: Vec<u8> = if short {
@@ -229,15 +236,14 @@ impl Document {
         push_index(&mut self.buffer_views, view)
     }
 
-    /// A node at the top of the scene. `members` are its transform and whatever else glTF gives to
-    /// a node.
+    /// A root node of the scene. `members` are its transform and other members of a glTF node.
     pub fn add_root(&mut self, name: &str, mesh: Option<MeshId>, members: Value) -> NodeId {
         let node = self.add_node(name, mesh, members);
         self.roots.push(node.0);
         node
     }
 
-    /// A node below another one.
+    /// A child of another node.
     pub fn add_child(
         &mut self,
         of: NodeId,
@@ -261,8 +267,8 @@ impl Document {
         NodeId(push_index(&mut self.nodes, members))
     }
 
-    /// A camera at the top of the scene, at `eye` and turned by the unit quaternion `rotation` (x,
-    /// y, z, w); it looks along its own −z. `lens` is the camera as glTF writes it.
+    /// A root node with a camera at `eye`, rotated by the unit quaternion `rotation` (x, y, z, w);
+    /// it looks along its own −z. `lens` is the glTF camera object.
     pub fn add_camera(
         &mut self,
         name: &str,
@@ -280,7 +286,7 @@ impl Document {
         )
     }
 
-    /// The whole document as the bytes of a `.glb` file (glTF 2.0, §4.4).
+    /// The bytes of a `.glb` file (glTF 2.0, §4.4).
     pub fn into_glb(self) -> Vec<u8> {
         encode_glb(self.to_json().to_string().as_bytes(), &self.binary)
     }
@@ -293,7 +299,7 @@ impl Document {
             "scenes": [{ "nodes": self.roots }],
             "buffers": [{ "byteLength": self.binary.len() }],
         });
-        // glTF wants a list left out rather than empty.
+        // Lists must not be empty in glTF: those without entries are left out.
         for (key, list) in [
             ("bufferViews", &self.buffer_views),
             ("accessors", &self.accessors),
@@ -315,7 +321,7 @@ impl Document {
             document["extensionsUsed"] = json!(names);
         }
         if !self.textures.is_empty() {
-            // Linear between texels and between the sizes of the picture; repeating.
+            // LINEAR, LINEAR_MIPMAP_LINEAR, REPEAT.
             document["samplers"] =
                 json!([{ "magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497 }]);
         }

@@ -1,43 +1,49 @@
-//! A mesh while it is being made: lists of attributes and of indices, and the shapes that models
-//! are put together from.
+//! Indexed triangle meshes under construction, and the shapes that models consist of: quads, boxes,
+//! surfaces of revolution, spheres.
 //!
-//! Triangles run counter-clockwise seen from outside. Shapes carry the exact normals of the surface
-//! they stand for, not those of their triangles; flat faces do not share corners, so their edges
-//! stay sharp.
+//! Triangles are counter-clockwise seen from outside. Shapes carry the exact normals of the smooth
+//! surface that they approximate, not those of their triangles; flat faces share no vertices, so
+//! that their edges stay sharp.
 
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Attributes by vertex and the indices that join them. `normals`, `uvs` and `colors` are empty or
-/// as long as `positions`.
+/// Attributes per vertex, and indices. `normals`, `uvs` and `colors` are either empty or as long as
+/// `positions`.
 #[derive(Clone, Default, Debug)]
 pub struct Mesh {
+    /// In meters, y up.
     pub positions: Vec<DVec3>,
+    /// Unit length.
     pub normals: Vec<DVec3>,
+    /// Texture coordinates, v down as in glTF.
     pub uvs: Vec<DVec2>,
     /// Linear light, 0 to 1.
     pub colors: Vec<[f64; 3]>,
+    /// Vertices of the triangles, or of whatever primitives the document makes of the mesh.
     pub indices: Vec<u32>,
 }
 
-/// A point of the outline that [`Mesh::lathe`] turns about the y axis.
+/// A point of the outline that [`Mesh::lathe`] sweeps about the y axis.
 #[derive(Clone, Copy, Debug)]
 pub struct OutlinePoint {
+    /// Distance from the axis.
     pub radius: f64,
+    /// Position along the axis.
     pub height: f64,
     /// Outward normal in the plane of radius and height.
     pub normal: DVec2,
 }
 
 impl Mesh {
-    /// Adds a vertex with its normal and gives its index.
+    /// Adds a vertex and returns its index.
     pub fn add_vertex(&mut self, position: DVec3, normal: DVec3) -> u32 {
         self.positions.push(position);
         self.normals.push(normal);
         self.positions.len() as u32 - 1
     }
 
-    /// Joins three vertices, unless two of them are the same place: then there is no face.
+    /// Adds a triangle, unless it is degenerate: at a pole of a sphere two vertices coincide.
     pub fn add_triangle(&mut self, corners: [u32; 3]) {
         let [a, b, c] = corners.map(|index| self.positions[index as usize]);
         if (b - a).cross(c - a).length() > 1e-12 {
@@ -45,9 +51,10 @@ impl Mesh {
         }
     }
 
-    /// Joins the vertices of a grid of `columns` by `rows`, stored row by row from index `first`.
+    /// Adds the two triangles of each cell of a grid of `columns` by `rows` vertices, stored row by
+    /// row from index `first`.
     ///
-    /// Outside is where going along a row and then to the next row turns counter-clockwise.
+    /// The front is the side from which rows run to the right and follow each other upwards.
     pub fn add_grid_triangles(&mut self, first: u32, columns: u32, rows: u32) {
         for row in 0..rows - 1 {
             for column in 0..columns - 1 {
@@ -132,7 +139,7 @@ impl Mesh {
         mesh
     }
 
-    /// A ball about the origin.
+    /// A sphere about the origin: `segments` around the axis, half as many from pole to pole.
     #[must_use]
     pub fn sphere(radius: f64, segments: u32) -> Self {
         let rings = segments / 2;
@@ -140,7 +147,7 @@ impl Mesh {
             .map(|ring| {
                 let latitude = FRAC_PI_2 * (2.0 * f64::from(ring) / f64::from(rings) - 1.0);
                 let (sine, cosine) = libm::sincos(latitude);
-                // The poles exactly on the axis, so that their empty triangles are recognised.
+                // Exactly on the axis, so that degenerate triangles at the poles are recognized.
                 let cosine = if ring == 0 || ring == rings { 0.0 } else { cosine };
                 OutlinePoint {
                     radius: radius * cosine,
@@ -161,7 +168,7 @@ impl Mesh {
         )
     }
 
-    /// Adds all of another mesh that has the same attributes.
+    /// Appends another mesh, which must have the same attributes.
     pub fn append(&mut self, other: &Self) {
         let first = self.positions.len() as u32;
         self.positions.extend(&other.positions);
@@ -171,7 +178,7 @@ impl Mesh {
         self.indices.extend(other.indices.iter().map(|index| first + index));
     }
 
-    /// The mesh moved by `by`.
+    /// The mesh translated by `by`.
     #[must_use]
     pub fn translated(mut self, by: DVec3) -> Self {
         for position in &mut self.positions {
@@ -180,9 +187,9 @@ impl Mesh {
         self
     }
 
-    /// The mesh without texture coordinates, for plain materials.
+    /// The mesh without texture coordinates, for materials without textures.
     #[must_use]
-    pub fn without_normals(mut self) -> Self {
+    pub fn without_uvs(mut self) -> Self {
         self.uvs.clear();
         self
     }

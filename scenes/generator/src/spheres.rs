@@ -1,11 +1,11 @@
-//! Seven equal balls in a row, one mesh used by seven nodes.
+//! Seven equal spheres in a row: one mesh, seven nodes.
 
-use super::document::Document;
-use super::mesh::Mesh;
-use super::palette::{CLAY, OCHRE};
+use crate::document::Document;
+use crate::mesh::Mesh;
+use crate::palette::{CLAY, OCHRE};
 use serde_json::json;
 
-pub fn spheres() -> Document {
+pub(crate) fn spheres() -> Document {
     let mut document = Document::default();
     let middle = document.add_material("middle ball", CLAY);
     let outer = document.add_material("outer balls", OCHRE);

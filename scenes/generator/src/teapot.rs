@@ -1,20 +1,20 @@
-//! The teapot: the published patches, tessellated, glazed and set upright for glTF.
+//! The Utah teapot, tessellated from its published patches, y up.
 
-use super::bezier;
-use super::document::Document;
-use super::mesh::{Mesh, OutlinePoint};
-use super::palette::{BARK, CREAM, SAND, TEAL, mix_colors};
-use super::teapot_patches::{Part, teapot_parts};
+use crate::bezier;
+use crate::document::Document;
+use crate::mesh::{Mesh, OutlinePoint};
+use crate::palette::{BARK, CREAM, SAND, TEAL, mix_colors};
+use crate::teapot_patches::{Part, teapot_parts};
 use glam::{DVec3, dvec2, dvec3};
 use serde_json::json;
 
-/// Steps along each side of a patch: forty about the pot, so that its outline looks round.
+/// Steps along each side of a patch: forty around the pot.
 const PATCH_STEPS: u32 = 10;
 
-pub fn teapot() -> Document {
+pub(crate) fn teapot() -> Document {
     let mut document = Document::default();
-    // Through the gap about the lid, which is the original's, and through the spout one sees the
-    // inside.
+    // The inside is visible through the spout and through the gap around the lid, which the
+    // original has as well.
     let glaze = document.add_double_sided("glaze", TEAL);
     let root = document.add_root("teapot", None, json!({}));
     for part in teapot_parts() {
@@ -24,7 +24,7 @@ pub fn teapot() -> Document {
     document
 }
 
-/// The patches of a part as one mesh, turned from z up to glTF's y up.
+/// The patches of a part as one mesh, rotated from z up to glTF's y up.
 fn tessellate_part(part: &Part) -> Mesh {
     let mut mesh = Mesh::default();
     for patch in &part.patches {
@@ -40,11 +40,10 @@ fn tessellate_part(part: &Part) -> Mesh {
 const TABLE_RADIUS: f64 = 4.2;
 const TABLE_RIM: f64 = 4.05;
 
-/// A round table top with a soft dark patch in the middle, where a pot of radius 1.5 stands:
-/// painted contact shadow.
-pub fn table_document() -> Document {
+/// A round table top with a contact shadow of a pot of radius 1.5 in its vertex colors.
+pub(crate) fn table_document() -> Document {
     let mut document = Document::default();
-    let cloth = document.add_material("table top", super::palette::Color(255, 255, 255));
+    let cloth = document.add_material("table top", crate::palette::Color(255, 255, 255));
     let mesh = document.add_mesh("table top", &[(&table_top(), cloth)]);
     document.add_root("table top", Some(mesh), json!({}));
     document

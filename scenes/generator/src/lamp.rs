@@ -1,20 +1,20 @@
-//! A desk lamp of nested nodes: base, two arms, head. Turning a joint turns everything after it.
+//! A desk lamp of nested nodes: base, two arms, head. Rotating a joint moves all nodes below it.
 //!
 //! ```text
 //!  base ─► lower arm ─► upper arm ─► head (a matrix) ─► bulb
 //! ```
 //! Each arm is drawn along its own y axis and ends where the next joint's node begins.
 
-use super::document::{Document, rotation_quaternion};
-use super::mesh::{Mesh, sharp_outline};
-use super::palette::{BRICK, CREAM, INK, OCHRE};
+use crate::document::{Document, rotation_quaternion};
+use crate::mesh::{Mesh, sharp_outline};
+use crate::palette::{BRICK, CREAM, INK, OCHRE};
 use glam::DVec3;
 use serde_json::{Value, json};
 
 const LOWER_ARM: f64 = 1.5;
 const UPPER_ARM: f64 = 1.3;
 
-pub fn lamp() -> Document {
+pub(crate) fn lamp() -> Document {
     let mut document = Document::default();
     let enamel = document.add_double_sided("enamel", BRICK);
     let steel = document.add_material("steel", INK);
@@ -49,13 +49,13 @@ pub fn lamp() -> Document {
     document
 }
 
-/// A joint: up along the part before, then turned.
+/// A joint: translated along the previous part, then rotated.
 fn joint_node(at: f64, axis: DVec3, degrees: f64) -> Value {
     json!({ "translation": [0.0, at, 0.0], "rotation": rotation_quaternion(axis, degrees) })
 }
 
-/// The head's place written as a matrix, column by column: turned by −78° about z, at the end of
-/// the upper arm, and a tenth longer than it is wide.
+/// The head's transform as a column-major matrix: −78° about z at the end of the upper arm, scaled
+/// by 1.1 along its axis.
 fn head_matrix() -> Value {
     let (sine, cosine) = libm::sincos((-78.0_f64).to_radians());
     let length = 1.1;

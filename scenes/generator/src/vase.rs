@@ -1,13 +1,12 @@
-//! A vase on a plinth, turned on a lathe, for the lights to play on.
+//! Vase on a plinth: a surface of revolution for light and shadow.
 
-use super::document::Document;
-use super::mesh::{Mesh, OutlinePoint, sharp_outline};
-use super::palette::{PAPER, SAND, SLATE};
+use crate::document::Document;
+use crate::mesh::{Mesh, OutlinePoint, sharp_outline};
+use crate::palette::{PAPER, SAND, SLATE};
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use serde_json::json;
 
-/// The vase's outline from foot to lip: radius and height. A smooth curve is laid through these
-/// points.
+/// Radius and height from foot to lip, interpolated by a smooth curve.
 const OUTLINE: [DVec2; 9] = [
     dvec2(0.30, 0.00),
     dvec2(0.33, 0.10),
@@ -20,10 +19,10 @@ const OUTLINE: [DVec2; 9] = [
     dvec2(0.36, 1.98),
 ];
 
-/// Steps of the curve between two points of the outline.
+/// Segments of the curve between two points of the outline.
 const CURVE_STEPS: u32 = 5;
 
-pub fn vase() -> Document {
+pub(crate) fn vase() -> Document {
     let mut document = Document::default();
     let glaze = document.add_double_sided("white glaze", PAPER);
     let stone = document.add_material("stone", SAND);
@@ -32,9 +31,9 @@ pub fn vase() -> Document {
     let vase = document.add_mesh("vase", &[(&Mesh::lathe(&outline_curve(), 48), glaze)]);
     document.add_root("vase", Some(vase), json!({ "translation": [0.0, 1.2, 0.0] }));
 
-    let mut plinth = Mesh::block_on(DVec3::ZERO, dvec3(1.5, 0.18, 1.5)).without_normals();
-    plinth.append(&Mesh::block_on(dvec3(0.0, 0.18, 0.0), dvec3(1.2, 0.87, 1.2)).without_normals());
-    plinth.append(&Mesh::block_on(dvec3(0.0, 1.05, 0.0), dvec3(1.4, 0.15, 1.4)).without_normals());
+    let mut plinth = Mesh::block_on(DVec3::ZERO, dvec3(1.5, 0.18, 1.5)).without_uvs();
+    plinth.append(&Mesh::block_on(dvec3(0.0, 0.18, 0.0), dvec3(1.2, 0.87, 1.2)).without_uvs());
+    plinth.append(&Mesh::block_on(dvec3(0.0, 1.05, 0.0), dvec3(1.4, 0.15, 1.4)).without_uvs());
     let plinth = document.add_mesh("plinth", &[(&plinth, stone)]);
     document.add_root("plinth", Some(plinth), json!({}));
 
@@ -59,8 +58,8 @@ fn outline_curve() -> Vec<OutlinePoint> {
     turned
 }
 
-/// The point `t` of the way from the second of four points to the third, and the normal to the
-/// right of the way.
+/// The point at `t` between the second and the third of four points, and the normal to the right of
+/// the curve's direction.
 fn curve_point([a, b, c, d]: [DVec2; 4], t: f64) -> OutlinePoint {
     let (p, q, r) = (c - a, a * 2.0 - b * 5.0 + c * 4.0 - d, b * 3.0 - a - c * 3.0 + d);
     let place = b + (p * t + q * (t * t) + r * (t * t * t)) * 0.5;

@@ -1,22 +1,21 @@
-//! A long floor of square tiles in two colours, with rows of posts, that goes on behind a camera at
-//! the origin.
+//! Checkered floor with rows of posts that extends behind a camera at the origin.
 //!
-//! Every tile is a face of its own: those under the camera straddle its plane, which is where a
-//! renderer that divides before it clips tears them.
+//! Every tile is a face of its own. Those below the camera cross the plane w = 0, where a renderer
+//! that divides before it clips shows wrap-around.
 
-use super::document::Document;
-use super::mesh::Mesh;
-use super::palette::{BRICK, CREAM, SAND, SLATE};
+use crate::document::Document;
+use crate::mesh::Mesh;
+use crate::palette::{BRICK, CREAM, SAND, SLATE};
 use glam::{DVec3, dvec3};
 use serde_json::json;
 
-/// Half the number of tiles across; tiles are one metre.
+/// Half the number of tiles across; a tile is one meter.
 const HALF_WIDTH: i32 = 4;
 /// The tiles from behind the camera to the far end.
 const FROM_Z: i32 = -72;
 const TO_Z: i32 = 24;
 
-pub fn floor() -> Document {
+pub(crate) fn floor() -> Document {
     let mut document = Document::default();
     let light = document.add_material("light tiles", CREAM);
     let dark = document.add_material("dark tiles", SLATE);
@@ -42,7 +41,7 @@ pub fn floor() -> Document {
     document
 }
 
-/// The tiles of one colour, on one grid of shared corners.
+/// The tiles of one color, on a grid of shared vertices.
 fn floor_tiles(odd: i32) -> Mesh {
     let mut mesh = Mesh::default();
     let across = 2 * HALF_WIDTH + 1;
@@ -63,8 +62,8 @@ fn floor_tiles(odd: i32) -> Mesh {
 }
 
 fn floor_post() -> Mesh {
-    let mut post = Mesh::block_on(DVec3::ZERO, dvec3(0.5, 0.2, 0.5)).without_normals();
-    post.append(&Mesh::block_on(dvec3(0.0, 0.2, 0.0), dvec3(0.32, 1.9, 0.32)).without_normals());
-    post.append(&Mesh::block_on(dvec3(0.0, 2.1, 0.0), dvec3(0.5, 0.12, 0.5)).without_normals());
+    let mut post = Mesh::block_on(DVec3::ZERO, dvec3(0.5, 0.2, 0.5)).without_uvs();
+    post.append(&Mesh::block_on(dvec3(0.0, 0.2, 0.0), dvec3(0.32, 1.9, 0.32)).without_uvs());
+    post.append(&Mesh::block_on(dvec3(0.0, 2.1, 0.0), dvec3(0.5, 0.12, 0.5)).without_uvs());
     post
 }
