@@ -1,7 +1,8 @@
 //! The JSON reports of `alberti check` and `alberti scene check`.
 
 use super::CheckResult;
-use model::import::{CheckReport, Diagnostic};
+use model::Diagnostic;
+use model::import::CheckReport;
 use pipeline::SceneError;
 use pipeline::scene::Lint;
 use serde_json::{Value, json};

@@ -1,9 +1,9 @@
-//! How the elements of an accessor lie in memory (glTF 2.0 §3.6.2).
+//! The memory layout of accessor elements (glTF 2.0 §3.6.2).
 
 use super::document::{index_member, integer_member, string_member};
 use serde_json::Value;
 
-/// What an accessor says of its elements, as far as it makes sense.
+/// The layout that an accessor declares.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct AccessorLayout {
     pub(super) component_type: ComponentType,
@@ -14,7 +14,7 @@ pub(super) struct AccessorLayout {
     pub(super) buffer_view: Option<usize>,
 }
 
-/// The type of a number.
+/// The type of a component (glTF 2.0 §3.6.2.2).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum ComponentType {
     I8,
@@ -25,7 +25,7 @@ pub(super) enum ComponentType {
     F32,
 }
 
-/// How many numbers an element has: rows and columns.
+/// The type of an element, as its number of rows and columns; vectors have one column.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct ElementType {
     pub(super) rows: usize,
@@ -39,7 +39,7 @@ pub(super) const VEC4: ElementType = ElementType { rows: 4, columns: 1 };
 pub(super) const MAT4: ElementType = ElementType { rows: 4, columns: 4 };
 
 impl ComponentType {
-    /// The type with this number in OpenGL.
+    /// The type of an OpenGL constant, such as 5126 for `FLOAT`.
     pub(super) fn from_gl_constant(number: u64) -> Option<Self> {
         Some(match number {
             5120 => Self::I8,
@@ -60,7 +60,7 @@ impl ComponentType {
         }
     }
 
-    /// The largest number of the type: among indices it would restart a strip.
+    /// The maximum of the type. As an index it is the primitive restart value.
     pub(super) fn max_value(self) -> f64 {
         match self {
             Self::I8 => f64::from(i8::MAX),
@@ -72,7 +72,7 @@ impl ComponentType {
         }
     }
 
-    /// The number at the beginning of some bytes; 0 if they are too few, which the caller has excluded.
+    /// Reads the component at the start of some bytes; 0 if they are too few, which callers exclude.
     pub(super) fn read_number(self, bytes: &[u8]) -> f64 {
         let one = || bytes.first().copied().unwrap_or(0);
         let two = || bytes.first_chunk().copied().unwrap_or_default();
@@ -113,7 +113,7 @@ impl ElementType {
         })
     }
 
-    /// How many numbers an element has.
+    /// The number of components of an element.
     pub(super) fn component_count(self) -> usize {
         self.rows * self.columns
     }
@@ -136,7 +136,7 @@ impl ElementType {
 }
 
 impl AccessorLayout {
-    /// What an accessor says, if its type, its component type and its count can be read.
+    /// The layout of an accessor, if its type, component type and count are valid.
     pub(super) fn from_accessor(accessor: &Value) -> Option<Self> {
         Some(Self {
             component_type: ComponentType::from_gl_constant(integer_member(
@@ -154,24 +154,24 @@ impl AccessorLayout {
         })
     }
 
-    /// From one column to the next: columns of matrices begin at multiples of four.
+    /// The bytes from one column to the next: columns of matrices are aligned to four (§3.6.2.4).
     pub(super) fn column_stride(&self) -> usize {
         let column = self.element_type.rows * self.component_type.byte_size();
         if self.element_type.is_matrix() { column.next_multiple_of(4) } else { column }
     }
 
-    /// The bytes of an element, up to the end of its last number.
+    /// The bytes of an element, up to the end of its last component.
     pub(super) fn element_size(&self) -> usize {
         (self.element_type.columns - 1) * self.column_stride()
             + self.element_type.rows * self.component_type.byte_size()
     }
 
-    /// From one element to the next where the buffer view does not say.
+    /// The bytes from one element to the next if the buffer view has no `byteStride`.
     pub(super) fn packed_stride(&self) -> usize {
         self.element_type.columns * self.column_stride()
     }
 
-    /// The bytes of all elements.
+    /// The bytes of all elements at this stride, up to the end of the last component.
     pub(super) fn byte_length(&self, stride: usize) -> u64 {
         if self.count == 0 {
             return 0;
@@ -180,7 +180,7 @@ impl AccessorLayout {
         gaps.saturating_add(self.element_size() as u64)
     }
 
-    /// The format in words, such as `VEC3 of FLOAT`.
+    /// The format as messages name it, such as `VEC3 of FLOAT`.
     pub(super) fn format_name(&self) -> String {
         let normalized = if self.normalized { "normalized " } else { "" };
         format!("{} of {normalized}{}", self.element_type.name(), self.component_type.name())

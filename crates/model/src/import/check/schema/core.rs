@@ -1,4 +1,4 @@
-//! The objects of glTF 2.0 itself (§5, in the order of their names there).
+//! The objects of core glTF 2.0 (§5, in the order of the specification).
 
 use super::Collection::{
     Accessors, AnimationSamplers, BufferViews, Buffers, Cameras, Images, Materials, Meshes, Nodes,
@@ -59,7 +59,7 @@ static ACCESSOR: ObjectSchema = object_schema(
         optional("normalized", Boolean),
         required("count", Integer(1, MAX_INTEGER)),
         required("type", EnumString(&["SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"])),
-        // How many there must be depends on the type: see the check of accessors.
+        // Their number depends on the type, which is validated with the accessors.
         optional("max", Numbers(0, ANY)),
         optional("min", Numbers(0, ANY)),
         optional("sparse", object_kind(&SPARSE)),
@@ -151,7 +151,7 @@ static BUFFER_VIEW: ObjectSchema = object_schema(
 static CAMERA: ObjectSchema = object_schema(
     "camera",
     &[
-        // The one that the type names must be there: see the check of cameras.
+        // The one that the type names is required, which is validated with the cameras.
         excludes("orthographic", "perspective", object_kind(&ORTHOGRAPHIC)),
         optional("perspective", object_kind(&PERSPECTIVE)),
         required("type", EnumString(&["perspective", "orthographic"])),
@@ -298,5 +298,5 @@ static TEXTURE: ObjectSchema = object_schema(
     &[optional("sampler", Index(Samplers)), optional("source", Index(Images)), NAME],
 );
 
-/// What is not described further.
+/// An object whose members are not validated.
 pub(super) const UNKNOWN: super::ValueKind = Any;

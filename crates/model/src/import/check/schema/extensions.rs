@@ -1,7 +1,7 @@
-//! The objects of extensions, each with the object it may be in.
+//! The objects of extensions, each with the core object that may contain it.
 //!
-//! What is here is checked; other extensions may say what they like. An extension that has no object in the file at all,
-//! such as KHR_mesh_quantization, has none here either and may be in nothing.
+//! Other extensions are not validated. An extension without any object, such as
+//! KHR_mesh_quantization, has the parent "nothing": it is known, but may not appear anywhere.
 
 use super::Collection::{Accessors, BufferViews, Buffers, Images, Lights, Materials, Variants};
 use super::ValueKind::{
@@ -16,7 +16,7 @@ const ABOVE_ONE: NumberRange = NumberRange { min: 1.0, ..ANY };
 const QUARTER_TURN: NumberRange =
     NumberRange { min: 0.0, max: std::f64::consts::FRAC_PI_2, exclusive_min: false };
 
-/// An extension's object: the extension's name, the object it is in, and its members.
+/// The object of an extension: the extension's name, its parent object, and its members.
 pub(in super::super) struct ExtensionObject {
     pub(in super::super) name: &'static str,
     pub(in super::super) parent: &'static str,
@@ -143,7 +143,8 @@ extension_objects! {
     MSFT_texture_dds in "texture": [required("source", Index(Images))];
 }
 
-/// An index of refraction is 0, for "as for metals", or at least 1; what is between is found with the materials.
+/// The index of refraction is 0, for metals, or at least 1; values between are rejected with the
+/// materials.
 const IOR: NumberRange = NOT_NEGATIVE;
 
 static LIGHT: ObjectSchema = ObjectSchema {
