@@ -1,18 +1,22 @@
-//! Dashes that begin and end with a dash.
+//! Dash fitting: patterns scaled so that a line begins and ends with a dash.
 //!
 //! ```text
-//!   as it comes  ━━━━  ━━━━  ━━━━  ━━━━  ━        fitted  ━━━━  ━━━━  ━━━━  ━━━━
+//!   unfitted  ━━━━  ━━━━  ━━━━  ━━━━  ━        fitted  ━━━━  ━━━━  ━━━━  ━━━━
 //! ```
-//! A hidden edge should meet what it ends at with a dash, not with a gap (ISO 128-2). So the whole pattern is stretched or shrunk a
-//! little to fit a whole number of periods and one dash more into each line; a line round about gets a whole number of periods.
+//!
+//! A hidden edge should meet its ends with dashes, not with gaps (ISO 128-2). The pattern is
+//! stretched or shrunk a little so that a whole number n of periods and one more dash fit: scale =
+//! length / (n · period + dash). On a closed line n whole periods fit.
 
 use super::page::{Pen, Polyline};
 
-/// A line shorter than this many patterns of two dashes is drawn without a gap; so a pattern shrinks to no less.
+/// The least scale of a pattern: a line shorter than this many patterns of two dashes is drawn
+/// without gaps.
 const MIN_PATTERN_SCALE: f64 = 0.6;
 
 impl Pen {
-    /// The dashes and gaps in millimetres with which a line is drawn; none for a line without gaps.
+    /// The lengths of dashes and gaps in millimeters with which this pen draws a line; empty for a
+    /// line without gaps.
     #[must_use]
     pub fn fitted_dashes(&self, line: &Polyline) -> Vec<f64> {
         let Some(&dash) = self.dashes.first() else { return Vec::new() };

@@ -1,6 +1,14 @@
-//! Chains: pieces that share their ends become polylines, so that corners are joined, dashes go on around them, and files are small.
+//! Polyline chaining: segments with common ends become polylines.
 //!
-//! Ends are the same if they are the same place of the page's grid. Where more than two pieces meet, the straightest way is taken.
+//! Corners are joined, dashes continue around them, and files are smaller. Ends are equal if they
+//! are the same point of the page's micrometer grid. At a junction of more than two segments a
+//! chain continues in the straightest direction.
+//!
+//! ```text
+//!             │                     │
+//!    ─────────●─────────    ─►   ═══╪═══   two chains cross: each is continued straight ahead
+//!             │                     │
+//! ```
 
 use super::overlap_removal::PageSegment;
 use super::page::{PagePoint, Polyline, to_micrometers};
@@ -13,19 +21,20 @@ pub(super) struct PolylineChain {
     pub(super) polyline: Polyline,
 }
 
-/// At a place where more than two pieces meet, a turn with a smaller cosine ends the chain: 60°.
+/// At a junction of more than two segments, a turn with a smaller cosine ends the chain: 60°.
 const MIN_TURN_COSINE: f64 = 0.5;
 
-/// How far, in micrometres, a point may be beside the line of its neighbours and be left out.
+/// A point no farther, in micrometers, from the line of its neighbors is removed.
 const COLLINEAR_TOLERANCE: f64 = 1.0;
 
-/// The most points in a row that are left out; more of them take too long to look at again and again.
+/// The most consecutive points that are removed; each is tested again for every further one, so the
+/// time grows with the square.
 const MAX_DROPPED_RUN: usize = 64;
 
-/// Chains the pieces: by layer, by object, and in the order of their first pieces.
-pub(super) fn join_into_chains(pieces: &[PageSegment]) -> Vec<PolylineChain> {
-    let mut order: Vec<&PageSegment> = pieces.iter().collect();
-    order.sort_by_key(|piece| (piece.layer, piece.object));
+/// Joins segments into chains: by layer, by object, and in the order of their first segments.
+pub(super) fn join_into_chains(segments: &[PageSegment]) -> Vec<PolylineChain> {
+    let mut order: Vec<&PageSegment> = segments.iter().collect();
+    order.sort_by_key(|segment| (segment.layer, segment.object));
     let alike = order.chunk_by(|a, b| (a.layer, a.object) == (b.layer, b.object));
     alike
         .flat_map(|group| {
@@ -36,19 +45,22 @@ pub(super) fn join_into_chains(pieces: &[PageSegment]) -> Vec<PolylineChain> {
         .collect()
 }
 
-/// The pieces of one layer and object on the grid, and which of them meet where.
+/// The segments of one layer and object on the grid, with their incidence at each point.
 struct SegmentGraph {
-    /// The two ends of each piece.
+    /// The two ends of each segment.
     segments: Vec<[PagePoint; 2]>,
-    /// Every end: its place, its piece, and which end of it. Sorted, so that those of one place are neighbours.
+    /// Each end as its point, its segment and which end it is; sorted, so that ends at one point
+    /// are neighbors.
     ends: Vec<(PagePoint, u32, u8)>,
+    /// Whether a segment is in a chain already.
     is_used: Vec<bool>,
 }
 
 impl SegmentGraph {
-    fn new(pieces: &[&PageSegment]) -> Self {
-        let on_grid = |piece: &&PageSegment| piece.ends.map(to_micrometers);
-        let sides: Vec<_> = pieces.iter().map(on_grid).filter(|[a, b]| a != b).collect();
+    /// Snaps segments to the grid, and drops those without length and duplicates.
+    fn new(segments: &[&PageSegment]) -> Self {
+        let on_grid = |segment: &&PageSegment| segment.ends.map(to_micrometers);
+        let sides: Vec<_> = segments.iter().map(on_grid).filter(|[a, b]| a != b).collect();
         let segments = drop_duplicate_segments(&sides);
         let mut ends: Vec<_> = (0_u32..)
             .zip(&segments)
@@ -59,6 +71,8 @@ impl SegmentGraph {
         Self { segments: segments, ends, is_used }
     }
 
+    /// Covers the graph with polylines: each unused segment is extended forward, then backward
+    /// unless it closed.
     fn into_polylines(mut self) -> Vec<Polyline> {
         let mut lines = Vec::new();
         for side in 0..self.segments.len() {
@@ -81,7 +95,7 @@ impl SegmentGraph {
         lines
     }
 
-    /// Goes on from the last point as far as there is a way.
+    /// Extends a chain from its last point until no segment continues it or it closes.
     fn extend_chain(&mut self, points: &mut Vec<PagePoint>) {
         while let Some((side, next)) =
             self.next_segment(points[points.len() - 2], points[points.len() - 1])
@@ -94,10 +108,14 @@ impl SegmentGraph {
         }
     }
 
-    /// The piece that goes on from `here`, where one comes from `before`, and where it leads.
+    /// The unused segment that continues a chain from `before` through `here` best, and its far
+    /// end.
+    ///
+    /// Where only two segments meet the other one is taken whatever the angle; at junctions only
+    /// one that turns by less than 60°.
     fn next_segment(&self, before: PagePoint, here: PagePoint) -> Option<(usize, PagePoint)> {
-        let first = self.ends.partition_point(|(place, ..)| *place < here);
-        let incident = self.ends[first..].iter().take_while(|(place, ..)| *place == here);
+        let first = self.ends.partition_point(|(point, ..)| *point < here);
+        let incident = self.ends[first..].iter().take_while(|(point, ..)| *point == here);
         let is_crossing = incident.clone().nth(2).is_some();
         let mut best: Option<(f64, usize, PagePoint)> = None;
         for &(_, side, end) in incident {
@@ -112,7 +130,7 @@ impl SegmentGraph {
     }
 }
 
-/// The sides without those that are there before, in either direction.
+/// The segments without later duplicates, in either direction, in their order.
 fn drop_duplicate_segments(sides: &[[PagePoint; 2]]) -> Vec<[PagePoint; 2]> {
     let sorted = |side: &[PagePoint; 2]| [side[0].min(side[1]), side[0].max(side[1])];
     let mut order: Vec<u32> = (0..sides.len() as u32).collect();
@@ -122,18 +140,22 @@ fn drop_duplicate_segments(sides: &[[PagePoint; 2]]) -> Vec<[PagePoint; 2]> {
     order.into_iter().map(|at| sides[at as usize]).collect()
 }
 
+/// The vector from one grid point to another, in micrometers.
 fn grid_offset([x0, y0]: PagePoint, [x1, y1]: PagePoint) -> [f64; 2] {
     [f64::from(x1) - f64::from(x0), f64::from(y1) - f64::from(y0)]
 }
 
-/// The cosine of the turn at `b` on the way from `a` to `c`.
+/// The cosine of the angle by which a path from `a` to `c` turns at `b`.
 fn turn_cosine(a: PagePoint, b: PagePoint, c: PagePoint) -> f64 {
     let ([x0, y0], [x1, y1]) = (grid_offset(a, b), grid_offset(b, c));
     let squares = (x0 * x0 + y0 * y0) * (x1 * x1 + y1 * y1);
     (x0 * x1 + y0 * y1) / libm::sqrt(squares)
 }
 
-/// The points without those that lie on the straight line between points that stay.
+/// Removes points that lie on the segment between the points around them.
+///
+/// Each removed point must lie within [`COLLINEAR_TOLERANCE`] of the *final* segment, so the error
+/// does not accumulate along a curve of many small steps.
 fn remove_collinear(points: Vec<PagePoint>, closed: bool) -> Vec<PagePoint> {
     let mut retained = vec![points[0]];
     let mut dropped: Vec<PagePoint> = Vec::new();
@@ -157,7 +179,7 @@ fn remove_collinear(points: Vec<PagePoint>, closed: bool) -> Vec<PagePoint> {
     if retained.len() < 2 { points } else { retained }
 }
 
-/// Whether a point lies on the segment from `from` to `to`, but for less than a step of the grid.
+/// Whether a point lies on the segment from `from` to `to`, up to the tolerance.
 fn lies_on_segment(from: PagePoint, point: PagePoint, to: PagePoint) -> bool {
     let ([dx, dy], [px, py]) = (grid_offset(from, to), grid_offset(from, point));
     let square = dx * dx + dy * dy;
@@ -171,19 +193,19 @@ mod tests {
     use super::*;
     use glam::DVec2;
 
-    /// The chains of segments given in millimetres, all of one layer and object.
+    /// The chains of segments given in millimeters, all of one layer and object.
     fn chains_in_millimeters(segments: &[[f64; 4]]) -> Vec<(Vec<[i32; 2]>, bool)> {
-        let piece = |&[x0, y0, x1, y1]: &[f64; 4]| PageSegment {
+        let segment = |&[x0, y0, x1, y1]: &[f64; 4]| PageSegment {
             ends: [DVec2::new(x0, y0), DVec2::new(x1, y1)],
             layer: 0,
             object: 0,
         };
-        let pieces: Vec<PageSegment> = segments.iter().map(piece).collect();
-        let in_millimetres =
+        let segments: Vec<PageSegment> = segments.iter().map(segment).collect();
+        let in_millimeters =
             |line: Polyline| line.points.iter().map(|p| p.map(|c| c / 1000)).collect();
-        join_into_chains(&pieces)
+        join_into_chains(&segments)
             .into_iter()
-            .map(|chain| (in_millimetres(chain.polyline.clone()), chain.polyline.closed))
+            .map(|chain| (in_millimeters(chain.polyline.clone()), chain.polyline.closed))
             .collect()
     }
 
@@ -242,7 +264,7 @@ mod tests {
             [x0, y0, x1, y1]
         };
         let sides: Vec<[f64; 4]> = (0..1000).map(side).collect();
-        let pieces: Vec<PageSegment> = sides
+        let segments: Vec<PageSegment> = sides
             .iter()
             .map(|s| PageSegment {
                 ends: [DVec2::new(s[0], s[1]), DVec2::new(s[2], s[3])],
@@ -250,7 +272,7 @@ mod tests {
                 object: 7,
             })
             .collect();
-        let chains = join_into_chains(&pieces);
+        let chains = join_into_chains(&segments);
         assert_eq!(chains.len(), 1);
         let Polyline { points, closed } = &chains[0].polyline;
         assert!(*closed && points.len() > 400 && points.len() <= 1000, "{}", points.len());

@@ -1,6 +1,7 @@
-//! The view volume of another camera, with its eye: the frustum of the lessons (C61 to C64).
+//! View volume overlay: the frustum of another camera, with its eye (C61 to C64).
 
-use super::{BLUE, LETTER_HEIGHT, PicturePlane, overlay_layer};
+use super::{LETTER_HEIGHT, PicturePlane, overlay_layer};
+use crate::palette::BLUE;
 use crate::{Group, Label, Layer, TextAlign};
 use camera::ViewProjection;
 use glam::DVec2;
@@ -28,11 +29,11 @@ impl PicturePlane {
         layers
     }
 
-    /// The name of the eye beside it.
+    /// The label of the eye.
     fn eye_layer(&self, eye: Point<World>) -> Layer {
         let mut layer = overlay_layer("volume-eye", "eye of the view volume", BLUE);
-        let strokes = self.point_in_picture(self.project_point(eye)).map(|place| {
-            let at = place - DVec2::new(0.0, 1.5);
+        let strokes = self.point_in_picture(self.project_point(eye)).map(|point| {
+            let at = point - DVec2::new(0.0, 1.5);
             Label::new("eye", at, 0.8 * LETTER_HEIGHT).with_align(TextAlign::Middle).strokes()
         });
         layer.groups.push(Group { strokes: strokes.unwrap_or_default(), ..Group::default() });

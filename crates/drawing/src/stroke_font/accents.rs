@@ -37,7 +37,7 @@ const MARKED_LETTERS: &[(&str, &str)] = &[
 /// Letters that have an apostrophe beside them for a caron.
 const APOSTROPHE_CARON_LETTERS: &str = "ďdťtľlĽL";
 
-/// The letter with its mark; `None` if it is none of these.
+/// The glyph of an accented letter; `None` if the character is none of these.
 pub(super) fn accented_glyph(character: char) -> Option<Glyph> {
     for (mark, letters) in MARKED_LETTERS {
         if let Some(letter) = base_letter(letters, character) {
@@ -52,6 +52,7 @@ pub(super) fn accented_glyph(character: char) -> Option<Glyph> {
     Some(glyph)
 }
 
+/// The base letter of a character in a list of pairs.
 fn base_letter(letters: &str, character: char) -> Option<char> {
     let mut pairs = letters.chars();
     while let (Some(marked), Some(letter)) = (pairs.next(), pairs.next()) {
@@ -62,12 +63,13 @@ fn base_letter(letters: &str, character: char) -> Option<char> {
     None
 }
 
+/// A letter with a mark over it, or a cedilla under it.
 fn glyph_with_mark(letter: char, mark: &str) -> Glyph {
     let mut glyph = glyph_for_char(letter);
     let is_below = mark == CEDILLA;
     let top = glyph.strokes.iter().flatten().fold(0.0, |top: f64, point| point.y.max(top));
     let middle = glyph.width * 0.5;
-    // A letter that is no wider than its stroke makes room for its mark.
+    // A letter that is no wider than its stroke is moved aside to center its mark.
     if middle == 0.0 {
         glyph.strokes.iter_mut().flatten().for_each(|point| point.x += 0.8);
         glyph.width = 1.6;
@@ -79,6 +81,7 @@ fn glyph_with_mark(letter: char, mark: &str) -> Glyph {
     glyph
 }
 
+/// Adds the strokes of a path to a glyph, moved by `at`.
 fn add_strokes(glyph: &mut Glyph, path: &str, at: DVec2) {
     let moved = parse_strokes(path).into_iter();
     glyph.strokes.extend(moved.map(|stroke| stroke.into_iter().map(|point| point + at).collect()));

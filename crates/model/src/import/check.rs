@@ -40,9 +40,10 @@ mod usage;
 
 pub use report::CheckReport;
 
-use super::document::check_json_limits;
+use super::ImportOptions;
+use super::gltf::document::check_json_limits;
+use super::gltf::import_gltf;
 use super::uri_resolver::{self, UriResolver};
-use super::{ImportOptions, import_gltf};
 use crate::diagnostic::Diagnostic;
 use data::ElementRules;
 use diagnostics::Diagnostics;

@@ -9,19 +9,19 @@ const FREE_ARRAY_BYTES: u64 = 16 << 20;
 
 /// Counts the bytes of all arrays; see [`Limits::array_bytes`] and [`Limits::array_growth`].
 #[derive(Debug)]
-pub(super) struct MemoryBudget<'a> {
+pub(crate) struct MemoryBudget<'a> {
     limits: &'a Limits,
     allocated: Cell<u64>,
 }
 
 impl<'a> MemoryBudget<'a> {
-    pub(super) fn new(limits: &'a Limits) -> Self {
+    pub(crate) fn new(limits: &'a Limits) -> Self {
         Self { limits, allocated: Cell::new(0) }
     }
 
     /// Counts an array that is about to be made. `pointer` is the member that says how long it is, `files` the bytes of
     /// all files that have been read.
-    pub(super) fn charge_bytes(
+    pub(crate) fn charge_bytes(
         &self,
         pointer: &str,
         bytes: u64,

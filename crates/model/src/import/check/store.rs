@@ -7,8 +7,8 @@ use super::document::{
 use super::elements::AccessorElements;
 use super::layout::{AccessorLayout, ComponentType};
 use super::uris;
+use crate::import::gltf::meshopt::CompressedView;
 use crate::import::memory_budget::MemoryBudget;
-use crate::import::meshopt::CompressedView;
 use crate::import::uri_resolver::UriResolver;
 use serde_json::Value;
 use std::cell::{Cell, OnceCell};
