@@ -72,10 +72,10 @@ impl GltfBuilder {
         list.len() - 1
     }
 
-    /// Writes `NAME.gltf` and `NAME.bin` to a bench.
-    pub(crate) fn write_file(&mut self, bench: &Sandbox, name: &str) {
+    /// Writes `NAME.gltf` and `NAME.bin` to a sandbox.
+    pub(crate) fn write_file(&mut self, sandbox: &Sandbox, name: &str) {
         self.json["buffers"][0]["uri"] = json!(format!("{name}.bin"));
-        bench.write_file(&format!("{name}.bin"), &self.bytes);
-        bench.write_file(&format!("{name}.gltf"), self.json.to_string());
+        sandbox.write_file(&format!("{name}.bin"), &self.bytes);
+        sandbox.write_file(&format!("{name}.gltf"), self.json.to_string());
     }
 }
