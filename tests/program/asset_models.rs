@@ -1,6 +1,6 @@
-//! Animated files from the wild, from `shared/assets` beside the project or `$ASSETS`: at the time of a key the pose must
-//! be the key's value, whatever the interpolation, and pictures at different times must differ. Skipped, by name, where the
-//! folder is not there.
+//! Animated files from the wild, from `shared/assets` beside the project or `$ASSETS`: at the time
+//! of a key the pose must be the key's value, whatever the interpolation, and pictures at different
+//! times must differ. Skipped, by name, where the folder is not there.
 
 use crate::sandbox::Sandbox;
 use serde_json::Value;
@@ -56,13 +56,15 @@ impl Gltf {
     }
 }
 
-/// Whether two lists of numbers are the same but for rounding; for rotations also if they are opposite.
+/// Whether two lists of numbers are the same but for rounding; for rotations also if they are
+/// opposite.
 fn are_equal_values(actual: &[f64], expected: &[f64], rotation: bool) -> bool {
     let near = |sign: f64| actual.iter().zip(expected).all(|(a, b)| (a - sign * b).abs() < 1e-5);
     actual.len() == expected.len() && (near(1.0) || rotation && near(-1.0))
 }
 
-/// Holds the poses of an animation at three of its keys against the file, and looks whether the pictures differ.
+/// Holds the poses of an animation at three of its keys against the file, and looks whether the
+/// pictures differ.
 fn check_animation(name: &str, path: &str, animation: usize) {
     let Some(path) = asset_path(path) else { return };
     let sandbox = Sandbox::new(&format!("real_{name}_{animation}"));
@@ -150,7 +152,8 @@ fn a_skinned_skater_compressed_by_draco_stands() {
     let (sandbox, file) = (Sandbox::new("real_skater"), path.to_string_lossy().into_owned());
     let run = sandbox.run(&["info", "--json", file.as_str()]);
     let info: Value = serde_json::from_str(&run.stdout).expect("JSON");
-    // She has no animation. With her arms out she is about as wide as high, and stands on the ground.
+    // She has no animation. With her arms out she is about as wide as high, and stands on the
+    // ground.
     let corner =
         |end: &str, axis: usize| info["shown"]["bounds"][end][axis].as_f64().expect("a number");
     let size = |axis| corner("max", axis) - corner("min", axis);

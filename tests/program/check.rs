@@ -1,4 +1,5 @@
-//! `alberti check`, and the flags about loading: `--lenient`, `--allow-outside`, and one for each limit.
+//! `alberti check`, and the flags about loading: `--lenient`, `--allow-outside`, and one for each
+//! limit.
 
 use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;

@@ -1,4 +1,5 @@
-//! `alberti curve depth` and `alberti demo wrap-around`: plots, tables and demonstrations against their formulas.
+//! `alberti curve depth` and `alberti demo wrap-around`: plots, tables and demonstrations against
+//! their formulas.
 
 use crate::drawings::{assert_succeeds, read_drawing};
 use crate::sandbox::Sandbox;
@@ -16,7 +17,8 @@ fn curve_csv(sandbox: &Sandbox, flags: &[&str]) -> Vec<[f64; 5]> {
     text.lines().skip(1).map(row).collect()
 }
 
-/// The lesson's table of near 2 and far 40 (C68), with the four digits that it prints where they are known by heart.
+/// The lesson's table of near 2 and far 40 (C68), with the four digits that it prints where they
+/// are known by heart.
 #[test]
 fn the_lessons_table_comes_out() {
     let sandbox = Sandbox::new("curve_lesson");
@@ -42,7 +44,8 @@ fn the_lessons_table_comes_out() {
     assert!(markdown.contains("| 3 | -0.2982 | 0.2982 |"), "{markdown}");
 }
 
-/// Fixed point: D²(F − N)/(F N) parts of the range. Floating point: the gap of the nearest f32, through the slope.
+/// Fixed point: D²(F − N)/(F N) parts of the range. Floating point: the gap of the nearest f32,
+/// through the slope.
 #[test]
 fn steps_are_those_of_the_formats() {
     let sandbox = Sandbox::new("curve_steps");
@@ -85,7 +88,8 @@ fn the_curves_are_drawn_in_every_format() {
             let [low, high] = layer_bounds(&layers, |layer| layer == id);
             assert!(low[0] > 0.0 && high[0] < page[0] && high[1] < page[1], "{id}");
         }
-        // Both depth curves span the whole range, and cross where half of it is spent: at twice the near distance.
+        // Both depth curves span the whole range, and cross where half of it is spent: at twice the
+        // near distance.
         let [low, high] = layer_bounds(&layers, |layer| layer == "depth-axes");
         let mark = layers["depth-marks"][0][0][0];
         let part = (mark - low[0]) / (high[0] - low[0]);

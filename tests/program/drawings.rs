@@ -20,7 +20,8 @@ pub(crate) const PROJECTIONS: [&str; 12] = [
     "three-point",
 ];
 
-/// A solid box of these sides in metres, one corner at the origin, with a groove so that front and back differ.
+/// A solid box of these sides in metres, one corner at the origin, with a groove so that front and
+/// back differ.
 pub(crate) fn write_box(sandbox: &Sandbox, name: &str, [w, h, d]: [f32; 3]) {
     let mut document = GltfBuilder::square();
     let corner = |n: usize| {

@@ -1,8 +1,9 @@
-//! Drawings as other programs show them: an SVG in Chromium and a PDF through Poppler must look like the PNG that `alberti` draws of
-//! the same page.
+//! Drawings as other programs show them: an SVG in Chromium and a PDF through Poppler must look
+//! like the PNG that `alberti` draws of the same page.
 //!
-//! Edges are softened a little differently by each, so pictures are compared with a tolerance of a pixel: where one has ink, the
-//! other must have some beside it. Skipped, by name, where the programs are not installed; `.ci/run` installs them if it can.
+//! Edges are softened a little differently by each, so pictures are compared with a tolerance of a
+//! pixel: where one has ink, the other must have some beside it. Skipped, by name, where the
+//! programs are not installed; `.ci/run` installs them if it can.
 
 use crate::sandbox::Sandbox;
 use std::io::Write as _;

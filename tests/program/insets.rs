@@ -1,4 +1,5 @@
-//! Several views in one picture, what is behind the models, copies and changed materials, ways of cameras.
+//! Several views in one picture, what is behind the models, copies and changed materials, ways of
+//! cameras.
 
 use crate::sandbox::Sandbox;
 

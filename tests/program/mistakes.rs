@@ -1,4 +1,5 @@
-//! Mistakes in scene files, flags and models, and what people are told: what it is, where it is, what to do.
+//! Mistakes in scene files, flags and models, and what people are told: what it is, where it is,
+//! what to do.
 //!
 //! Each file of `tests/program/mistakes` is a list of cases:
 //!
@@ -10,8 +11,8 @@
 //! error: …
 //! [1]
 //! ```
-//! `BLESS=1 cargo test -p alberti-tests --test program mistakes` writes what is told now into the files. Read it, each
-//! message, before it is committed.
+//! `BLESS=1 cargo test -p alberti-tests --test program mistakes` writes what is told now into the
+//! files. Read it, each message, before it is committed.
 
 use crate::sandbox::Sandbox;
 use std::fmt::Write as _;

@@ -1,4 +1,5 @@
-//! Overlays and classical projections: vanishing points, the horizon and the axes are where the formulas have them.
+//! Overlays and classical projections: vanishing points, the horizon and the axes are where the
+//! formulas have them.
 
 use crate::sandbox::Sandbox;
 use crate::vector_files::{Layers, PagePoint, parse_svg, point_bounds};

@@ -54,7 +54,8 @@ fn a_transparent_background_has_no_halo() {
             0 => assert_eq!((*clear, *white), ([0; 4], [255; 4]), "pixel {at}"),
             255 => assert_eq!(clear, white, "pixel {at}"),
             alpha => {
-                // Over white, in linear light, the soft pixel must give the opaque picture's colour.
+                // Over white, in linear light, the soft pixel must give the opaque picture's
+                // colour.
                 let share = f64::from(alpha) / 255.0;
                 for k in 0..3 {
                     let over = srgb_to_linear(clear[k]) * share + 1.0 - share;
@@ -146,7 +147,8 @@ fn c36_the_floor_is_whole_from_the_horizon_down_with_the_eye_just_above_it() {
             .chunks(width as usize)
             .map(|row| row.iter().filter(|pixel| **pixel == [255, 0, 255, 255]).count())
             .collect();
-        // The horizon is row 60. From a little below it, where the sides of the floor are out of sight, no pixel is missing.
+        // The horizon is row 60. From a little below it, where the sides of the floor are out of
+        // sight, no pixel is missing.
         let torn: Vec<usize> = (66..120).filter(|&row| rows[row] > 0).collect();
         assert!(torn.is_empty(), "eye at {height}: background in rows {torn:?}");
         assert_eq!(rows[0], width as usize, "sky above");

@@ -1,5 +1,5 @@
-//! Animations as the program poses them, held against the formulas of glTF 2.0 (appendix C), and against the keys in real
-//! files. `info --json` tells the pose in numbers.
+//! Animations as the program poses them, held against the formulas of glTF 2.0 (appendix C), and
+//! against the keys in real files. `info --json` tells the pose in numbers.
 
 use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
@@ -24,8 +24,8 @@ fn assert_near(actual: &Value, expected: &[f64], what: &str) {
     assert!(near, "{what}: {found:?} instead of {expected:?}");
 }
 
-/// A square whose node moves by a line, turns by a line and grows by a cubic spline, whose second node steps, and
-/// whose weights, material, light and camera change too.
+/// A square whose node moves by a line, turns by a line and grows by a cubic spline, whose second
+/// node steps, and whose weights, material, light and camera change too.
 fn write_animated_model(sandbox: &Sandbox) {
     let mut document = GltfBuilder::square();
     let [zero_to_two, steps] =
@@ -107,7 +107,8 @@ fn add_camera_and_light(document: &mut GltfBuilder) {
 fn poses_are_those_of_the_specification() {
     let sandbox = Sandbox::new("poses");
     write_animated_model(&sandbox);
-    // A cubic with these ends and slopes is x²; at a quarter of the turn the angle is a quarter of a right angle.
+    // A cubic with these ends and slopes is x²; at a quarter of the turn the angle is a quarter of
+    // a right angle.
     for (time, part, step) in [
         ("0.25", 0.125, 1.0),
         ("0.5", 0.25, 1.0),

@@ -36,7 +36,8 @@ fn crops_and_bands_are_the_pixels_of_the_whole() {
     assert_eq!(united, whole);
 }
 
-/// All that looks beyond a pixel: shadows of two kinds of light, a ground that catches them, occlusion, an environment, textures.
+/// All that looks beyond a pixel: shadows of two kinds of light, a ground that catches them,
+/// occlusion, an environment, textures.
 const EVERYTHING: &str = r#"Scene(
     models: [
         (path: "crate.glb"),
@@ -117,7 +118,8 @@ fn sixteen_bits_round_to_eight() {
     let file = std::fs::read(sandbox.path_of("deep.png")).expect("a file");
     assert_eq!(file[24], 16, "the depth in the header");
     let (flat, deep) = (sandbox.read_picture("flat.png").2, sandbox.read_picture("deep.png").2);
-    // The test's reader takes the high byte, which is the code of 8 bits or the one before or after it.
+    // The test's reader takes the high byte, which is the code of 8 bits or the one before or after
+    // it.
     for (flat, deep) in flat.iter().zip(&deep) {
         assert!((0..4).all(|k| flat[k].abs_diff(deep[k]) <= 1), "{flat:?} {deep:?}");
     }
@@ -228,7 +230,8 @@ fn pictures_are_shown_in_half_blocks() {
     let run = sandbox.run(&[&["render", "crate.glb", "--show"], &SIZE[..]].concat());
     assert_eq!(run.code, 0, "{}", run.stderr);
     let lines: Vec<&str> = run.stdout.lines().collect();
-    // 80 columns, and 60 rows of pixels in 30 lines; or characters, where the tests run without colours.
+    // 80 columns, and 60 rows of pixels in 30 lines; or characters, where the tests run without
+    // colours.
     assert_eq!(lines.len(), 30);
     let cells = lines[15].matches('▀').count();
     assert!(cells == 80 || lines[15].chars().count() == 80, "{}", lines[15]);

@@ -77,7 +77,8 @@ fn open_surfaces_are_cut_without_a_cap_and_named() {
     assert!(read_drawing(&sandbox, "out.svg").1.contains_key("visible-section"));
 }
 
-/// The front view of a sheet is cut and named, the others show the whole thing and where the cut is.
+/// The front view of a sheet is cut and named, the others show the whole thing and where the cut
+/// is.
 #[test]
 fn sheets_show_cuts_in_the_view_that_looks_onto_them() {
     let sandbox = Sandbox::new("cut_sheet");
@@ -88,7 +89,8 @@ fn sheets_show_cuts_in_the_view_that_looks_onto_them() {
     assert!(layers.contains_key("front-visible-hatching"));
     assert!(layers.contains_key("isometric-visible-hatching"));
     assert!(!layers.contains_key("top-visible-hatching"));
-    // Whole from above: 30 mm deep; the cut 10 mm before the rear edge, from beyond one side to beyond the other.
+    // Whole from above: 30 mm deep; the cut 10 mm before the rear edge, from beyond one side to
+    // beyond the other.
     let [low, high] = layer_bounds(&layers, |id| id.starts_with("top-"));
     assert_near(high[1] - low[1], 30.0);
     let along = layers["cut-lines"].iter().find(|line| line[0][1] == line[1][1]).expect("a line");

@@ -48,8 +48,8 @@ fn every_parameter_can_be_varied() {
     }
 }
 
-/// The front of a box seen in the middle, at the depth of the middle of a flat box, keeps its size in a dolly zoom and goes with
-/// 1/distance without one.
+/// The front of a box seen in the middle, at the depth of the middle of a flat box, keeps its size
+/// in a dolly zoom and goes with 1/distance without one.
 #[test]
 fn a_dolly_zoom_keeps_the_size_and_a_walk_does_not() {
     let sandbox = Sandbox::new("sweep_dolly");

@@ -4,8 +4,8 @@ use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
 use serde_json::json;
 
-/// A file with a red square on the left; in the variant `blue` it is blue. Its second scene shows the square on the
-/// right too.
+/// A file with a red square on the left; in the variant `blue` it is blue. Its second scene shows
+/// the square on the right too.
 fn write_variants_model(sandbox: &Sandbox) {
     let mut document = GltfBuilder::square();
     let blue = document.add_unlit_material([0.0, 0.0, 1.0]);

@@ -10,9 +10,9 @@
 //! ```
 //!
 //! It works on the raw JSON, in which members may be missing or of any type. The rules are those of
-//! glTF 2.0, under the codes and severities of the Khronos glTF validator. The [limits](super::Limits)
-//! hold as for loading: time and memory are bounded by the size of the files, not by the sizes they
-//! declare.
+//! glTF 2.0, under the codes and severities of the Khronos glTF validator. The
+//! [limits](super::Limits) hold as for loading: time and memory are bounded by the size of the
+//! files, not by the sizes they declare.
 
 mod accessors;
 mod animations;
@@ -94,6 +94,7 @@ pub fn check_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> CheckRe
     build_report(path, result, findings)
 }
 
+/// Adds the diagnostics of the loader, and counts.
 fn build_report(
     path: &Path,
     result: Result<crate::Model, Diagnostic>,
@@ -111,6 +112,7 @@ fn build_report(
     }
 }
 
+/// Validates the container and its JSON, as far as it can be parsed.
 fn check_content(bytes: &[u8], resolver: &UriResolver<'_>, findings: &Diagnostics) {
     let parts = glb::check_container(bytes, findings);
     let Some(text) = parts.json.map(|range| &bytes[range]) else { return };
@@ -132,6 +134,10 @@ fn check_content(bytes: &[u8], resolver: &UriResolver<'_>, findings: &Diagnostic
     }
 }
 
+/// Runs all checks on a parsed document.
+///
+/// The order matters: the schema walk first, because it reports missing and mistyped members that
+/// later checks skip; the element data after all rules for it are known; unused objects last.
 fn check_document(
     document: &CheckedDocument<'_>,
     resolver: &UriResolver<'_>,

@@ -28,18 +28,25 @@ struct AccessorChecker<'a> {
     document: &'a CheckedDocument<'a>,
     store: &'a BufferStore<'a>,
     usage: &'a UsageMap<'a>,
+    /// The JSON pointer of the accessor.
     pointer: String,
 }
 
 /// A range of bytes in a buffer view that holds components of `size` bytes.
 struct ByteRange {
+    /// Where the range starts, in bytes from the start of the buffer view.
     offset: u64,
+    /// The length of the range in bytes.
     length: u64,
+    /// The size of a component in bytes, to which the range is aligned.
     size: usize,
 }
 
 impl AccessorChecker<'_> {
     /// Normalization, alignment, stride and extent of the accessor, and its sparse part.
+    ///
+    /// Only 8-bit and 16-bit integers can be normalized; matrices are aligned to four bytes; a
+    /// stride is at least the size of an element.
     fn check_layout(&self, accessor: &Value, layout: AccessorLayout) {
         let diagnostics = self.document.diagnostics;
         let pointer = &self.pointer;
@@ -100,6 +107,9 @@ impl AccessorChecker<'_> {
     }
 
     /// A sparse accessor: its count, and the layout of its indices and values.
+    ///
+    /// The values have the component type of the accessor and are tightly packed; so are the
+    /// indices, in a component type of their own (glTF 2.0 §3.6.2.3).
     fn check_sparse(&self, sparse: &Value, layout: AccessorLayout) {
         let Some(count) = integer_member(sparse, "count") else { return };
         let diagnostics = self.document.diagnostics;
@@ -132,8 +142,8 @@ impl AccessorChecker<'_> {
         self.check_sparse_indices(sparse, layout, &pointer);
     }
 
-    /// The indices or values of a sparse accessor: `count` elements of `length` bytes with components
-    /// of `size` bytes.
+    /// The indices or values of a sparse accessor: `count` elements of `length` bytes with
+    /// components of `size` bytes.
     fn check_sparse_part(
         &self,
         part: &Value,
@@ -154,7 +164,10 @@ impl AccessorChecker<'_> {
         self.check_byte_range(view, &ByteRange { offset, length, size }, pointer);
     }
 
-    /// A range of bytes must be aligned to its component size and inside its buffer view.
+    /// A range of bytes must be aligned to its component size and be inside its buffer view.
+    ///
+    /// Alignment is required of the offset in the view and of the offset in the buffer, and
+    /// reported by different codes (glTF 2.0 §3.6.2.4).
     fn check_byte_range(&self, view: usize, stretch: &ByteRange, pointer: &str) {
         let diagnostics = self.document.diagnostics;
         let Some(json) = self.document.root_array("bufferViews").get(view) else { return };

@@ -57,14 +57,18 @@ pub(super) fn check_animations(
 struct AnimationChecker<'a, 'd> {
     document: &'a CheckedDocument<'a>,
     usage: &'a UsageMap<'a>,
+    /// The rules for the elements of accessors, collected for the pass over the data.
     demands: &'d mut ElementRules,
+    /// The samplers of the animation, to which its channels refer by index.
     samplers: &'a [Value],
     /// The number of morph targets of each mesh.
     targets: &'a [usize],
+    /// The JSON pointer of the animation.
     pointer: String,
 }
 
 impl<'a> AnimationChecker<'a, '_> {
+    /// Reports a diagnostic at a member of the animation.
     fn report(&self, code: &DiagnosticCode, member: &str, message: impl Display) {
         self.document.diagnostics.add(code, format_args!("{}/{member}", self.pointer), message);
     }
@@ -117,6 +121,8 @@ impl<'a> AnimationChecker<'a, '_> {
     }
 
     /// A channel: its target is animated once and can be animated, and its sampler exists.
+    ///
+    /// `known` has the targets of the channels before it, as pairs of node and path.
     fn check_channel(
         &mut self,
         number: usize,
@@ -178,7 +184,8 @@ impl<'a> AnimationChecker<'a, '_> {
         }
     }
 
-    /// A target node: morph weights need morph targets, and a matrix cannot be animated.
+    /// A target node: morph weights need morph targets, and a node with a matrix cannot be
+    /// animated, because an animation replaces one of translation, rotation and scale.
     fn check_node_target(&self, at: usize, path: &str, member: &str) {
         let Some(node) = self.document.root_array("nodes").get(at) else { return };
         let member = format!("{member}/target");
@@ -195,7 +202,10 @@ impl<'a> AnimationChecker<'a, '_> {
         }
     }
 
-    /// The values of a channel: their format, and as many as keyframes, targets and tangents need.
+    /// The values of a channel: their format, and as many as the keyframes need.
+    ///
+    /// There is one value per keyframe; for morph weights one per target; and three of each for a
+    /// cubic spline, with its in- and out-tangents (glTF 2.0 §3.11).
     fn check_output(&mut self, sampler: &Value, path: &str, targets: u64, member: &str) {
         let at = index_member(sampler, "output");
         let Some(layout) = self.accessor_json(at).and_then(AccessorLayout::from_accessor) else {

@@ -1,20 +1,23 @@
 //! Diagnostic codes: name, severity and help of each.
 //!
-//! Names and severities are those of the Khronos glTF validator 2.0 (its `ISSUES.md`) for every issue
-//! that it knows; its "information" and "hint" are notes here. The last few of each severity are our
-//! own: they report what the loader does with the file.
+//! Names and severities are those of the Khronos glTF validator 2.0 (its `ISSUES.md`) for every
+//! issue that it knows; its "information" and "hint" are notes here. The last few of each severity
+//! are our own: they report what the loader does with the file.
 
 use crate::diagnostic::Severity;
 
 /// A kind of diagnostic.
 #[derive(Debug)]
 pub(super) struct DiagnosticCode {
+    /// The code, such as `ACCESSOR_TOO_LONG`.
     pub(super) name: &'static str,
+    /// The severity of every diagnostic of this code.
     pub(super) severity: Severity,
     /// The fix, in the imperative.
     pub(super) remedy: &'static str,
 }
 
+/// Declares a constant for each code: severity, then help, then the names that share both.
 macro_rules! codes {
     ($($severity:ident { $($remedy:literal => $($name:ident)*;)* })*) => {$($($(
         pub(super) const $name: DiagnosticCode =

@@ -32,6 +32,8 @@ pub(super) enum ElementRule {
 /// The rules for the elements of all accessors, each with the pointer of the member it comes from.
 #[derive(Default, Debug)]
 pub(super) struct ElementRules {
+    /// The rules of each accessor; a rule from several members is kept once, with the first
+    /// pointer.
     by_accessor: BTreeMap<usize, Vec<(ElementRule, String)>>,
 }
 
@@ -45,6 +47,7 @@ const UNIT_VECTOR_TOLERANCE: f64 = 0.00674;
 const UNIT_QUATERNION_TOLERANCE: f64 = 0.00769;
 
 impl ElementRules {
+    /// Adds a rule for the elements of an accessor, unless it is known or there are too many.
     pub(super) fn add(&mut self, accessor: usize, demand: ElementRule, pointer: &str) {
         let list = self.by_accessor.entry(accessor).or_default();
         if list.len() < MAX_RULES && list.iter().all(|(known, _)| *known != demand) {
@@ -54,6 +57,9 @@ impl ElementRules {
 }
 
 /// Reads the elements of all accessors that have data.
+///
+/// The work is charged to the memory budget, so that a small file that declares many elements
+/// cannot take long.
 pub(super) fn check_data(
     document: &CheckedDocument<'_>,
     store: &BufferStore<'_>,
@@ -76,12 +82,16 @@ pub(super) fn check_data(
 /// The number of violations of one rule, and the element and value of the first.
 #[derive(Clone, Default, Debug)]
 struct Tally {
+    /// The number of violations.
     count: u64,
+    /// The index of the first element that violates the rule.
     first: u64,
+    /// The offending value of that element.
     value: f64,
 }
 
 impl Tally {
+    /// Counts a violation if `wrong`, and remembers the first.
     fn record_if(&mut self, wrong: bool, at: u64, value: f64) {
         if wrong {
             if self.count == 0 {
@@ -96,28 +106,39 @@ impl Tally {
 struct AccessorScan<'a> {
     document: &'a CheckedDocument<'a>,
     elements: &'a AccessorElements<'a>,
+    /// The JSON pointer of the accessor.
     pointer: String,
+    /// The rules of its users, with their violations so far.
     scans: Vec<RuleScan<'a>>,
 }
 
 /// A rule with its violations, and the state it carries from one element to the next.
 struct RuleScan<'a> {
     rule: ElementRule,
+    /// The pointer of the member that the rule comes from, where violations are reported.
     pointer: &'a str,
+    /// The violations; some rules have two parts with a code each.
     tallies: [Tally; 2],
+    /// The previous keyframe time, or the number of degenerate triangles.
     last: f64,
+    /// The last three indices.
     triangle: [f64; 3],
 }
 
 /// The actual minimum and maximum of each component, and how often the declared ones are exceeded.
 struct BoundsScan {
+    /// `min` and `max` as declared, `None` for values that are no numbers.
     declared: [Vec<Option<f64>>; 2],
+    /// The minimum and maximum of each component; an element has at most 16.
     actual: [[f64; 16]; 2],
+    /// The number of elements of each component below `min` and above `max`.
     outside: [[u64; 16]; 2],
+    /// Infinities and NaN, which glTF forbids.
     non_finite: Tally,
 }
 
 impl<'a> AccessorScan<'a> {
+    /// A pass over some elements with the rules of all users of the accessor.
     fn new(
         document: &'a CheckedDocument<'a>,
         elements: &'a AccessorElements<'a>,
@@ -134,6 +155,7 @@ impl<'a> AccessorScan<'a> {
         Self { document, elements, pointer, scans: demands.iter().map(watch).collect() }
     }
 
+    /// Visits every element once, then reports the violations.
     fn scan_elements(mut self, accessor: &Value) {
         let mut extremes = BoundsScan::new(accessor, self.elements.layout);
         let (elements, watches) = (self.elements, &mut self.scans);
@@ -151,6 +173,7 @@ impl<'a> AccessorScan<'a> {
 }
 
 impl BoundsScan {
+    /// Reads the declared bounds of an accessor.
     fn new(accessor: &Value, layout: AccessorLayout) -> Self {
         // A JSON number may have more digits than a float: the nearest float is compared.
         let bound = |value: &Value| {
@@ -167,6 +190,7 @@ impl BoundsScan {
         Self { declared, actual, outside: [[0; 16]; 2], non_finite: Tally::default() }
     }
 
+    /// Updates the bounds with the components of one element.
     fn visit_element(&mut self, at: u64, numbers: &[f64]) {
         for (component, &number) in numbers.iter().enumerate() {
             if !number.is_finite() {
@@ -183,6 +207,10 @@ impl BoundsScan {
         }
     }
 
+    /// Reports non-finite values, and declared bounds that differ from the actual ones.
+    ///
+    /// Bounds must be exact (glTF 2.0 §3.6.2.5). Too wide ones are a mismatch; too narrow ones are
+    /// also reported with the number of elements outside of them.
     fn report_bounds(&self, document: &CheckedDocument<'_>, pointer: &str) {
         let Tally { count, first, value } = self.non_finite;
         if count > 0 {
@@ -219,6 +247,7 @@ impl BoundsScan {
 }
 
 impl RuleScan<'_> {
+    /// Tests one element against the rule.
     fn visit_element(&mut self, elements: &AccessorElements<'_>, at: u64, numbers: &[f64]) {
         let length = |numbers: &[f64]| {
             let squares = numbers.iter().map(|&x| elements.dequantize(x)).map(|x| x * x);
@@ -278,6 +307,7 @@ impl RuleScan<'_> {
         }
     }
 
+    /// Reports the violations of the rule in an accessor of `total` elements.
     fn report_violations(&self, document: &CheckedDocument<'_>, total: u64) {
         let say = |code: &DiagnosticCode, tally: &Tally, what: &dyn Display| {
             let Tally { count, first, value } = tally;

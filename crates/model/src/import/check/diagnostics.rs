@@ -16,14 +16,18 @@ const MAX_TEXT_LENGTH: usize = 500;
 /// Interior mutability lets every check hold the document and report through it.
 #[derive(Default, Debug)]
 pub(super) struct Diagnostics {
+    /// One list for each severity, in the order of [`Severity::ALL`].
     lists: RefCell<[SeverityList; Severity::ALL.len()]>,
 }
 
 /// The diagnostics of one severity.
 #[derive(Default, Debug)]
 struct SeverityList {
+    /// The diagnostics that are listed, in the order in which they were added.
     retained: Vec<Diagnostic>,
+    /// Code and pointer of each, to drop duplicates.
     known_keys: BTreeSet<(&'static str, String)>,
+    /// The number of all diagnostics, listed or not.
     count: usize,
 }
 

@@ -1,7 +1,8 @@
-//! The document under validation: its raw JSON, the diagnostics so far, and the objects referred to.
+//! The document under validation: its raw JSON, the diagnostics so far, and the objects referred
+//! to.
 //!
-//! The accessors of this module return `None` for members that are missing or of the wrong type: the
-//! schema walk has reported those already.
+//! The accessors of this module return `None` for members that are missing or of the wrong type:
+//! the schema walk has reported those already.
 
 use super::diagnostics::Diagnostics;
 use super::schema::Collection;
@@ -11,7 +12,9 @@ use std::collections::BTreeSet;
 
 /// A document under validation.
 pub(super) struct CheckedDocument<'a> {
+    /// The root of the JSON.
     pub(super) root: &'a Value,
+    /// The collection that every check reports to.
     pub(super) diagnostics: &'a Diagnostics,
     /// For each object of each collection, whether something refers to it.
     used_flags: RefCell<Vec<Vec<bool>>>,
@@ -20,6 +23,7 @@ pub(super) struct CheckedDocument<'a> {
 }
 
 impl<'a> CheckedDocument<'a> {
+    /// A document of which nothing has been validated yet.
     pub(super) fn new(root: &'a Value, diagnostics: &'a Diagnostics) -> Self {
         let count = |(_, pointer, _): (Collection, &str, bool)| {
             root.pointer(pointer).and_then(Value::as_array).map_or(0, Vec::len)

@@ -97,6 +97,9 @@ pub(super) fn check_variants(document: &CheckedDocument<'_>) {
 }
 
 /// Validates the parameters of cameras.
+///
+/// `zfar` is greater than `znear`, magnifications are not zero, and the field of view is less than
+/// a half turn: other values make no projection.
 pub(super) fn check_cameras(document: &CheckedDocument<'_>) {
     let diagnostics = document.diagnostics;
     for (at, camera) in document.root_array("cameras").iter().enumerate() {

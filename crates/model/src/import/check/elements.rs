@@ -5,11 +5,13 @@ use super::layout::AccessorLayout;
 /// The elements of one accessor whose bytes are all present, with its sparse replacements.
 #[derive(Debug)]
 pub(super) struct AccessorElements<'a> {
+    /// The layout that the accessor declares.
     pub(super) layout: AccessorLayout,
     /// The bytes of the elements and their stride; `None` if all are zero.
     base: Option<(&'a [u8], usize)>,
     /// Pairs of element and sparse value that replaces it, sorted by element.
     replaced: Vec<(u32, u32)>,
+    /// The bytes of the sparse values, tightly packed.
     values: &'a [u8],
 }
 
@@ -32,6 +34,9 @@ impl<'a> AccessorElements<'a> {
     }
 
     /// Calls `see` with the index of each element and its components.
+    ///
+    /// The components are those of the file: [`dequantize`](Self::dequantize) maps normalized
+    /// integers. The sorted replacements are merged with the elements, so that the pass is linear.
     pub(super) fn for_each_element(&self, mut see: impl FnMut(u64, &[f64])) {
         let mut numbers = [0.0; 16];
         let numbers = &mut numbers[..self.layout.element_type.component_count()];
@@ -52,6 +57,7 @@ impl<'a> AccessorElements<'a> {
         }
     }
 
+    /// Decodes the components of the element that starts at a byte offset, column by column.
     fn read_element(&self, bytes: &[u8], start: usize, numbers: &mut [f64]) {
         let AccessorLayout { component_type: component, element_type: shape, .. } = self.layout;
         let bytes = bytes.get(start..).unwrap_or(&[]);

@@ -37,6 +37,7 @@ impl<'a> Semantic<'a> {
         Some(Self::Numbered(kind, number))
     }
 
+    /// The name without its set index; empty for a custom name.
     fn base_name(self) -> &'a str {
         match self {
             Self::Single(kind) | Self::Numbered(kind, _) => kind,
@@ -67,6 +68,7 @@ impl<'a> Semantic<'a> {
         Some(formats)
     }
 
+    /// The formats that KHR_mesh_quantization allows besides those of core glTF.
     fn quantized_formats(self, in_target: bool) -> Vec<AttributeFormat> {
         let all = |shape, components: &[ComponentType], normalized: &[bool]| {
             let pairs = components.iter().flat_map(|&c| normalized.iter().map(move |&n| (c, n)));

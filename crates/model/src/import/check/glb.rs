@@ -12,7 +12,9 @@ use std::ops::Range;
 /// The byte ranges of the parts of a file, as far as they can be determined.
 #[derive(Default, Debug)]
 pub(super) struct ContainerParts {
+    /// The JSON, in a GLB the content of its first chunk.
     pub(super) json: Option<Range<usize>>,
+    /// The content of the binary chunk of a GLB.
     pub(super) binary: Option<Range<usize>>,
     /// Whether the file is a GLB.
     pub(super) is_binary: bool,
@@ -46,12 +48,15 @@ fn check_byte_order_mark(json: &[u8], diagnostics: &Diagnostics) {
 
 /// Reads the container chunk by chunk.
 struct ContainerReader<'a> {
+    /// The file, cut at the length that its header declares.
     bytes: &'a [u8],
     diagnostics: &'a Diagnostics,
+    /// The parts found so far.
     parts: ContainerParts,
 }
 
 impl ContainerReader<'_> {
+    /// Reports a diagnostic about the file as a whole.
     fn report(&self, code: &DiagnosticCode, message: impl Display) {
         self.diagnostics.add(code, "", message);
     }

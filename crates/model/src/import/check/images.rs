@@ -60,7 +60,9 @@ struct ImageChecker<'a> {
     store: &'a BufferStore<'a>,
     usage: &'a UsageMap<'a>,
     resolver: &'a UriResolver<'a>,
+    /// Whether the file is a GLB, in which data URIs are a waste.
     is_binary: bool,
+    /// The JSON pointer of the image.
     pointer: String,
 }
 
@@ -105,6 +107,7 @@ impl ImageChecker<'_> {
         Some(kind.to_owned())
     }
 
+    /// The bytes of an image, from its buffer view or its URI; `None` if they cannot be read.
     fn image_bytes(&self, image: &Value) -> Option<Cow<'_, [u8]>> {
         let diagnostics = self.document.diagnostics;
         if let Some(view) = index_member(image, "bufferView") {
@@ -123,6 +126,9 @@ impl ImageChecker<'_> {
     }
 
     /// The media type of an image, whose header must be complete.
+    ///
+    /// Only the header is decoded. Decoders tell a truncated file from a corrupt one in the text of
+    /// their errors alone, which decides the code here.
     fn check_image_header(&self, bytes: &[u8]) -> Option<&'static str> {
         let diagnostics = self.document.diagnostics;
         let Some(kind) = sniff_media_type(bytes) else {

@@ -6,11 +6,17 @@ use serde_json::Value;
 /// The layout that an accessor declares.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct AccessorLayout {
+    /// The type of each component (`componentType`).
     pub(super) component_type: ComponentType,
+    /// The type of an element (`type`).
     pub(super) element_type: ElementType,
+    /// Whether integers stand for fractions (`normalized`).
     pub(super) normalized: bool,
+    /// The number of elements (`count`).
     pub(super) count: u64,
+    /// The offset of the first element in the buffer view (`byteOffset`).
     pub(super) byte_offset: u64,
+    /// The index of the buffer view; without one all elements are zero.
     pub(super) buffer_view: Option<usize>,
 }
 
@@ -28,14 +34,21 @@ pub(super) enum ComponentType {
 /// The type of an element, as its number of rows and columns; vectors have one column.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct ElementType {
+    /// The number of components of a vector, or of a column of a matrix.
     pub(super) rows: usize,
+    /// The number of columns; 1 for scalars and vectors.
     pub(super) columns: usize,
 }
 
+/// One component.
 pub(super) const SCALAR: ElementType = ElementType { rows: 1, columns: 1 };
+/// Two components.
 pub(super) const VEC2: ElementType = ElementType { rows: 2, columns: 1 };
+/// Three components.
 pub(super) const VEC3: ElementType = ElementType { rows: 3, columns: 1 };
+/// Four components.
 pub(super) const VEC4: ElementType = ElementType { rows: 4, columns: 1 };
+/// A 4×4 matrix, column by column.
 pub(super) const MAT4: ElementType = ElementType { rows: 4, columns: 4 };
 
 impl ComponentType {
@@ -52,6 +65,7 @@ impl ComponentType {
         })
     }
 
+    /// The size of a component in bytes.
     pub(super) fn byte_size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -72,7 +86,8 @@ impl ComponentType {
         }
     }
 
-    /// Reads the component at the start of some bytes; 0 if they are too few, which callers exclude.
+    /// Reads the component at the start of some bytes; 0 if they are too few, which callers
+    /// exclude.
     pub(super) fn read_number(self, bytes: &[u8]) -> f64 {
         let one = || bytes.first().copied().unwrap_or(0);
         let two = || bytes.first_chunk().copied().unwrap_or_default();
@@ -87,6 +102,7 @@ impl ComponentType {
         }
     }
 
+    /// The name of the OpenGL constant, for messages.
     fn name(self) -> &'static str {
         match self {
             Self::I8 => "BYTE",
@@ -100,6 +116,7 @@ impl ComponentType {
 }
 
 impl ElementType {
+    /// The element type of a `type` member.
     fn from_name(name: &str) -> Option<Self> {
         Some(match name {
             "SCALAR" => SCALAR,
@@ -118,10 +135,12 @@ impl ElementType {
         self.rows * self.columns
     }
 
+    /// Whether an element is a matrix, whose columns are aligned.
     pub(super) fn is_matrix(self) -> bool {
         self.columns > 1
     }
 
+    /// The name in glTF, for messages.
     fn name(self) -> &'static str {
         match (self.rows, self.columns) {
             (1, _) => "SCALAR",

@@ -32,6 +32,7 @@ pub(super) fn check_materials(document: &CheckedDocument<'_>) {
     }
 }
 
+/// Validates a punctual light: a spot light has a `spot` with ordered cone angles.
 fn check_light(document: &CheckedDocument<'_>, at: usize, light: &Value) {
     let pointer = format!("/extensions/KHR_lights_punctual/lights/{at}");
     let is_spot = light.get("type").and_then(Value::as_str) == Some("spot");
@@ -67,7 +68,11 @@ fn check_light(document: &CheckedDocument<'_>, at: usize, light: &Value) {
 pub(super) struct MaterialRequirements {
     /// The largest index of texture coordinates that its textures use.
     max_uv_set: Option<u64>,
+    /// Whether the material has a normal map; tangents are generated from its texture coordinates
+    /// where a mesh has none.
     has_normal_map: bool,
+    /// Whether it needs tangents that no normal map determines: for anisotropy, or for the normal
+    /// map of a clearcoat.
     needs_tangents: bool,
 }
 

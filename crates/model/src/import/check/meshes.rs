@@ -57,9 +57,13 @@ pub(super) fn check_meshes(
 struct PrimitiveChecker<'a, 'd> {
     document: &'a CheckedDocument<'a>,
     usage: &'a UsageMap<'a>,
+    /// The rules for the elements of accessors, collected for the pass over the data.
     rules: &'d mut ElementRules,
+    /// The vertex attributes that each material requires.
     requirements: &'a [MaterialRequirements],
+    /// The JSON of the primitive.
     primitive: &'a Value,
+    /// The JSON pointer of the primitive.
     pointer: String,
 }
 
@@ -70,12 +74,14 @@ type ResolvedAttributes<'a> = Vec<(&'a str, usize, &'a Value)>;
 type AttributeCounts<'a> = BTreeMap<&'a str, Option<u64>>;
 
 impl<'a> PrimitiveChecker<'a, '_> {
+    /// Reports a diagnostic at a member of the primitive, or at the primitive itself.
     fn report(&self, code: &DiagnosticCode, member: &str, message: impl Display) {
         let slash = if member.is_empty() { "" } else { "/" };
         let pointer = format_args!("{}{slash}{member}", self.pointer);
         self.document.diagnostics.add(code, pointer, message);
     }
 
+    /// Attributes, indices, mode, material requirements and morph targets, in this order.
     fn check_primitive(&mut self) {
         let Some(named) = object_members(self.primitive, "attributes") else {
             self.check_indices(None);
@@ -108,6 +114,7 @@ impl<'a> PrimitiveChecker<'a, '_> {
         }
     }
 
+    /// The attributes whose accessors exist; others have been reported by the schema walk.
     fn resolve_attributes(&self, named: &'a Map<String, Value>) -> ResolvedAttributes<'a> {
         let accessors = self.document.root_array("accessors");
         let find = |(name, value): (&'a String, &Value)| {
@@ -117,7 +124,8 @@ impl<'a> PrimitiveChecker<'a, '_> {
         named.iter().filter_map(find).collect()
     }
 
-    /// Validates the names of attributes and their numbering; returns the number of `TEXCOORD` sets.
+    /// Validates the names of attributes and their numbering; returns the number of `TEXCOORD`
+    /// sets.
     fn check_names(&self, named: &Map<String, Value>) -> u64 {
         for name in named.keys().filter(|name| Semantic::from_name(name).is_none()) {
             let message = format_args!("unknown attribute {name:?}");
@@ -190,6 +198,9 @@ impl<'a> PrimitiveChecker<'a, '_> {
         vertices
     }
 
+    /// Records rules for the elements of an attribute in a valid format.
+    ///
+    /// Normals and tangents are unit vectors; float colors are in [0, 1].
     fn add_element_rules(&mut self, name: &str, at: usize, layout: AccessorLayout, pointer: &str) {
         let quantized = self.document.uses_extension("KHR_mesh_quantization");
         let formats = Semantic::from_name(name)
@@ -206,6 +217,10 @@ impl<'a> PrimitiveChecker<'a, '_> {
         }
     }
 
+    /// Validates the format, bounds and alignment of an attribute.
+    ///
+    /// `POSITION` needs `min` and `max`. Vertex data is aligned to four bytes, in its offset and in
+    /// its stride (glTF 2.0 §3.7.2.1).
     fn check_format(&self, name: &str, accessor: &Value, member: &str, in_target: bool) {
         let Some(layout) = AccessorLayout::from_accessor(accessor) else { return };
         let has_bounds = accessor.get("min").is_some() && accessor.get("max").is_some();
@@ -274,6 +289,7 @@ impl<'a> PrimitiveChecker<'a, '_> {
         Some(layout.count)
     }
 
+    /// The number of vertices or indices must form whole primitives of the mode.
     fn check_mode(&self, count: Option<u64>) {
         let Some(count) = count else { return };
         let fits = match integer_member(self.primitive, "mode").unwrap_or(4) {
@@ -291,6 +307,8 @@ impl<'a> PrimitiveChecker<'a, '_> {
         }
     }
 
+    /// A morph target: its attributes can be displaced, exist in the base mesh, and have as many
+    /// elements as there.
     fn check_morph_target(
         &self,
         at: usize,

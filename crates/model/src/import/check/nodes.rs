@@ -10,11 +10,12 @@ use serde_json::Value;
 /// The node hierarchy, as far as it is a forest.
 #[derive(Debug)]
 pub(super) struct NodeTree {
+    /// The parent of each node; of several, the first.
     pub(super) parents: Vec<Option<usize>>,
     /// The root above each node; `None` for nodes of a cycle.
     pub(super) roots: Vec<Option<usize>>,
-    /// The entry and exit time of each node in a depth-first traversal: the interval of a descendant
-    /// is inside that of its ancestor.
+    /// The entry and exit time of each node in a depth-first traversal: the interval of a
+    /// descendant is inside that of its ancestor.
     visit_intervals: Vec<(usize, usize)>,
 }
 
@@ -55,6 +56,7 @@ pub(super) fn check_nodes(document: &CheckedDocument<'_>) -> NodeTree {
     tree
 }
 
+/// Validates the transform of a node: a matrix or its parts, decomposable, with a unit rotation.
 fn check_transform(document: &CheckedDocument<'_>, at: usize, node: &Value) {
     let diagnostics = document.diagnostics;
     let has_parts = ["translation", "rotation", "scale"].iter().any(|key| node.get(key).is_some());
@@ -95,8 +97,8 @@ fn check_transform(document: &CheckedDocument<'_>, at: usize, node: &Value) {
 /// The tolerance for the length of rotations in JSON, which exporters round to four digits.
 const ROTATION_ROUNDING: f64 = 5e-4;
 
-/// Whether a matrix is a translation, rotation and scale: its columns are perpendicular and its last
-/// row is 0, 0, 0, 1.
+/// Whether a matrix is a translation, rotation and scale: its columns are perpendicular and its
+/// last row is 0, 0, 0, 1.
 fn is_decomposable(matrix: &DMat4) -> bool {
     let columns = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(glam::DVec4::truncate);
     let [x, y, z] = columns;
@@ -115,12 +117,16 @@ fn is_decomposable(matrix: &DMat4) -> bool {
 /// The properties of a mesh that matter to the nodes that use it.
 #[derive(Clone, Copy, Debug)]
 struct MeshSummary {
+    /// The number of morph targets of its first primitive.
     targets: usize,
+    /// Whether a primitive has `JOINTS_0`.
     has_joints: bool,
+    /// Whether there are primitives at all; a mesh without has been reported already.
     has_primitives: bool,
 }
 
 impl MeshSummary {
+    /// Summarizes the JSON of a mesh.
     fn from_mesh(mesh: &Value) -> Self {
         let primitives = array_items(mesh, "primitives");
         let has_joints = |primitive: &Value| {
@@ -135,6 +141,7 @@ impl MeshSummary {
     }
 }
 
+/// Validates morph weights and skin of a node against its mesh.
 fn check_mesh_use(document: &CheckedDocument<'_>, at: usize, node: &Value, shapes: &[MeshSummary]) {
     let diagnostics = document.diagnostics;
     let Some(&shape) = index_member(node, "mesh").and_then(|mesh| shapes.get(mesh)) else { return };
@@ -184,6 +191,10 @@ fn build_tree(document: &CheckedDocument<'_>) -> NodeTree {
     traverse_tree(document, parents, &children)
 }
 
+/// Traverses the hierarchy depth first, without recursion, from every root.
+///
+/// It numbers the nodes for [`NodeTree::is_at_or_below`], and finds cycles: their nodes are not
+/// reached.
 fn traverse_tree(
     document: &CheckedDocument<'_>,
     parents: Vec<Option<usize>>,

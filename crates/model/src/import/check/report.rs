@@ -10,7 +10,8 @@ pub struct CheckReport {
     /// The file that was checked.
     pub file: PathBuf,
     /// The diagnostics, the worst severity first, and those of one severity in the order of the
-    /// checks. Of each severity only the first few hundred are listed; the counts below include all.
+    /// checks. Of each severity only the first few hundred are listed; the counts below include
+    /// all.
     pub diagnostics: Vec<Diagnostic>,
     /// The number of errors: broken rules of the specification, or missing data.
     pub errors: usize,

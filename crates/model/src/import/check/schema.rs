@@ -13,15 +13,20 @@ pub(super) mod extensions;
 /// Every object may have `extensions` and `extras` besides.
 #[derive(Debug)]
 pub(super) struct ObjectSchema {
+    /// The name in the specification, such as `accessor` or `textureInfo`.
     pub(super) name: &'static str,
+    /// The members, in the order of the specification.
     pub(super) members: &'static [MemberSchema],
 }
 
 /// The schema of a member.
 #[derive(Debug)]
 pub(super) struct MemberSchema {
+    /// The name of the member.
     pub(super) name: &'static str,
+    /// The type and range of its value.
     pub(super) kind: ValueKind,
+    /// When it must be present.
     pub(super) rule: PresenceRule,
 }
 
@@ -80,20 +85,29 @@ pub(super) enum ValueKind {
 /// A range of numbers, with or without its minimum.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NumberRange {
+    /// The minimum.
     pub(super) min: f64,
+    /// The maximum, which is part of the range.
     pub(super) max: f64,
+    /// Whether the minimum itself is excluded.
     pub(super) exclusive_min: bool,
 }
 
+/// A member that excludes another one.
 const fn excludes(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
     MemberSchema { name, kind, rule: PresenceRule::Excludes(other) }
 }
 
+/// Any number.
 const ANY: NumberRange =
     NumberRange { min: f64::NEG_INFINITY, max: f64::INFINITY, exclusive_min: false };
+/// Factors: [0, 1].
 const UNIT: NumberRange = NumberRange { min: 0.0, max: 1.0, exclusive_min: false };
+/// Components of unit vectors and quaternions: [−1, 1].
 const SIGNED_UNIT: NumberRange = NumberRange { min: -1.0, max: 1.0, exclusive_min: false };
+/// Numbers from 0.
 const NOT_NEGATIVE: NumberRange = NumberRange { min: 0.0, ..ANY };
+/// Numbers greater than 0.
 const POSITIVE: NumberRange = NumberRange { min: 0.0, exclusive_min: true, ..ANY };
 
 /// A collection of objects that indices refer to.
@@ -137,18 +151,22 @@ impl Collection {
     ];
 }
 
+/// A member that may be absent.
 const fn optional(name: &'static str, kind: ValueKind) -> MemberSchema {
     MemberSchema { name, kind, rule: PresenceRule::Optional }
 }
 
+/// A member that must be present.
 const fn required(name: &'static str, kind: ValueKind) -> MemberSchema {
     MemberSchema { name, kind, rule: PresenceRule::Required }
 }
 
+/// A member that is valid only together with another one.
 const fn requires(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
     MemberSchema { name, kind, rule: PresenceRule::Requires(other) }
 }
 
+/// A member of which, with another one, exactly one must be present.
 const fn one_of(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
     MemberSchema { name, kind, rule: PresenceRule::ExactlyOne(other) }
 }

@@ -1,8 +1,8 @@
 //! Schema validation: the walk over a document along the tables of [`schema`](super::schema).
 //!
 //! Every value is compared with the kind that its member has in the tables, and every index that
-//! resolves marks its target as used, for the notes about unused objects. The codes are those of the
-//! Khronos validator, including its distinction between members and items of arrays.
+//! resolves marks its target as used, for the notes about unused objects. The codes are those of
+//! the Khronos validator, including its distinction between members and items of arrays.
 
 use super::codes::{self, DiagnosticCode};
 use super::document::{CheckedDocument, as_whole_number, escape_pointer_token};
@@ -24,16 +24,19 @@ pub(super) fn check_schema(document: &CheckedDocument<'_>) {
 
 /// The state of the walk: the document and the JSON pointer of the current value.
 struct SchemaWalker<'a> {
+    /// The document, which records references and diagnostics.
     document: &'a CheckedDocument<'a>,
     /// The JSON pointer of the current value.
     pointer: String,
 }
 
 impl SchemaWalker<'_> {
+    /// Reports a diagnostic at the current value.
     fn report(&self, code: &DiagnosticCode, message: impl Display) {
         self.document.diagnostics.add(code, &self.pointer, message);
     }
 
+    /// Reports a member of the wrong type.
     fn report_type_mismatch(&self, value: &Value, expected: &str) {
         self.report(&codes::TYPE_MISMATCH, format_args!("{} is not {expected}", ShortValue(value)));
     }
@@ -108,6 +111,7 @@ impl SchemaWalker<'_> {
         }
     }
 
+    /// The extension objects of an object.
     fn check_extensions(&mut self, value: &Value, parent: &ObjectSchema) {
         let Value::Object(extensions) = value else {
             return self.report_type_mismatch(value, "an object");
@@ -169,6 +173,7 @@ impl SchemaWalker<'_> {
         }
     }
 
+    /// A string of the form `2.0`.
     fn check_version(&self, value: &Value) {
         let Some(text) = value.as_str() else {
             return self.report_type_mismatch(value, "a string");
@@ -194,7 +199,8 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// An integer in a range; `1.0` is one, but another number with a fraction is of the wrong type.
+    /// An integer in a range; `1.0` is one, but another number with a fraction is of the wrong
+    /// type.
     fn check_integer(&self, value: &Value, min: u64, max: u64) {
         match (as_whole_number(value), value.as_f64()) {
             (Some(number), _) if (min..=max).contains(&number) => {}
@@ -206,6 +212,7 @@ impl SchemaWalker<'_> {
         }
     }
 
+    /// Reports an integer out of range.
     fn report_out_of_range(&self, value: &Value, min: u64, max: u64) {
         let code = &codes::VALUE_NOT_IN_RANGE;
         if max == u64::MAX {
@@ -228,6 +235,7 @@ impl SchemaWalker<'_> {
         }
     }
 
+    /// A number in a range.
     fn check_number(&self, number: f64, range: NumberRange) {
         let NumberRange { min, max, exclusive_min } = range;
         let is_inside = if exclusive_min { number > min } else { number >= min } && number <= max;
@@ -288,11 +296,13 @@ impl SchemaWalker<'_> {
         }
     }
 
+    /// Reports an index that is no non-negative integer.
     fn report_invalid_index(&self, value: &Value) {
         let message = format_args!("{} is not a valid index", ShortValue(value));
         self.report(&codes::INVALID_INDEX, message);
     }
 
+    /// Reports an index beyond the end of its collection.
     fn report_unresolved(&self, index: u64, collection: Collection) {
         let (_, pointer, _) = Collection::ALL[collection as usize];
         let count =

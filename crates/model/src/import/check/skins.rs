@@ -29,6 +29,10 @@ pub(super) fn check_skins(
     }
 }
 
+/// The joints have a common root, and `skeleton` is a common ancestor of them.
+///
+/// Both are constant-time queries per joint: the root of each node, and its traversal interval, are
+/// part of the tree.
 fn check_common_root(
     document: &CheckedDocument<'_>,
     tree: &NodeTree,
@@ -53,6 +57,7 @@ fn check_common_root(
     }
 }
 
+/// The inverse bind matrices: format, stride, and at least one for each joint.
 fn check_inverse_bind_matrices(
     document: &CheckedDocument<'_>,
     usage: &UsageMap<'_>,
@@ -116,7 +121,9 @@ type InfluenceSet = (Vec<[f32; 4]>, Vec<[f32; 4]>);
 struct InfluenceChecker<'a> {
     document: &'a CheckedDocument<'a>,
     store: &'a BufferStore<'a>,
+    /// The number of joints of the skin.
     joints: usize,
+    /// The JSON pointer of the attributes.
     pointer: String,
 }
 
@@ -128,6 +135,8 @@ const MAX_SETS: usize = 16;
 const WEIGHT_ROUNDING: f64 = 0.003_921_6;
 
 impl InfluenceChecker<'_> {
+    /// Validates all sets of joints and weights of a primitive together, because the weights of a
+    /// vertex sum to 1 over all sets.
     fn check_influences(&self, named: &Map<String, Value>) {
         let mut sets = Vec::new();
         while let (true, Some(joints), Some(weights)) = (
@@ -195,6 +204,10 @@ impl InfluenceChecker<'_> {
         Some(all)
     }
 
+    /// Counts the violations of one vertex, by set and rule.
+    ///
+    /// A joint may influence a vertex only once; joints of weight 0 do not count (glTF 2.0
+    /// §3.7.3.3).
     fn check_vertex(
         &self,
         sets: &[InfluenceSet],

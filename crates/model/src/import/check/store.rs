@@ -17,10 +17,13 @@ use std::cell::{Cell, OnceCell};
 pub(super) struct BufferStore<'a> {
     document: &'a CheckedDocument<'a>,
     resolver: &'a UriResolver<'a>,
+    /// The bytes of each buffer; `None` if they cannot be read.
     buffers: Vec<Option<BufferBytes<'a>>>,
     /// The buffer views decompressed by meshopt, each on first use.
     decompressed: Vec<OnceCell<Option<Vec<u8>>>>,
+    /// The budget of bytes that may be read or decoded, in proportion to the size of the files.
     budget: MemoryBudget<'a>,
+    /// Whether the budget has been exceeded: nothing more is read then.
     exhausted: Cell<bool>,
 }
 
@@ -54,6 +57,10 @@ impl<'a> BufferStore<'a> {
         store
     }
 
+    /// Reads one buffer from its URI or the binary chunk.
+    ///
+    /// The binary chunk is the first buffer without a URI; it may be up to three bytes longer than
+    /// the buffer, for padding.
     fn load_buffer(
         &self,
         at: usize,
@@ -98,6 +105,7 @@ impl<'a> BufferStore<'a> {
         Some(BufferBytes::Read(bytes))
     }
 
+    /// Reports data that is shorter than the declared `byteLength`.
     fn check_length(&self, at: usize, available: usize, length: u64) {
         if (available as u64) < length {
             let message =
@@ -127,6 +135,7 @@ impl<'a> BufferStore<'a> {
         charged.is_ok()
     }
 
+    /// All bytes of a buffer.
     fn buffer_bytes(&self, buffer: usize) -> Option<&[u8]> {
         match self.buffers.get(buffer)?.as_ref()? {
             BufferBytes::Chunk(bytes) => Some(bytes),
@@ -154,6 +163,7 @@ impl<'a> BufferStore<'a> {
         )
     }
 
+    /// A range of a buffer, if it is inside.
     fn buffer_range(&self, buffer: usize, offset: u64, length: u64) -> Option<&[u8]> {
         let start = usize::try_from(offset).ok()?;
         self.buffer_bytes(buffer)?.get(start..)?.get(..usize::try_from(length).ok()?)
@@ -231,6 +241,8 @@ pub(super) fn check_buffer_views(document: &CheckedDocument<'_>) {
     }
 }
 
+/// Validates one buffer view: its range, and its stride, which is a multiple of four, not set for
+/// indices, and not greater than the view.
 fn check_buffer_view(document: &CheckedDocument<'_>, at: usize, view: &Value) {
     let diagnostics = document.diagnostics;
     let offset = integer_member(view, "byteOffset").unwrap_or(0);

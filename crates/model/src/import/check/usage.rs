@@ -54,13 +54,16 @@ impl ViewUse {
 /// The uses of all accessors and buffer views found so far.
 pub(super) struct UsageMap<'a> {
     document: &'a CheckedDocument<'a>,
+    /// The first use of each accessor.
     accessors: RefCell<BTreeMap<usize, AccessorUse>>,
+    /// The first use of each buffer view, or the one its `target` declares.
     views: RefCell<BTreeMap<usize, ViewUse>>,
     /// The accessors of vertex attributes in each buffer view that has no `byteStride`.
     unstrided: RefCell<BTreeMap<usize, BTreeSet<usize>>>,
 }
 
 impl<'a> UsageMap<'a> {
+    /// The uses that the `target` members of buffer views declare.
     pub(super) fn new(document: &'a CheckedDocument<'a>) -> Self {
         let target = |(at, view): (usize, &serde_json::Value)| match integer_member(view, "target")
         {
@@ -78,8 +81,8 @@ impl<'a> UsageMap<'a> {
         }
     }
 
-    /// Records the use of an accessor and of its buffer view; `pointer` is the member that refers to
-    /// it.
+    /// Records the use of an accessor and of its buffer view; `pointer` is the member that refers
+    /// to it.
     pub(super) fn note_accessor(&self, accessor: usize, new: AccessorUse, pointer: &str) {
         let old = *self.accessors.borrow_mut().entry(accessor).or_insert(new);
         if old != new {
@@ -130,6 +133,7 @@ impl<'a> UsageMap<'a> {
         }
     }
 
+    /// The buffer view of an accessor.
     fn accessor_view(&self, accessor: usize) -> Option<usize> {
         index_member(self.document.root_array("accessors").get(accessor)?, "bufferView")
     }
