@@ -22,11 +22,17 @@ use std::path::{Path, PathBuf};
 
 /// A resolved scene with everything else that its files depend on.
 pub(super) struct RenderJob<'a> {
+    /// The flags of the command.
     pub(super) args: &'a RenderArgs,
+    /// The input, format and output of this picture.
     pub(super) task: &'a RenderTask,
+    /// The resolved scene.
     pub(super) scene: &'a Scene,
+    /// The bit depth and the passes.
     pub(super) outputs: Outputs,
+    /// The number of threads.
     pub(super) threads: usize,
+    /// The stopwatch of the stages.
     pub(super) timings: &'a Timings,
 }
 
@@ -59,8 +65,11 @@ impl RenderOutput {
 
 /// An encoded picture that has not been published yet, with its pixels if they are needed.
 struct EncodedPicture {
+    /// The encoded bytes.
     sink: PictureSink,
+    /// The pixels, if they are compared or shown.
     picture: Option<Picture>,
+    /// Warnings of the line drawing.
     warnings: Vec<Warning>,
 }
 
@@ -126,6 +135,7 @@ impl RenderJob<'_> {
         Ok(RenderOutput { region, files, picture, warnings, comparison })
     }
 
+    /// Whether the pixels are needed beside the file.
     fn needs_picture(&self) -> bool {
         self.args.show || self.args.compare.is_requested()
     }
@@ -146,6 +156,7 @@ impl RenderJob<'_> {
         Err(CliError::Usage(wrong.to_owned()))
     }
 
+    /// Opens the destination of the picture.
     fn open_sink(&self) -> Result<PictureSink, CliError> {
         Ok(match &self.task.output {
             Some(path) => {
@@ -155,6 +166,7 @@ impl RenderJob<'_> {
         })
     }
 
+    /// An input/output error as an error about the destination.
     fn output_error(&self, cause: std::io::Error) -> CliError {
         match &self.task.output {
             Some(path) => OutputError { path: path.clone(), cause }.into(),
@@ -192,6 +204,7 @@ impl RenderJob<'_> {
         Ok(EncodedPicture { sink, picture: None, warnings })
     }
 
+    /// Renders the passes and writes them to temporary files beside the picture.
     fn create_pass_files(
         &self,
         output: &Path,

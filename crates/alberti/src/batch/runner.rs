@@ -17,10 +17,13 @@ use std::time::Instant;
 
 /// The settings of a run, and the records of earlier ones.
 pub(super) struct BatchRun<'a> {
+    /// The flags of the command.
     pub(super) args: &'a BatchArgs,
+    /// Everything in the flags that changes a picture, as text for the content keys.
     pub(super) settings: &'a str,
     /// The records of earlier runs in the same folder.
     pub(super) earlier: &'a [JobRecord],
+    /// The number of jobs that run at a time.
     pub(super) threads: usize,
 }
 
@@ -59,6 +62,10 @@ impl BatchRun<'_> {
         results.into_inner().map(|all| all.into_values().collect()).unwrap_or_default()
     }
 
+    /// Runs one job, unless its picture is up to date.
+    ///
+    /// A panic is caught and recorded like any other failure: one broken model must not end a run
+    /// of thousands.
     fn run_job(&self, job: &BatchJob, before: Option<&JobRecord>) -> JobRecord {
         let key = content_key(
             &job.input,
