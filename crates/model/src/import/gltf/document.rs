@@ -154,7 +154,7 @@ fn normalize_members(members: &mut Map<String, Value>) {
     for (key, value) in members {
         match value {
             Value::Number(number) => {
-                *number = normalize_number(number, WIDE_MEMBERS.contains(&key.as_str()))
+                *number = normalize_number(number, WIDE_MEMBERS.contains(&key.as_str()));
             }
             _ => normalize_value(value),
         }

@@ -205,7 +205,7 @@ mod decoder {
             for vertex in 0..self.vertices {
                 match attribute_value(attribute, vertex) {
                     Some(value) => {
-                        append_converted(&mut bytes, value, attribute.data_type(), component)
+                        append_converted(&mut bytes, value, attribute.data_type(), component);
                     }
                     None => return invalid(format!("attribute {id} lacks vertex {vertex}")),
                 }

@@ -96,7 +96,7 @@ pub(super) fn import_images(
     model.images = vec![None; needed.len()];
     match what {
         ImageLoading::Decode if early.needed == needed => {
-            store_decoded(model, early, decoded, warnings)
+            store_decoded(model, early, decoded, warnings);
         }
         ImageLoading::Decode => {
             let found = EncodedImages::read_needed(source, needed);

@@ -205,7 +205,7 @@ pub(super) fn scene_roots(
                 warnings.downgrade_if_lenient(fault, "it is not shown")?;
             }
             Some(true) => {
-                warnings.push_warning(&pointer, "the node is listed twice; it is shown once")
+                warnings.push_warning(&pointer, "the node is listed twice; it is shown once");
             }
             Some(seen) => {
                 *seen = true;

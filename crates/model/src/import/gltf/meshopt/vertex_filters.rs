@@ -17,7 +17,7 @@ impl MeshoptFilter {
             (Self::Octahedral, _) => map_elements(bytes, |v| decode_octahedral(v, 32_767.0)),
             (Self::Quaternion, _) => map_elements(bytes, decode_quaternion),
             (Self::Exponential, _) => {
-                map_elements(bytes, |[number]: [i32; 1]| [decode_exponential(number)])
+                map_elements(bytes, |[number]: [i32; 1]| [decode_exponential(number)]);
             }
             (Self::Color, 4) => map_elements(bytes, |[y, co, cg, a]: [u8; 4]| {
                 let signed = |x: u8| i32::from(x.cast_signed());
