@@ -1,4 +1,4 @@
-//! Posing: a model as an animation has it at a time.
+//! Posing: applies an animation at a time to the nodes, morph weights and materials of a model.
 
 use crate::{
     Animation, AnimationChannel, AnimationTarget, Model, NodeProperty, ObjectProperty, Trs,
@@ -6,9 +6,10 @@ use crate::{
 use homog::Affine;
 
 impl Model {
-    /// Poses the model as an animation has it at a time: nodes, weights of morph targets, and with KHR_animation_pointer
-    /// materials, textures, lights and cameras. What it does not change stays; nodes that would leave the range of numbers
-    /// do as well. Nothing happens if there is no such animation.
+    /// Sets the model to the pose of an animation at a time in seconds.
+    ///
+    /// Everything that the animation does not change stays as it is, and so do nodes whose
+    /// transforms would overflow. An index that is out of range changes nothing.
     pub fn apply_animation(&mut self, animation: usize, seconds: f64) {
         let animations = std::mem::take(&mut self.animations);
         if let Some(Animation { channels, .. }) = animations.get(animation) {
@@ -20,15 +21,20 @@ impl Model {
         self.animations = animations;
     }
 
+    /// Sets the target of a channel to a value.
     fn apply_channel(&mut self, target: AnimationTarget, value: &[f64]) {
         match target {
             AnimationTarget::Node { node, property } => {
-                self.set_node_property(node, property, value)
+                self.set_node_property(node, property, value);
             }
             AnimationTarget::NodeMorphWeight { node, target } => {
-                let usual = self.morph_weights(node).to_vec();
+                let default_weights = self.morph_weights(node).to_vec();
                 if let Some(node) = self.nodes.get_mut(node) {
-                    set_morph_weights(node.morph_weights.get_or_insert(usual), Some(target), value);
+                    set_morph_weights(
+                        node.morph_weights.get_or_insert(default_weights),
+                        Some(target),
+                        value,
+                    );
                 }
             }
             AnimationTarget::MeshMorphWeights { mesh, target } => {
@@ -58,13 +64,14 @@ impl Model {
                 let Some(transform) = self.uv_transforms.get_mut(transform) else { return };
                 transform.set_part(part, value);
                 let material = self.materials.get_mut(transform.material);
-                if let Some(used) = material.and_then(|m| m.texture_mut(transform.slot)) {
-                    used.uv_matrix = transform.to_matrix();
+                if let Some(info) = material.and_then(|m| m.texture_mut(transform.slot)) {
+                    info.uv_matrix = transform.to_matrix();
                 }
             }
         }
     }
 
+    /// Sets the morph weights or a TRS property of a node.
     fn set_node_property(&mut self, node: usize, property: NodeProperty, value: &[f64]) {
         let Some(node) = self.nodes.get_mut(node) else { return };
         if property == NodeProperty::Weights {
@@ -74,7 +81,10 @@ impl Model {
         }
     }
 
-    /// Tells every node its place anew, parents first.
+    /// Recomputes all local and global transforms, parents first.
+    ///
+    /// A local transform that is invalid or would overflow falls back to the previous one, then to
+    /// the identity.
     fn update_node_transforms(&mut self) {
         let mut open: Vec<usize> =
             (0..self.nodes.len()).filter(|&at| self.nodes[at].parent.is_none()).collect();
@@ -106,6 +116,7 @@ fn set_morph_weights(weights: &mut Vec<f32>, target: Option<usize>, value: &[f64
     }
 }
 
+/// Sets translation, rotation or scale; a value of another length changes nothing.
 fn set_trs_property(parts: &mut Trs, property: NodeProperty, value: &[f64]) {
     match (property, value) {
         (NodeProperty::Translation, &[x, y, z]) => parts.translation = [x, y, z],
@@ -169,10 +180,10 @@ mod tests {
 
     #[test]
     fn pointers_change_materials_weights_and_textures() {
-        let used = TextureInfo { texture: 0, uv_set: 0, uv_matrix: TextureInfo::IDENTITY_UV };
-        let material = Material { emissive_texture: Some(used), ..Material::default() };
+        let info = TextureInfo { texture: 0, uv_set: 0, uv_matrix: TextureInfo::IDENTITY_UV };
+        let material = Material { emissive_texture: Some(info), ..Material::default() };
         let slot = TextureSlot::Emissive;
-        let lies =
+        let transform =
             UvTransform { material: 0, slot, offset: [0.0; 2], rotation: 0.0, scale: [1.0; 2] };
         let field = ObjectProperty::for_material("pbrMetallicRoughness/metallicFactor").unwrap();
         let part = UvTransformPart::Offset;
@@ -201,7 +212,7 @@ mod tests {
             nodes: vec![Node { mesh: Some(0), ..Node::default() }],
             meshes: vec![mesh],
             materials: vec![material],
-            uv_transforms: vec![lies],
+            uv_transforms: vec![transform],
             animations: vec![Animation { name: None, channels, duration_seconds: 1.0 }],
             ..Model::default()
         };

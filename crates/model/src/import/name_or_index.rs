@@ -1,19 +1,20 @@
-//! Selection of a scene or a variant of a file by its name or its index.
+//! Selection of a scene or a variant of a file, by name or by index.
 
 use crate::diagnostic::{Diagnostic, codes};
 
-/// A thing of a file, by name or by number.
+/// A name or an index that selects one of several items.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum NameOrIndex {
-    /// By its place in the file, from 0.
+    /// The index in the file, from 0.
     Index(usize),
-    /// By its name.
+    /// The name in the file.
     Name(String),
 }
 
 impl NameOrIndex {
-    /// The number of the chosen one among things with these names, or why there is none. A number that is too large may
-    /// be a name all the same.
+    /// The index of the selected item among items with these names, or an error that lists them.
+    ///
+    /// An index that is out of range may still be a name made of digits.
     pub(super) fn find_among(
         &self,
         names: &[Option<&str>],

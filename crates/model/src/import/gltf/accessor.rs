@@ -1,9 +1,10 @@
-//! Accessors: where the numbers of an attribute lie, checked once so that reading them cannot fail.
+//! Accessors: typed views into buffers, checked once so that reading their elements cannot fail.
 //!
-//! An accessor says: from this byte on, so many elements, each of so many components of such a type, one element every
-//! so many bytes. All of that is the file's claim. [`Source::elements`] checks it in 64-bit arithmetic against the
-//! bytes there are. Arrays are made by [`Source::floats`] and its like, which count what they make: an accessor without
-//! bytes (zeros, by the specification), or the same bytes used a thousand times, must not take all memory.
+//! An accessor claims: from this byte on, so many elements of such a type, one every so many bytes
+//! (glTF 2.0 §3.6.2). [`AccessorReader::resolve_accessor`] checks the claim in 64-bit arithmetic
+//! against the bytes there are. Arrays are made by [`AccessorReader::read_floats`] and its
+//! siblings, which charge the memory budget: an accessor without bytes (zeros, by the
+//! specification), or the same bytes used a thousand times, must not exhaust memory.
 
 use super::buffers::{Buffers, checked_slice};
 use super::elements::{ResolvedAccessor, SparseElements, StridedBytes};
@@ -13,7 +14,7 @@ use gltf::json::Root;
 use gltf::json::accessor::{Accessor, ComponentType, IndexComponentType, Type, sparse};
 use gltf::json::validation::Checked;
 
-/// The file's accessors.
+/// Reader of the file's accessors.
 pub(super) struct AccessorReader<'a> {
     pub(super) root: &'a Root,
     pub(super) buffers: &'a Buffers<'a>,
@@ -25,7 +26,10 @@ impl<'a> AccessorReader<'a> {
         Self { root, buffers, limits }
     }
 
-    /// The elements of an accessor. `user` is the pointer to the member that names it.
+    /// Resolves an accessor to its bytes. `user` is the pointer to the member that refers to it.
+    ///
+    /// # Errors
+    /// The accessor does not exist, has an invalid type, or its elements are not all in the buffer.
     pub(super) fn resolve_accessor(
         &self,
         accessor: usize,
@@ -62,7 +66,7 @@ impl<'a> AccessorReader<'a> {
         })
     }
 
-    /// Whether an accessor exists and has no bytes.
+    /// Whether an accessor exists and has no bytes: neither a buffer view nor sparse values.
     pub(super) fn has_no_data(&self, accessor: usize) -> bool {
         let json = self.root.accessors.get(accessor);
         json.is_some_and(|json| json.buffer_view.is_none() && json.sparse.is_none())
@@ -92,7 +96,7 @@ impl<'a> AccessorReader<'a> {
         Ok(of.to_indices())
     }
 
-    /// Counts an array that is about to be made of an accessor.
+    /// Charges the memory budget for an array that is about to be made of an accessor.
     pub(super) fn charge_array(
         &self,
         accessor: usize,
@@ -103,7 +107,7 @@ impl<'a> AccessorReader<'a> {
         self.buffers.charge_bytes(&format!("/accessors/{accessor}/count"), bytes)
     }
 
-    /// The bytes of a block from an offset in a buffer view on.
+    /// The bytes of elements that begin at an offset in a buffer view.
     fn strided_bytes(
         &self,
         view: usize,
@@ -131,7 +135,8 @@ impl<'a> AccessorReader<'a> {
         }
     }
 
-    /// The elements that replace some of the `base`.
+    /// Resolves a sparse accessor: indices and values of the elements that replace some of the
+    /// `base` (glTF 2.0 §3.6.2.3).
     fn resolve_sparse(
         &self,
         json: &sparse::Sparse,
@@ -167,7 +172,8 @@ impl<'a> AccessorReader<'a> {
     }
 }
 
-/// What a run must hold: so many elements of such a size; `pointer` says who wants them.
+/// Number and size of the elements that must be present; `pointer` is the location that declares
+/// them.
 #[derive(Clone, Copy)]
 struct ElementLayout<'a> {
     pointer: &'a str,
@@ -175,6 +181,7 @@ struct ElementLayout<'a> {
     size: usize,
 }
 
+/// Component type and element type.
 fn accessor_format(json: &Accessor, pointer: &str) -> Result<(ComponentType, Type), Diagnostic> {
     let Checked::Valid(component) = json.component_type else {
         let problem = "the component type is not one of 5120, 5121, 5122, 5123, 5125 and 5126";
@@ -187,8 +194,8 @@ fn accessor_format(json: &Accessor, pointer: &str) -> Result<(ComponentType, Typ
     Ok((component.0, shape))
 }
 
-/// The bytes of an element. Columns of matrices begin at multiples of four (glTF 2.0 §3.6.2.4), which makes a
-/// difference for small matrices of small integers.
+/// Size of an element in bytes. Columns of matrices begin at multiples of four (glTF 2.0 §3.6.2.4),
+/// which makes a difference for small matrices of small integers.
 fn element_size(component: ComponentType, shape: Type) -> usize {
     let column = |rows: usize| (rows * component.size()).next_multiple_of(4);
     match shape {

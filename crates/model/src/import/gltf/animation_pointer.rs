@@ -1,5 +1,7 @@
-//! What a JSON pointer of an animation means (KHR_animation_pointer): a node's transform or weights, a number of a
-//! material, light or camera, the transform of a texture.
+//! Animation pointers (KHR_animation_pointer): resolves a JSON pointer to the property it animates.
+//!
+//! Supported are transforms and weights of nodes, numbers of materials, lights and cameras, and
+//! texture transforms.
 
 use super::animation::AnimatedObjects;
 use super::material::texture_transform;
@@ -7,21 +9,21 @@ use crate::animation::object_model::{LIGHT_PROPERTIES, MATERIAL_PROPERTIES};
 use crate::{AnimationTarget, NodeProperty, ObjectProperty, TextureSlot, UvTransformPart};
 use gltf::json::Root;
 
-/// What the values of a channel are.
+/// Type of a channel's values.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum ChannelValueKind {
-    /// Translations or scales.
+    /// Three floats.
     TranslationOrScale,
     /// Quaternions.
     Rotation,
-    /// As many weights as there are.
+    /// All morph weights, as many as there are.
     Weights,
-    /// So many numbers.
+    /// A fixed number of components.
     Numbers(usize),
 }
 
 impl ChannelValueKind {
-    /// What the values of a property of a node are.
+    /// The type of the values of a node's property.
     pub(super) fn for_property(property: NodeProperty) -> Self {
         match property {
             NodeProperty::Translation | NodeProperty::Scale => Self::TranslationOrScale,
@@ -31,7 +33,8 @@ impl ChannelValueKind {
     }
 }
 
-/// The target of a pointer and what its values are; `None` if there is no such thing, or none that changes here.
+/// The target of a pointer and the type of its values; `None` if nothing that can be animated is
+/// there.
 pub(super) fn resolve_pointer(
     root: &Root,
     targets: &mut AnimatedObjects<'_>,
@@ -74,11 +77,12 @@ pub(super) fn resolve_pointer(
     }
 }
 
-/// A number of a JSON pointer: digits only.
+/// An index in a JSON pointer: digits only.
 fn parse_index(step: &str) -> Option<usize> {
     step.bytes().all(|byte| byte.is_ascii_digit()).then(|| step.parse().ok())?
 }
 
+/// A property or a single morph weight of a node.
 fn node_target(
     root: &Root,
     targets: &AnimatedObjects<'_>,
@@ -106,7 +110,7 @@ fn node_target(
     ))
 }
 
-/// The morph target of a mesh that `weights/N` means, or all of them for `weights`.
+/// Morph target of `weights/N`, or `None` inside for `weights`, which means all of them.
 fn morph_target_index(root: &Root, mesh: usize, path: &str) -> Option<Option<usize>> {
     let mesh = root.meshes.get(mesh)?;
     if path == "weights" {
@@ -118,6 +122,7 @@ fn morph_target_index(root: &Root, mesh: usize, path: &str) -> Option<Option<usi
     (target < count).then_some(Some(target))
 }
 
+/// A numeric property of a material.
 fn material_target(
     targets: &mut AnimatedObjects<'_>,
     at: usize,
@@ -132,7 +137,8 @@ fn material_target(
     ))
 }
 
-/// A part of the transform of a texture. The transform is noted, once for all its parts.
+/// A property of a texture transform. The transform is added to the list, once for all its
+/// properties.
 fn texture_transform_target(
     root: &Root,
     targets: &mut AnimatedObjects<'_>,

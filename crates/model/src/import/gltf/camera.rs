@@ -1,4 +1,4 @@
-//! Cameras: their numbers, checked for sense. One that makes no view is left out with a warning.
+//! Cameras: projections with their parameters checked; an invalid one is left out with a warning.
 
 use crate::diagnostic::Diagnostic;
 use crate::import::warnings::ImportWarnings;
@@ -8,7 +8,7 @@ use gltf::json::camera::{Camera, Orthographic, Perspective, Type};
 use gltf::json::validation::Checked;
 use std::f64::consts::PI;
 
-/// The cameras of a file, and for each whether its numbers make a view.
+/// All cameras of a file, and for each whether its parameters are valid.
 pub(super) fn import_cameras(
     root: &Root,
     warnings: &mut ImportWarnings,
@@ -27,10 +27,11 @@ pub(super) fn import_cameras(
     (lenses, usable)
 }
 
-/// What stands in the place of a camera that makes no view.
+/// Replaces the projection of an invalid camera.
 const DEFAULT_PROJECTION: CameraProjection =
     CameraProjection::Perspective { fov_y: PI / 4.0, aspect: None, near: 0.1, far: f64::INFINITY };
 
+/// Reads and checks a camera.
 fn camera_projection(json: &Camera, pointer: &str) -> Result<CameraProjection, Diagnostic> {
     match (json.type_, &json.perspective, &json.orthographic) {
         (Checked::Valid(Type::Perspective), Some(json), _) => perspective_projection(json, pointer),
@@ -45,6 +46,7 @@ fn camera_projection(json: &Camera, pointer: &str) -> Result<CameraProjection, D
     }
 }
 
+/// Checks the parameters of a perspective camera.
 fn perspective_projection(
     json: &Perspective,
     pointer: &str,
@@ -73,6 +75,7 @@ fn perspective_projection(
     }
 }
 
+/// Checks the parameters of an orthographic camera; negative magnifications are taken as positive.
 fn orthographic_projection(
     json: &Orthographic,
     pointer: &str,
@@ -103,7 +106,7 @@ mod tests {
     use super::*;
     use serde_json::json;
 
-    /// What becomes of a camera: its kind, or pointer and problem.
+    /// The projection that is read, or location and message of the error.
     fn read_camera(camera: serde_json::Value) -> Result<CameraProjection, (String, String)> {
         let camera = serde_json::from_value(camera).unwrap();
         camera_projection(&camera, "/cameras/0").map_err(|fault| (fault.location, fault.message))

@@ -1,21 +1,21 @@
-//! The outermost layer: is this glTF at all, and where in it are the JSON and the binary chunk?
+//! GLB container: locates the JSON and the binary chunk of a `.gltf` or `.glb` file.
 //!
-//! What a file is, its first bytes say; its name is not asked. A binary file is
+//! The first bytes decide which of the two it is; the file's name is ignored. A binary file is
 //!
 //! ```text
 //!  0      4        8        12       16      20                 20+n
-//!  ┌──────┬────────┬────────┬────────┬───────┬───────────────────┬──── … more chunks: length, type, data
+//!  ┌──────┬────────┬────────┬────────┬───────┬───────────────────┬──── … chunks: length, type, data
 //!  │ glTF │ 2      │ length │ n      │ JSON  │ n bytes of JSON   │
 //!  └──────┴────────┴────────┴────────┴───────┴───────────────────┴────
 //! ```
 //!
-//! with all numbers little-endian (glTF 2.0 §4.4). The lengths are not believed before they are checked.
+//! with all numbers little-endian (glTF 2.0 §4.4). No length is used before it has been checked.
 
 use crate::diagnostic::{Diagnostic, codes};
 use crate::import::warnings::ImportWarnings;
 use std::ops::Range;
 
-/// Where the parts of a file lie in its bytes.
+/// Byte ranges of the JSON and of the binary chunk.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Container {
     pub(super) json: Range<usize>,
@@ -27,7 +27,7 @@ const CHUNK_HEADER: usize = 8;
 const TRUNCATED: &str = "the file is cut off: copy or export it again";
 
 impl Container {
-    /// Finds the parts of a file by its content.
+    /// Locates the JSON and the binary chunk, in text or GLB form.
     pub(super) fn from_bytes(
         bytes: &[u8],
         warnings: &mut ImportWarnings,
@@ -49,6 +49,7 @@ impl Container {
         }
     }
 
+    /// Locates the chunks of a GLB file.
     fn from_glb(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<Self, Diagnostic> {
         let end = check_glb_header(bytes, warnings)?;
         if end < bytes.len() {
@@ -70,7 +71,7 @@ impl Container {
     }
 }
 
-/// Checks magic, version and length; gives the end of the file as declared.
+/// Checks version and length; returns the end of the file as declared.
 fn check_glb_header(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<usize, Diagnostic> {
     let (Some(version), Some(length)) = (read_u32(bytes, 4), read_u32(bytes, 8)) else {
         return Err(format_error(&format!("the file has only {} bytes", bytes.len()), TRUNCATED));
@@ -96,9 +97,10 @@ fn check_glb_header(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<usize
     Ok(length)
 }
 
-/// A chunk's type and place.
+/// Type and byte range of a chunk.
 type GlbChunk<'a> = (&'a [u8; 4], Range<usize>);
 
+/// Iterator over the chunks of a GLB file.
 struct GlbChunks<'a> {
     bytes: &'a [u8],
     offset: usize,

@@ -1,4 +1,4 @@
-//! Meshes shown many times by one node (EXT_mesh_gpu_instancing): accessors with a place for each time.
+//! GPU instancing (EXT_mesh_gpu_instancing): meshes that one node draws many times.
 
 use super::accessor::AccessorReader;
 use super::attribute::{AllowedFormats, ROTATION, TRANSLATION_OR_SCALE};
@@ -8,12 +8,13 @@ use crate::import::warnings::ImportWarnings;
 use homog::{Affine, Model as ModelSpace, Vector};
 use serde_json::{Map, Value};
 
-/// The name of the extension.
 const EXTENSION: &str = "EXT_mesh_gpu_instancing";
 
+/// Transform of an instance relative to its node.
 type InstanceTransform = Affine<ModelSpace, ModelSpace>;
 
-/// Gives the nodes the places that their meshes are shown at. What cannot be read leaves the mesh where its node is.
+/// Reads the instance transforms of all nodes. Where they are invalid the mesh is drawn once, at
+/// its node.
 pub(super) fn import_instances(
     source: &AccessorReader<'_>,
     nodes: &mut [Node],
@@ -57,7 +58,7 @@ pub(super) fn import_instances(
     Ok(())
 }
 
-/// The places: scaled, then turned, then moved. `None` stands for one that is none.
+/// Composes the transforms from translation, rotation and scale; `None` for those that are invalid.
 fn instance_transforms(
     source: &AccessorReader<'_>,
     attributes: &Map<String, Value>,
@@ -94,6 +95,7 @@ fn instance_transforms(
     Ok((0..count).map(place).collect())
 }
 
+/// Reader of the attributes of the instances of one node.
 struct InstanceAttributes<'a> {
     source: &'a AccessorReader<'a>,
     attributes: &'a Map<String, Value>,
@@ -101,6 +103,7 @@ struct InstanceAttributes<'a> {
 }
 
 impl InstanceAttributes<'_> {
+    /// An attribute, if the file has it.
     fn read_attribute<const N: usize>(
         &self,
         name: &str,

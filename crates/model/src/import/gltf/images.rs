@@ -1,7 +1,8 @@
-//! Images: which ones are needed, and their bytes.
+//! Images: the visible ones, read and checked against the limits, then decoded.
 //!
-//! Only images that a visible surface uses are read. A broken image costs a warning, never the model. The budget of texels
-//! is spent in the order of the file, from the sizes in the headers, before any decoder runs.
+//! Only images that a visible surface uses are read. A broken image costs a warning, never the
+//! model. The limit on texels is spent in the order of the file, by the sizes in the headers,
+//! before any decoder runs.
 
 use super::accessor::AccessorReader;
 use super::selection;
@@ -19,13 +20,16 @@ use std::borrow::Cow;
 /// Images of a file that have been read but not decoded.
 #[derive(Default)]
 pub(super) struct EncodedImages<'a> {
-    /// For each image of the file, whether it was looked for.
+    /// For each image of the file, whether it was to be read.
     needed: Vec<bool>,
+    /// The images that could be read.
     pub(super) encoded: Vec<EncodedImage<'a>>,
+    /// Warnings about those that could not.
     warnings: ImportWarnings,
 }
 
 impl<'a> EncodedImages<'a> {
+    /// Reads the images that are needed.
     pub(super) fn read_needed(source: &'a AccessorReader<'_>, needed: Vec<bool>) -> Self {
         let mut warnings = ImportWarnings::default();
         let encoded = read_encoded(&needed, source, &mut warnings);
@@ -33,7 +37,9 @@ impl<'a> EncodedImages<'a> {
     }
 }
 
-/// The images that the surfaces of a model will show whose meshes are not read yet, by what the file says of them.
+/// Images that the surfaces of the active scene will use, according to the JSON.
+///
+/// Used before meshes are read, so that images can be decoded meanwhile.
 pub(super) fn announced_images(root: &Root, model: &Model, variant: Option<usize>) -> Vec<bool> {
     let mut needed = vec![false; root.images.len()];
     for (mesh, _) in
@@ -49,7 +55,7 @@ pub(super) fn announced_images(root: &Root, model: &Model, variant: Option<usize
     needed
 }
 
-/// The images that visible surfaces show.
+/// Images that visible surfaces use.
 fn needed_images(model: &Model, images: usize) -> Vec<bool> {
     let mut needed = vec![false; images];
     let shown = visible_meshes(model, model.meshes.len());
@@ -60,7 +66,7 @@ fn needed_images(model: &Model, images: usize) -> Vec<bool> {
     needed
 }
 
-/// For each mesh, whether the shown scene shows it.
+/// For each mesh, whether the active scene draws it.
 fn visible_meshes(model: &Model, meshes: usize) -> Vec<bool> {
     let mut shown = vec![false; meshes];
     for instance in model.node_instances() {
@@ -71,7 +77,7 @@ fn visible_meshes(model: &Model, meshes: usize) -> Vec<bool> {
     shown
 }
 
-/// Notes the images of a material.
+/// Marks the images of a material.
 fn mark_material_images(material: Option<usize>, model: &Model, needed: &mut [bool]) {
     let material = material.and_then(|at| model.materials.get(at));
     for (_, used) in material.into_iter().flat_map(Material::visible_textures) {
@@ -82,8 +88,10 @@ fn mark_material_images(material: Option<usize>, model: &Model, needed: &mut [bo
     }
 }
 
-/// Gives a model that is otherwise complete its images. What was found before and `decoded` meanwhile is used, unless the
-/// meshes turned out to need other images than the file announced.
+/// Gives an otherwise complete model its images.
+///
+/// Those that were read early and `decoded` meanwhile are used, unless the meshes turned out to
+/// need other images than the file announced.
 pub(super) fn import_images(
     source: &AccessorReader<'_>,
     model: &mut Model,
@@ -96,7 +104,7 @@ pub(super) fn import_images(
     model.images = vec![None; needed.len()];
     match what {
         ImageLoading::Decode if early.needed == needed => {
-            store_decoded(model, early, decoded, warnings)
+            store_decoded(model, early, decoded, warnings);
         }
         ImageLoading::Decode => {
             let found = EncodedImages::read_needed(source, needed);
@@ -115,7 +123,7 @@ pub(super) fn import_images(
     }
 }
 
-/// Puts decoded images into a model, and the faults into its warnings.
+/// Stores decoded images in the model, and adds a warning for each failure.
 fn store_decoded(
     model: &mut Model,
     found: EncodedImages<'_>,
@@ -135,12 +143,14 @@ fn store_decoded(
     }
 }
 
+/// Name and URI of an image.
 fn image_info(json: &JsonImage) -> ImageInfo {
     let is_data = |uri: &str| uri.get(..5).is_some_and(|s| s.eq_ignore_ascii_case("data:"));
     let uri = json.uri.as_deref().map(|uri| if is_data(uri) { "data:" } else { uri }.to_owned());
     ImageInfo { name: json.name.clone(), uri, header: None }
 }
 
+/// Stores format and size of the images that were read.
 fn store_headers(encoded: &[EncodedImage<'_>], files: &mut [ImageInfo]) {
     for EncodedImage { index: number, bytes, size: (width, height) } in encoded {
         let (format, bytes) = (image_decoder::format_name(bytes), bytes.len());
@@ -148,7 +158,7 @@ fn store_headers(encoded: &[EncodedImage<'_>], files: &mut [ImageInfo]) {
     }
 }
 
-/// The bytes of the needed images; those that cannot be had are a warning.
+/// Reads the bytes of the needed images; failures are warnings.
 fn read_encoded<'a>(
     needed: &[bool],
     source: &'a AccessorReader<'_>,
@@ -175,6 +185,7 @@ fn read_encoded<'a>(
 
 const SHOWN_WITHOUT_IMAGE: &str = "the surface is shown without it";
 
+/// The encoded bytes, from a file, a data URI or a buffer view.
 fn image_bytes<'a>(
     json: &JsonImage,
     pointer: &str,
@@ -194,6 +205,7 @@ fn image_bytes<'a>(
     }
 }
 
+/// Checks size and number of texels against the limits.
 fn check_image_size(
     width: u32,
     height: u32,

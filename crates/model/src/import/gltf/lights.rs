@@ -1,4 +1,5 @@
-//! Lights (KHR_lights_punctual): their numbers, checked for sense. One that makes none is left out with a warning.
+//! Punctual lights (KHR_lights_punctual), their parameters checked; an invalid one is left out with
+//! a warning.
 
 use crate::diagnostic::Diagnostic;
 use crate::import::warnings::ImportWarnings;
@@ -9,7 +10,7 @@ use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
 const EXTENSION: &str = "KHR_lights_punctual";
 
-/// Reads all lights of a file and tells the nodes which they carry.
+/// Reads all lights of a file and attaches them to nodes.
 pub(super) fn import_lights(
     root: &Root,
     nodes: &mut [Node],
@@ -37,7 +38,7 @@ pub(super) fn import_lights(
     lights
 }
 
-/// Tells the nodes which lights they carry.
+/// Sets the lights of nodes.
 fn attach_lights(root: &Root, nodes: &mut [Node], usable: &[bool], warnings: &mut ImportWarnings) {
     for (at, node) in nodes.iter_mut().enumerate() {
         let json = root.nodes.get(at).and_then(|json| json.extensions.as_ref());
@@ -56,6 +57,7 @@ fn attach_lights(root: &Root, nodes: &mut [Node], usable: &[bool], warnings: &mu
     }
 }
 
+/// Reads and checks a light; numbers out of bounds are clamped with a warning.
 fn parse_light(
     json: &Value,
     pointer: &str,
@@ -102,7 +104,7 @@ fn parse_light(
     Ok(light)
 }
 
-/// The numbers of an object.
+/// Reader of the numbers in a JSON object.
 struct LightNumbers<'a, 'w> {
     json: &'a Map<String, Value>,
     pointer: &'a str,
@@ -110,7 +112,7 @@ struct LightNumbers<'a, 'w> {
 }
 
 impl LightNumbers<'_, '_> {
-    /// A number within bounds; where it is missing, the usual one.
+    /// A number clamped to bounds; `default` if it is absent.
     fn read_number(&mut self, member: &str, usual: f32, [least, greatest]: [f32; 2]) -> f32 {
         let Some(value) = self.json.get(member) else { return usual };
         let said = value.as_f64().map(|x| x as f32);

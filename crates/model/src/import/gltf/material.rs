@@ -1,7 +1,8 @@
-//! Materials: factors and textures, those of the KHR_materials extensions among them.
+//! Materials: factors and textures, including those of the KHR_materials extensions.
 //!
-//! The numbers of extensions are found by the table of [`Field`](crate::Field)s, which says where they stand and
-//! within which bounds they must be; textures by the table of [`TextureSlot`]s.
+//! Numbers of extensions are found by the table of [animatable
+//! properties](crate::animation::object_model), which has their JSON pointers and bounds; textures
+//! by the table of [`TextureSlot`]s.
 
 use crate::animation::object_model::{MATERIAL_PROPERTIES, PropertyRow};
 use crate::diagnostic::Diagnostic;
@@ -15,14 +16,14 @@ use gltf::json::material::AlphaMode as JsonAlphaMode;
 use gltf::json::validation::Checked;
 use serde_json::{Map, Value};
 
-/// Reads all materials of a file. What is wrong with one is a warning.
+/// Reads all materials of a file. Faults in them are warnings.
 pub(super) fn import_materials(root: &Root, warnings: &mut ImportWarnings) -> Vec<Material> {
     (0..root.materials.len())
         .map(|at| MaterialReader { root, at, warnings: &mut *warnings }.read_material())
         .collect()
 }
 
-/// The transform of a texture as the file gives it (KHR_texture_transform); `None` if it gives none.
+/// The texture transform (KHR_texture_transform) in a slot; `None` if the file gives none.
 pub(super) fn texture_transform(
     root: &Root,
     material: usize,
@@ -39,6 +40,7 @@ pub(super) fn texture_transform(
     })
 }
 
+/// Reader of one material.
 struct MaterialReader<'a, 'w> {
     root: &'a Root,
     at: usize,
@@ -46,6 +48,7 @@ struct MaterialReader<'a, 'w> {
 }
 
 impl<'a> MaterialReader<'a, '_> {
+    /// Reads core properties first, then the extensions.
     fn read_material(mut self) -> Material {
         let json = &self.root.materials[self.at];
         let pbr = &json.pbr_metallic_roughness;
@@ -78,23 +81,25 @@ impl<'a> MaterialReader<'a, '_> {
         material
     }
 
+    /// The object of an extension, if the material has it.
     fn extension_object(&self, name: &str) -> Option<&'a Map<String, Value>> {
         let extensions = self.root.materials[self.at].extensions.as_ref()?;
         extensions.others.get(name)?.as_object()
     }
 
+    /// JSON pointer to a member of the material.
     fn member_pointer(&self, member: &str) -> String {
         format!("/materials/{}/{member}", self.at)
     }
 
-    /// Factors brought into [0, 1], where the specification wants them.
+    /// Clamps factors to [0, 1], with a warning.
     fn clamp_unit<const N: usize>(&mut self, member: &str, factors: [f32; N]) -> [f32; N] {
         let mut inside = factors;
         self.clamp_numbers(member, &mut inside, [0.0, 1.0]);
         inside
     }
 
-    /// Brings numbers within bounds, with a warning; what is no number becomes the least.
+    /// Clamps numbers to bounds, with a warning; what is not a number becomes the minimum.
     fn clamp_numbers(&mut self, member: &str, numbers: &mut [f32], [least, greatest]: [f32; 2]) {
         let said = numbers.to_vec();
         for number in &mut *numbers {
@@ -126,7 +131,8 @@ impl<'a> MaterialReader<'a, '_> {
         }
     }
 
-    /// What the extensions add: first the records with their textures, then the numbers.
+    /// Reads the extensions: first the records with their textures, then the numbers by their
+    /// table.
     fn read_extensions(&mut self, material: &mut Material) {
         self.create_extensions(material);
         for PropertyRow { path, bounds, numbers_mut: numbers, .. } in &MATERIAL_PROPERTIES {
@@ -162,6 +168,7 @@ impl<'a> MaterialReader<'a, '_> {
         }
     }
 
+    /// Creates the record of each extension that is present, with its textures and default numbers.
     fn create_extensions(&mut self, material: &mut Material) {
         use TextureSlot as Slot;
         let more = &mut material.extensions;
@@ -216,6 +223,7 @@ impl<'a> MaterialReader<'a, '_> {
         Some(NormalTexture { texture, scale })
     }
 
+    /// The texture in a slot; a reference to a texture that does not exist is a warning.
     fn read_texture(&mut self, slot: TextureSlot) -> Option<TextureInfo> {
         let JsonTextureInfo { texture, uv_set, transform, .. } =
             JsonTextureInfo::from_slot(self.root, self.at, slot)?;
@@ -241,17 +249,18 @@ impl<'a> MaterialReader<'a, '_> {
     }
 }
 
-/// A texture as the file names it.
+/// A texture reference as in the file.
 struct JsonTextureInfo<'a> {
     texture: usize,
     uv_set: usize,
-    /// The scale of normals.
+    /// Scale of a normal map.
     scale: f32,
+    /// The object of KHR_texture_transform.
     transform: Option<&'a Value>,
 }
 
 impl<'a> JsonTextureInfo<'a> {
-    /// The texture in a slot of a material; its number may be that of no texture.
+    /// The reference in a slot of a material; its texture may not exist.
     fn from_slot(root: &'a Root, material: usize, slot: TextureSlot) -> Option<Self> {
         let json = root.materials.get(material)?;
         let pbr = &json.pbr_metallic_roughness;
@@ -285,6 +294,7 @@ impl<'a> JsonTextureInfo<'a> {
         })
     }
 
+    /// The reference in a slot of an extension.
     fn from_extension(root: &'a Root, material: usize, slot: TextureSlot) -> Option<Self> {
         let (name, member) = slot.json_path().strip_prefix("extensions/")?.split_once('/')?;
         let json = root.materials[material].extensions.as_ref()?.others.get(name)?.get(member)?;
@@ -300,7 +310,7 @@ impl<'a> JsonTextureInfo<'a> {
 
 const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
 
-/// Warns of primitives that lack the texture coordinates their material asks for.
+/// Warns of primitives that lack the texture coordinates which their material uses.
 pub(super) fn warn_of_missing_texcoords(model: &Model, warnings: &mut ImportWarnings) {
     for (at, mesh) in model.meshes.iter().enumerate() {
         for (part, primitive) in mesh.primitives.iter().enumerate() {

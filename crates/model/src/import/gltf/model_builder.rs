@@ -1,4 +1,4 @@
-//! From a document to a model: one step for each part, in an order in which each finds what it needs.
+//! Model assembly: the order in which the parts of a document are read.
 
 use super::accessor::AccessorReader;
 use super::animation::{self, AnimatedObjects};
@@ -14,7 +14,7 @@ use crate::import::warnings::ImportWarnings;
 use crate::import::{ImageLoading, ImportOptions};
 use crate::{Model, Node};
 
-/// Builds the model of a document. The images are decoded while the meshes are read.
+/// Builds the model of a document. Images are decoded while the meshes are read.
 pub(super) fn build_model(
     document: &GltfDocument,
     source: &AccessorReader<'_>,
@@ -35,6 +35,7 @@ pub(super) fn build_model(
     Ok(model)
 }
 
+/// Reads the images that the JSON says will be visible.
 fn collect_announced_images<'a>(
     source: &'a AccessorReader<'_>,
     model: &Model,
@@ -49,7 +50,7 @@ fn collect_announced_images<'a>(
     }
 }
 
-/// Everything but the meshes and the images.
+/// Reads everything but meshes and images.
 fn build_scene_graph(
     document: &GltfDocument,
     source: &AccessorReader<'_>,
@@ -101,7 +102,7 @@ fn build_animations(
     Ok(())
 }
 
-/// The meshes, in the materials of the chosen variant, and where they stand.
+/// Reads the meshes with the materials of the active variant, and their instances.
 fn build_meshes(
     document: &GltfDocument,
     source: &AccessorReader<'_>,
@@ -122,7 +123,7 @@ fn build_meshes(
     scene_graph::check_scene_items(model, source.limits)
 }
 
-/// Nodes do not name skins and cameras that have been left out.
+/// Clears references of nodes to skins and cameras that have been left out.
 fn drop_dangling_references(model: &mut Model, usable_cameras: &[bool]) {
     let Model { nodes, skins, .. } = model;
     for Node { skin, camera, .. } in nodes {

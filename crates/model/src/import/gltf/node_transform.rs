@@ -1,4 +1,4 @@
-//! The transforms of nodes, in the double precision that JSON has.
+//! Node transforms, in the double precision of JSON numbers.
 
 use crate::Trs;
 use crate::diagnostic::Diagnostic;
@@ -7,17 +7,17 @@ use glam::{DMat4, DVec4};
 use homog::{Affine, Model};
 use serde_json::{Map, Value};
 
-/// A node's own transform, as the file gives it; every number is finite.
+/// A node's local transform as the file gives it; all numbers are finite.
 #[derive(Clone, Debug)]
 pub(super) enum NodeTransform {
-    /// A matrix, column by column.
+    /// A matrix in column-major order.
     Matrix([f64; 16]),
-    /// Scale, then rotate, then move.
+    /// Translation, rotation and scale.
     Trs(Trs),
 }
 
 impl NodeTransform {
-    /// Takes the transforms out of the nodes of a document.
+    /// Removes the transforms from the nodes of a document and returns them.
     pub(super) fn take_transforms(
         document: &mut Value,
         warnings: &mut ImportWarnings,
@@ -36,6 +36,7 @@ impl NodeTransform {
         nodes.into_iter().flatten().enumerate().map(take).map(forgiving).collect()
     }
 
+    /// Removes the transform from a node.
     fn take_transform(node: &mut Map<String, Value>, at: usize) -> Result<Self, Diagnostic> {
         let matrix = take_numbers(node, at, "matrix")?;
         let translation = take_numbers(node, at, "translation")?;
@@ -51,7 +52,7 @@ impl NodeTransform {
         })
     }
 
-    /// The parts, if it is given in parts.
+    /// The transform as TRS; `None` for a matrix.
     pub(super) fn to_trs(&self) -> Option<Trs> {
         match self {
             Self::Matrix(_) => None,
@@ -59,7 +60,7 @@ impl NodeTransform {
         }
     }
 
-    /// The transform as a map, or why there is none.
+    /// The transform as an affine map, or the reason why it is none.
     pub(super) fn to_affine(&self, pointer: &str) -> Result<Affine<Model, Model>, Diagnostic> {
         match self {
             Self::Matrix(columns) => affine_from_columns(columns).ok_or_else(|| {
@@ -75,8 +76,10 @@ impl NodeTransform {
     }
 }
 
-/// A matrix of 16 numbers, column by column, as an affine map; `None` if its last row is clearly not (0, 0, 0, 1).
-/// Exporters that invert a matrix in single precision leave a last row that is so but for rounding.
+/// An affine map from a matrix in column-major order; `None` if its last row is clearly not (0, 0,
+/// 0, 1).
+///
+/// Exporters that invert a matrix in single precision leave rounding errors in the last row.
 pub(super) fn affine_from_columns(columns: &[f64; 16]) -> Option<Affine<Model, Model>> {
     let mut matrix = DMat4::from_cols_array(columns);
     let off = (matrix.row(3) - DVec4::W).abs().max_element();
@@ -86,7 +89,7 @@ pub(super) fn affine_from_columns(columns: &[f64; 16]) -> Option<Affine<Model, M
     Affine::from_raw(matrix).filter(|map| off < 1e-3 && map.is_finite())
 }
 
-/// Takes the member `key` of a node, an array of `N` numbers.
+/// Removes the member `key` of a node, an array of `N` numbers.
 fn take_numbers<const N: usize>(
     node: &mut Map<String, Value>,
     at: usize,

@@ -1,4 +1,4 @@
-//! The node tree: nodes with their transforms, proof that they form a forest, and the roots of the shown scene.
+//! Scene graph import: nodes with their transforms, proof that they form a forest, and scene roots.
 
 use super::document::GltfDocument;
 use super::node_transform::NodeTransform;
@@ -9,7 +9,8 @@ use crate::{Mesh, MeshInstance, Model, Node, Primitive, SceneRoots, Trs};
 use gltf::json::{Index, Root};
 use homog::Affine;
 
-/// Reads all nodes of a file. They form a forest of bounded depth, and every index in them is right.
+/// Reads all nodes of a file. They form a forest of bounded depth, and every index in them is
+/// valid.
 pub(super) fn import_nodes(
     document: &GltfDocument,
     limits: &Limits,
@@ -27,6 +28,7 @@ pub(super) fn import_nodes(
     Ok(nodes)
 }
 
+/// Reads a node without its position in the hierarchy.
 fn read_node(
     document: &GltfDocument,
     at: usize,
@@ -69,6 +71,7 @@ fn read_node(
     })
 }
 
+/// An index that refers to one of `count` items.
 fn checked_index<T>(
     index: Option<Index<T>>,
     what: &str,
@@ -85,7 +88,7 @@ fn checked_index<T>(
     }
 }
 
-/// Tells every node its parent; each may have one only.
+/// Sets the parent of every node; each may have only one.
 fn link_parents(nodes: &mut [Node], warnings: &mut ImportWarnings) -> Result<(), Diagnostic> {
     let count = nodes.len();
     for parent in 0..count {
@@ -112,8 +115,8 @@ fn link_parents(nodes: &mut [Node], warnings: &mut ImportWarnings) -> Result<(),
     Ok(())
 }
 
-/// Tells every node its place in the model. With one parent each, the nodes form a forest if a walk from the roots meets
-/// them all; what it misses are cycles.
+/// Computes global transforms. With one parent each, the nodes form a forest if a traversal from
+/// the roots visits them all; what it misses are cycles.
 fn update_global_transforms(
     nodes: &mut [Node],
     limits: &Limits,
@@ -140,7 +143,7 @@ fn update_global_transforms(
     Ok(())
 }
 
-/// Tells a root, and all nodes below it, their places.
+/// Computes the global transforms of a root and its descendants, and checks their depth.
 fn update_transforms_below(
     nodes: &mut [Node],
     root: usize,
@@ -175,7 +178,7 @@ fn update_transforms_below(
     Ok(())
 }
 
-/// The scenes of a file.
+/// All scenes of a file.
 pub(super) fn import_scenes(root: &Root) -> Vec<SceneRoots> {
     let scene = |json: &gltf::json::Scene| SceneRoots {
         name: json.name.clone(),
@@ -184,7 +187,7 @@ pub(super) fn import_scenes(root: &Root) -> Vec<SceneRoots> {
     root.scenes.iter().map(scene).collect()
 }
 
-/// The roots of the scene that is shown; of all nodes, if there is no such scene.
+/// Roots of the active scene; without scenes, all nodes without a parent.
 pub(super) fn scene_roots(
     root: &Root,
     scene: usize,
@@ -205,7 +208,7 @@ pub(super) fn scene_roots(
                 warnings.downgrade_if_lenient(fault, "it is not shown")?;
             }
             Some(true) => {
-                warnings.push_warning(&pointer, "the node is listed twice; it is shown once")
+                warnings.push_warning(&pointer, "the node is listed twice; it is shown once");
             }
             Some(seen) => {
                 *seen = true;
@@ -218,7 +221,8 @@ pub(super) fn scene_roots(
     Ok(roots)
 }
 
-/// Whether a listed node is to be shown as a root: not if another listed node is above it and shows it already.
+/// Whether a node that a scene lists is to be drawn as a root: not if one of its ancestors is
+/// listed, which draws it already.
 fn is_scene_root(
     nodes: &[Node],
     listed: &[bool],
@@ -239,9 +243,10 @@ fn is_scene_root(
     true
 }
 
-/// Counts what the shown scene draws, each item as often as it is drawn, and refuses more than the limit. A primitive
-/// counts as one item more, so that many empty ones are not free; for skinned meshes vertices and joints count as well,
-/// and for meshes with many places vertices.
+/// Checks the number of items that the active scene draws, each counted for every instance.
+///
+/// A primitive counts as one more item, so that many empty ones are not free. For skinned meshes
+/// vertices and joints count as well, and for instanced meshes vertices.
 pub(super) fn check_scene_items(model: &Model, limits: &Limits) -> Result<(), Diagnostic> {
     let sum = |count: fn(&Primitive) -> usize| -> Vec<u64> {
         let of_mesh = |mesh: &Mesh| mesh.primitives.iter().map(|p| count(p) as u64 + 1).sum();

@@ -1,4 +1,4 @@
-//! What can be asked of a file: which of its scenes, and which of its variants.
+//! Active scene and material variants (KHR_materials_variants).
 
 use crate::diagnostic::Diagnostic;
 use crate::import::NameOrIndex;
@@ -7,7 +7,7 @@ use crate::{Mesh, VariantMaterial};
 use gltf::json::{Root, mesh};
 use serde_json::Value;
 
-/// The scene that is shown: the chosen one, else the default scene, else the first.
+/// The active scene: the requested one, else the default scene, else the first.
 pub(super) fn select_scene(
     root: &Root,
     choice: Option<&NameOrIndex>,
@@ -28,7 +28,7 @@ pub(super) fn select_scene(
 
 const VARIANTS_EXTENSION: &str = "KHR_materials_variants";
 
-/// The names of the variants of a file.
+/// Names of the variants of a file.
 pub(super) fn variant_names(root: &Root) -> Vec<String> {
     let extension =
         root.extensions.as_ref().and_then(|extensions| extensions.others.get(VARIANTS_EXTENSION));
@@ -37,13 +37,13 @@ pub(super) fn variant_names(root: &Root) -> Vec<String> {
     list.into_iter().flatten().map(name).collect()
 }
 
-/// The number of the chosen variant.
+/// Index of the requested variant.
 pub(super) fn select_variant(names: &[String], choice: &NameOrIndex) -> Result<usize, Diagnostic> {
     let names: Vec<_> = names.iter().map(|name| Some(name.as_str())).collect();
     choice.find_among(&names, "variant", &format!("/extensions/{VARIANTS_EXTENSION}/variants"))
 }
 
-/// The materials that a primitive has in the variants. What points to nothing is left out with a warning.
+/// Materials of a primitive in the variants. References to nothing are left out with a warning.
 pub(super) fn variant_materials(
     root: &Root,
     json: &mesh::Primitive,
@@ -76,7 +76,7 @@ pub(super) fn variant_materials(
     found
 }
 
-/// The material that a primitive has in a variant, if the variant says anything of it.
+/// Material of a primitive in a variant, if the variant changes it.
 pub(super) fn variant_material(
     root: &Root,
     json: &mesh::Primitive,
@@ -86,7 +86,7 @@ pub(super) fn variant_material(
     all.iter().find(|found| found.variant == variant).map(|found| found.material)
 }
 
-/// Gives the primitives the materials they have in a variant; those it says nothing of keep theirs.
+/// Replaces the materials of primitives by those of a variant, where it changes them.
 pub(super) fn apply_variant(meshes: &mut [Mesh], variant: usize) {
     for primitive in meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
         if let Some(found) =

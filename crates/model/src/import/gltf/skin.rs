@@ -1,4 +1,4 @@
-//! Skins: joints and the matrices that go with them. One that is wrong is left out with a warning.
+//! Skins: joints and inverse bind matrices; an invalid skin is left out with a warning.
 
 use super::accessor::AccessorReader;
 use super::node_transform::affine_from_columns;
@@ -26,6 +26,7 @@ pub(super) fn import_skins(
     Ok(skins)
 }
 
+/// Reads and checks one skin. Missing matrices are identities (glTF 2.0 §3.7.3.1).
 fn read_skin(source: &AccessorReader<'_>, at: usize) -> Result<Skin, Diagnostic> {
     let json = &source.root.skins[at];
     let count = source.root.nodes.len();

@@ -1,12 +1,12 @@
-//! KTX2 images of Basis Universal (KHR_texture_basisu): ETC1S, UASTC and ASTC blocks become 8-bit RGBA.
+//! KTX2 images of Basis Universal (KHR_texture_basisu): ETC1S, UASTC and ASTC blocks to 8-bit RGBA.
 //!
-//! The `basisu` crate reads them, one layer, face and level: the first. Only by the feature `basisu`, which is off by default:
-//! the crate is young, and its tables are large.
+//! The crate `basisu` transcodes them; of layers, faces and mip levels only the first is read. The
+//! feature `basisu` is off by default: the crate is young, and its tables are large.
 
-/// The first bytes of a KTX2 file.
+/// The identifier at the beginning of a KTX2 file (KTX 2.0 §3.1).
 pub(super) const MAGIC: [u8; 12] = *b"\xABKTX 20\xBB\r\n\x1A\n";
 
-/// Width and height of the first level, from the header alone (KTX 2.0 §3).
+/// Width and height of the first mip level, from the header alone (KTX 2.0 §3).
 pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), String> {
     let number = |at: usize| {
         let word = bytes.get(at..).and_then(|rest| rest.first_chunk());
@@ -16,7 +16,7 @@ pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), String> {
     Ok((number(20)?, number(24)?.max(1)))
 }
 
-/// The first level of the first layer and face.
+/// Decodes the first mip level of the first layer and face.
 pub(super) fn decode(bytes: &[u8]) -> Result<crate::Image, String> {
     use basisu::{DecodeFlags, TargetFormat, Transcoder};
     let problem = |error: basisu::Error| format!("the KTX2 image is not read: {error:?}");

@@ -1,4 +1,5 @@
-//! Streams of a real encoder: the box that glTF-Transform ships as a sample, 24 corners and 12 triangles.
+//! Streams of a real encoder: the box that glTF-Transform ships as a sample, 24 vertices and 12
+//! triangles.
 
 use super::*;
 use gltf::json::buffer::View;

@@ -1,21 +1,23 @@
-//! The mode ATTRIBUTES: each byte of an element is stored as the difference to the same byte of the element before.
+//! meshopt mode ATTRIBUTES: each byte of an element is stored as the difference to the same byte of
+//! the previous element.
 //!
 //! ```text
-//!  stream:  version │ block │ block │ … │ padding │ first element's predecessor │ kinds of delta (version 1)
+//!  stream:  version │ block │ … │ padding │ element before the first │ channel modes (version 1)
 //!  block:   controls (version 1) │ all bytes 0 of its elements │ all bytes 1 │ …
-//!  bytes n: two bits a group │ group of 16 │ group of 16 │ …       a group has 0, 1, 2, 4 or 8 bits a difference;
-//!                                                                  a difference of all ones stands in a byte behind it
+//!  bytes n: two bits a group │ group of 16 │ group of 16 │ …    a group has 0, 1, 2, 4 or 8 bits a
+//!                                                               difference; one of all ones is stored
+//!                                                               in a byte after the group
 //! ```
 
 use super::byte_stream::{ByteStream, StreamError};
 
-/// The elements of one group.
+/// Elements of one group.
 const BYTE_GROUP_SIZE: usize = 16;
 
 /// The most elements of one block.
 const VERTEX_BLOCK_MAX_SIZE: usize = 256;
 
-/// The elements of a stream, each of `stride` bytes: a multiple of four up to 256.
+/// Decodes elements of `stride` bytes: a multiple of four up to 256.
 pub(super) fn decode_vertices(
     stream: &[u8],
     count: usize,
@@ -84,7 +86,7 @@ fn decode_vertex_block(
     Ok(())
 }
 
-/// Reads the deltas of one byte of all elements of a block; `deltas` has room for whole groups.
+/// Reads the deltas of one byte of all elements of a block; `deltas` has space for whole groups.
 fn decode_byte_deltas(
     stream: &mut ByteStream<'_>,
     control: Option<u8>,
@@ -113,6 +115,7 @@ fn decode_byte_deltas(
     Ok(())
 }
 
+/// Unpacks a group of sixteen deltas of 0, 1, 2, 4 or 8 bits.
 fn decode_byte_group(
     stream: &mut ByteStream<'_>,
     bits: usize,
@@ -136,18 +139,19 @@ fn decode_byte_group(
     Ok(())
 }
 
-/// What a delta of four bytes is made of.
+/// Interpretation of a delta of four bytes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum DeltaChannel {
-    /// Four differences of bytes.
+    /// Four zigzag-coded differences of bytes.
     Bytes8,
-    /// Two differences of words of 16 bits.
+    /// Two zigzag-coded differences of 16-bit words.
     Words16,
-    /// The bits that differ in a word of 32 bits, turned left by so many.
+    /// The exclusive or of two 32-bit words, rotated left by so many bits.
     Xor32(u32),
 }
 
 impl DeltaChannel {
+    /// The channel that a mode byte declares.
     fn new(mode: u8) -> Result<Self, StreamError> {
         match (mode >> 4, mode & 15) {
             (0, 0) => Ok(Self::Bytes8),

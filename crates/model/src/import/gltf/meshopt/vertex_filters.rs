@@ -1,6 +1,8 @@
-//! What is done to elements after they have been decompressed: numbers stored in fewer bits come back to full width.
+//! meshopt filters: octahedral vectors, quaternions, exponential floats and YCoCg colors to full
+//! width.
 //!
-//! The specification leaves open what values out of its range become; here whatever happens, it is a number of the type.
+//! The specification leaves open what values out of its range become; here they become some number
+//! of the type, without a panic.
 
 use super::MeshoptFilter;
 
@@ -17,7 +19,7 @@ impl MeshoptFilter {
             (Self::Octahedral, _) => map_elements(bytes, |v| decode_octahedral(v, 32_767.0)),
             (Self::Quaternion, _) => map_elements(bytes, decode_quaternion),
             (Self::Exponential, _) => {
-                map_elements(bytes, |[number]: [i32; 1]| [decode_exponential(number)])
+                map_elements(bytes, |[number]: [i32; 1]| [decode_exponential(number)]);
             }
             (Self::Color, 4) => map_elements(bytes, |[y, co, cg, a]: [u8; 4]| {
                 let signed = |x: u8| i32::from(x.cast_signed());
@@ -32,7 +34,7 @@ impl MeshoptFilter {
     }
 }
 
-/// A unit vector from its place on an octahedron folded flat; `one` is what 1 is in full width.
+/// A unit vector from octahedral coordinates (Meyer et al. 2010); `one` represents 1 in full width.
 fn decode_octahedral([x, y, unit, rest]: [i16; 4], one: f32) -> [i16; 4] {
     let unit_length = f32::from(unit);
     let (x, y) = (f32::from(x) / unit_length, f32::from(y) / unit_length);
@@ -45,7 +47,7 @@ fn decode_octahedral([x, y, unit, rest]: [i16; 4], one: f32) -> [i16; 4] {
     [whole(x), whole(y), whole(z), rest]
 }
 
-/// A rotation from its three smaller components, which take √2 times their size, and the number of the largest.
+/// A rotation from its three smaller components, scaled by √2, and the index of the largest.
 fn decode_quaternion([a, b, c, scale]: [i16; 4]) -> [i16; 4] {
     let step = std::f32::consts::FRAC_1_SQRT_2 / f32::from(scale | 3);
     let [a, b, c] = [a, b, c].map(|x| f32::from(x) * step);
@@ -55,14 +57,14 @@ fn decode_quaternion([a, b, c, scale]: [i16; 4]) -> [i16; 4] {
     parts
 }
 
-/// A number from an exponent of 8 bits above a mantissa of 24, both signed.
+/// A float from an exponent of 8 bits and a mantissa of 24, both signed.
 fn decode_exponential(number: i32) -> f32 {
     let (exponent, mantissa) = (number >> 24, number << 8 >> 8);
     let power = f64::from_bits(((1023 + i64::from(exponent)).cast_unsigned()) << 52);
     (power * f64::from(mantissa)) as f32
 }
 
-/// A colour from its luma, two differences of colour, and alpha, whose highest bit tells how many bits they all have.
+/// RGBA from YCoCg and alpha; the highest bit of alpha tells how many bits all of them have.
 fn decode_color([y, co, cg, alpha]: [i32; 4], one: f32) -> [u16; 4] {
     let all = match alpha {
         ..=0 => 1,
@@ -74,7 +76,7 @@ fn decode_color([y, co, cg, alpha]: [i32; 4], one: f32) -> [u16; 4] {
     [y + co - cg, y + cg, y - co - cg, alpha].map(|x| (x as f32 * scale).round().min(one) as u16)
 }
 
-/// Replaces each `N` numbers of a run of bytes.
+/// Replaces each `N` numbers in a slice of bytes.
 fn map_elements<const N: usize, A: Number, B: Number>(
     bytes: &mut [u8],
     filter: impl Fn([A; N]) -> [B; N],
@@ -87,7 +89,7 @@ fn map_elements<const N: usize, A: Number, B: Number>(
     }
 }
 
-/// A number as it lies in a buffer, little-endian.
+/// A number as it is stored in a buffer, little-endian.
 trait Number: Copy {
     /// Its bytes.
     const SIZE: usize;
