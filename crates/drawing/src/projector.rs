@@ -3,6 +3,10 @@
 //! ```text
 //!   world ──world_to_clip──► clip space ──divide──► NDC ──ndc_to_screen──► pixels, y down; depth
 //! ```
+//!
+//! The viewer is kept in homogeneous coordinates, so facing tests read the same in perspective,
+//! where it is the eye, and in parallel projection, where it is a point at infinity: the vector to
+//! the viewer from p is v.xyz − p · v.w.
 
 use camera::ViewProjection;
 use clip::{ClippedSegment, Volume, clip_segment};
