@@ -1,7 +1,8 @@
 //! Where the check and the validator differ, and why.
 
 use crate::manifest::Row;
-use model::import::{CheckReport, Severity};
+use model::Severity;
+use model::import::CheckReport;
 use std::collections::BTreeSet;
 
 const KTX: &str = "KHR_texture_ktx, for images of several layers, is not read";
@@ -89,7 +90,7 @@ pub fn difference_from_validator(
     let whole = |code: &str| {
         code.starts_with("GLB_") || ["INVALID_JSON", "NOT_GLTF", "TYPE_MISMATCH"].contains(&code)
     };
-    let lost = report.diagnostics.iter().find(|p| p.pointer.is_empty() && !whole(p.code));
+    let lost = report.diagnostics.iter().find(|p| p.location.is_empty() && !whole(p.code));
     if let Some(problem) = lost.filter(|problem| problem.severity == Severity::Error) {
         return Some(format!("an error without a place: {problem}"));
     }

@@ -1,12 +1,13 @@
 //! What a lenient reader makes of broken files: everything that others load, and more.
 
 use crate::manifest::Row;
-use model::import::{ImportErrorKind, ImportOptions, load};
+use model::codes;
+use model::import::{ImportOptions, load};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 /// What stops even a lenient reader: that nothing can be made of the file at all.
-const UNREADABLE: [ImportErrorKind; 2] = [ImportErrorKind::Format, ImportErrorKind::Version];
+const UNREADABLE: [&str; 2] = [codes::NOT_GLTF, codes::UNSUPPORTED_VERSION];
 
 /// Loads the broken files strictly and leniently, and prints how many load; gives what is wrong.
 pub fn check_lenient_loading(folder: &Path, rows: &[Row]) -> Vec<String> {
@@ -22,7 +23,7 @@ pub fn check_lenient_loading(folder: &Path, rows: &[Row]) -> Vec<String> {
             Ok((Err(error), Ok(model))) if model.warnings.is_empty() => {
                 Some(format!("leniently nothing is told of {error}"))
             }
-            Ok((_, Err(error))) if !UNREADABLE.contains(&error.diagnostic.kind) => {
+            Ok((_, Err(error))) if !UNREADABLE.contains(&error.diagnostic.code) => {
                 Some(format!("not even leniently it loads: {error}"))
             }
             Ok((strict, lenient)) => {

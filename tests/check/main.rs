@@ -16,7 +16,8 @@ mod manifest;
 mod tally;
 
 use manifest::Row;
-use model::import::{CheckReport, ImportOptions, Severity, check_file};
+use model::Severity;
+use model::import::{CheckReport, ImportOptions, check_file};
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};

@@ -14,7 +14,7 @@ mod bytes;
 mod case;
 mod document;
 mod draco;
-#[path = "../../xtask/src/glb.rs"]
+#[path = "../../scenes/generator/src/glb.rs"]
 mod glb;
 mod images;
 mod members;

@@ -21,7 +21,7 @@ fn batch_sandbox(name: &str) -> Sandbox {
     bench
 }
 
-const SMALL: [&str; 6] = ["batch", "models", "--out", "out", "--size", "32x24"];
+const SMALL: [&str; 6] = ["batch", "models", "--out-dir", "out", "--size", "32x24"];
 
 /// What the report says: the status of each picture.
 fn read_report(bench: &Sandbox, name: &str) -> BTreeMap<String, String> {
@@ -47,7 +47,7 @@ fn a_broken_model_is_a_line_of_the_report_and_what_is_done_is_not_done_again() {
     let bench = batch_sandbox("batch");
     let run = bench.run(&SMALL);
     assert_eq!(run.code, 1, "{}", run.stderr);
-    assert_eq!(run.stdout, "3 done, 0 done before, 1 failed\n");
+    assert_eq!(run.stdout, "3 rendered, 0 up to date, 1 failed\n");
     assert!(run.stderr.contains("broken.glb"), "{}", run.stderr);
     let first = status_list(&[
         ("a.png", "done"),
@@ -66,11 +66,11 @@ fn a_broken_model_is_a_line_of_the_report_and_what_is_done_is_not_done_again() {
         .expect("another model");
     std::fs::remove_file(bench.path_of("out/more/a.png")).expect("a picture");
     let run = bench.run(&SMALL);
-    assert_eq!(run.stdout, "2 done, 1 done before, 1 failed\n", "content changed, picture gone");
+    assert_eq!(run.stdout, "2 rendered, 1 up to date, 1 failed\n", "content changed, picture gone");
     let run = bench.run(&[&SMALL[..], &["--background", "#123"]].concat());
-    assert_eq!(run.stdout, "3 done, 0 done before, 1 failed\n", "settings changed");
-    let run = bench.run(&[&SMALL[..], &["--background", "#123", "--again"]].concat());
-    assert_eq!(run.stdout, "3 done, 0 done before, 1 failed\n", "asked for again");
+    assert_eq!(run.stdout, "3 rendered, 0 up to date, 1 failed\n", "settings changed");
+    let run = bench.run(&[&SMALL[..], &["--background", "#123", "--force"]].concat());
+    assert_eq!(run.stdout, "3 rendered, 0 up to date, 1 failed\n", "asked for again");
 }
 
 #[test]
@@ -87,7 +87,7 @@ fn shards_unite_to_the_whole() {
     united.extend(other);
     assert_eq!(united.into_keys().collect::<Vec<_>>(), ["a.png", "b.png", "more/a.png"]);
     let run = bench.run(&SMALL);
-    assert_eq!((run.code, run.stdout.as_str()), (0, "0 done, 3 done before, 0 failed\n"));
+    assert_eq!((run.code, run.stdout.as_str()), (0, "0 rendered, 3 up to date, 0 failed\n"));
     let run = bench.run(&[&SMALL[..], &["--shard", "auto"]].concat());
     assert_eq!(run.code, 2);
     assert!(run.stderr.contains("SLURM_ARRAY_TASK_ID"), "{}", run.stderr);
@@ -102,7 +102,7 @@ fn a_run_that_is_killed_goes_on_where_it_was() {
         let copy = bench.path_of(&format!("models/{number:02}.glb"));
         std::fs::copy(bench.path_of("teapot.glb"), copy).expect("a model");
     }
-    let arguments = ["batch", "models", "--out", "out", "--size", "320x240", "--threads", "1"];
+    let arguments = ["batch", "models", "--out-dir", "out", "--size", "320x240", "--threads", "1"];
     let program = alberti_tests::program_path().expect("the program");
     let mut process = Command::new(program)
         .args(arguments)
@@ -142,11 +142,11 @@ fn lists_and_scenes_are_inputs_too() {
         "scene.ron",
         "Scene(models: [(path: \"models/b.glb\")], image: (size: (8, 8)))",
     );
-    let run = bench.run(&["batch", "list.txt", "scene.ron", "--out", "out"]);
-    assert_eq!((run.code, run.stdout.as_str()), (0, "3 done, 0 done before, 0 failed\n"));
+    let run = bench.run(&["batch", "list.txt", "scene.ron", "--out-dir", "out"]);
+    assert_eq!((run.code, run.stdout.as_str()), (0, "3 rendered, 0 up to date, 0 failed\n"));
     assert_eq!(bench.read_picture("out/scene.png").0, 8);
     assert_eq!(bench.read_picture("out/models/more/a.png").0, 960);
-    let run = bench.run(&["batch", "nowhere", "--out", "out2"]);
+    let run = bench.run(&["batch", "nowhere", "--out-dir", "out2"]);
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("nowhere"), "{}", run.stderr);
 }

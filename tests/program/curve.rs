@@ -1,4 +1,4 @@
-//! `alberti curve depth` and `alberti demo tear`: curves, tables and demonstrations, held against formulas.
+//! `alberti curve depth` and `alberti demo wrap-around`: plots, tables and demonstrations against their formulas.
 
 use crate::drawings::{assert_succeeds, read_drawing};
 use crate::sandbox::Sandbox;
@@ -21,7 +21,7 @@ fn curve_csv(bench: &Sandbox, flags: &[&str]) -> Vec<[f64; 5]> {
 fn the_lessons_table_comes_out() {
     let bench = Sandbox::new("curve_lesson");
     let lesson = ["--near", "2", "--far", "40", "--range", "minus-one-one"];
-    let at = ["--at", "2,3,4,5,6,8,10,12,14,16,18,20,25,30,35,40"];
+    let at = ["--distances", "2,3,4,5,6,8,10,12,14,16,18,20,25,30,35,40"];
     let rows = curve_csv(&bench, &[&lesson[..], &at].concat());
     assert_eq!(rows.len(), 16);
     for [distance, depth, reversed, ..] in rows {
@@ -46,7 +46,7 @@ fn the_lessons_table_comes_out() {
 #[test]
 fn steps_are_those_of_the_formats() {
     let bench = Sandbox::new("curve_steps");
-    let planes = ["--near", "0.1", "--far", "1000", "--at", "0.15,1,10,250,950"];
+    let planes = ["--near", "0.1", "--far", "1000", "--distances", "0.15,1,10,250,950"];
     for (bits, parts) in [("16", 65_535.0), ("24", 16_777_215.0)] {
         for [distance, .., step, reversed] in
             curve_csv(&bench, &[&planes[..], &["--bits", bits]].concat())
@@ -95,10 +95,10 @@ fn the_curves_are_drawn_in_every_format() {
 
 /// C36: the segments that pass the eye are torn if they are divided as they are.
 #[test]
-fn the_tear_is_shown_with_and_without_clipping() {
-    let bench = Sandbox::new("tear");
-    assert_succeeds(&bench, &["demo", "tear"]);
-    let (_, layers) = read_drawing(&bench, "tear.svg");
+fn the_wrap_around_is_shown_with_and_without_clipping() {
+    let bench = Sandbox::new("wrap_around");
+    assert_succeeds(&bench, &["demo", "wrap-around"]);
+    let (_, layers) = read_drawing(&bench, "wrap-around.svg");
     let [_, frame] = layer_bounds(&layers, |id| id == "frames");
     let [top, _] = layer_bounds(&layers, |id| id == "frames");
     let horizon = 0.5 * (top[1] + frame[1]);
@@ -108,11 +108,11 @@ fn the_tear_is_shown_with_and_without_clipping() {
     let torn = span("divided-crossing");
     assert!(torn[0][1] < horizon && torn[1][1] > horizon, "{torn:?}");
     assert!(span("divided-behind")[1][1] < horizon);
-    let first = std::fs::read(bench.path_of("tear.svg")).expect("a drawing");
-    assert_succeeds(&bench, &["demo", "tear"]);
-    assert!(first == std::fs::read(bench.path_of("tear.svg")).expect("a drawing"));
-    assert_succeeds(&bench, &["demo", "tear", "-o", "tear.html"]);
-    let html = std::fs::read_to_string(bench.path_of("tear.html")).expect("a page");
+    let first = std::fs::read(bench.path_of("wrap-around.svg")).expect("a drawing");
+    assert_succeeds(&bench, &["demo", "wrap-around"]);
+    assert!(first == std::fs::read(bench.path_of("wrap-around.svg")).expect("a drawing"));
+    assert_succeeds(&bench, &["demo", "wrap-around", "-o", "wrap-around.html"]);
+    let html = std::fs::read_to_string(bench.path_of("wrap-around.html")).expect("a page");
     assert!(html.contains("(1, 0, 3) has w = -3, goes to (-0.433, 0.924)"), "{html}");
 }
 
@@ -124,10 +124,10 @@ fn errors_are_reported_and_leave_no_file() {
         (&["--near", "2", "--far", "1"][..], "near"),
         (&["--near", "0", "--far", "1"], "near"),
         (&["--near", "nan", "--far", "1"], "near"),
-        (&["--near", "1", "--far", "2", "--at", "0"], "distance"),
+        (&["--near", "1", "--far", "2", "--distances", "0"], "distance"),
         (
             &["--near", "1", "--far", "2", "-o", "out.html"],
-            "does not end in .svg, .pdf, .png, .txt, .md or .csv",
+            "has no known extension: .svg, .pdf, .png, .txt, .md or .csv",
         ),
     ] {
         let run = depth(flags);
@@ -139,7 +139,7 @@ fn errors_are_reported_and_leave_no_file() {
         assert!(run.code == 2 && run.stderr.contains("or 32f"), "{bits}: {}", run.stderr);
     }
     assert_eq!(depth(&["--near", "1"]).code, 2);
-    assert_eq!(bench.run(&["demo", "tear", "-o", "tear"]).code, 1);
+    assert_eq!(bench.run(&["demo", "wrap-around", "-o", "wrap-around"]).code, 1);
     assert_eq!(bench.run(&["demo"]).code, 2);
     assert_eq!(bench.file_names(), [""; 0]);
 }

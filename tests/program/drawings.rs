@@ -119,7 +119,7 @@ fn views_are_aligned_and_stand_where_the_angle_says() {
     bench.copy_model("house.glb");
     for (angle, side, top_is_below) in [("first", "left-", true), ("third", "right-", false)] {
         for paper in ["a0", "a1", "a2", "a3", "a4", "a5", "letter", "tabloid"] {
-            let flags = ["-o", "out.svg", "--angle", angle, "--paper", paper];
+            let flags = ["-o", "out.svg", "--projection-angle", angle, "--paper", paper];
             assert_succeeds(&bench, &[&["sheet", "house.glb"][..], &flags].concat());
             let (page, layers) = read_drawing(&bench, "out.svg");
             let of = |view: &str| layer_bounds(&layers, |id| id.starts_with(view));
@@ -225,8 +225,8 @@ fn drawing_errors_are_reported_and_leave_no_file() {
     let bench = Sandbox::new("no_drawing");
     write_box(&bench, "box", [1.0, 1.0, 1.0]);
     let failing = [
-        (&["render", "box.gltf", "-o", "out.dxf"][..], "does not end in .png, .svg or .pdf"),
-        (&["sheet", "box.gltf", "-o", "out"], "does not end in .png, .svg or .pdf"),
+        (&["render", "box.gltf", "-o", "out.dxf"][..], "has no known extension: .png, .svg or .pdf"),
+        (&["sheet", "box.gltf", "-o", "out"], "has no known extension: .png, .svg or .pdf"),
         (&["sheet", "box.gltf", "--scale", "1:1", "--paper", "a4", "-o", "out.pdf"], "; 1:20 fits"),
     ];
     for (arguments, message) in failing {

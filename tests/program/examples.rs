@@ -47,7 +47,7 @@ fn the_examples_do_what_the_program_does() {
     let by_program = bench.run(&["explain", "crate.glb", "--pixel", "480,360"]).stdout;
     assert!(told.starts_with(by_program.trim_end()), "{told}");
     run_example(&bench, "depth_map", &["crate.glb", "own.npy"]);
-    program(&["--passes", "depth", "--passes-as", "npy", "-o", "passed.png"]);
+    program(&["--passes", "depth", "--pass-format", "npy", "-o", "passed.png"]);
     let bytes = |name: &str| std::fs::read(bench.path_of(name)).expect(name);
     assert_eq!(bytes("own.npy"), bytes("passed.depth.npy"));
     std::fs::create_dir(bench.path_of("frames")).expect("a folder");

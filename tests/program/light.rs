@@ -71,15 +71,15 @@ fn the_environment_comes_from_the_named_file() {
 fn exposure_and_tone_change_brightness() {
     let bench = sandbox_with_model("exposure", "teapot.glb");
     let usual = render_pixels(&bench, "teapot.glb", &[]);
-    assert_eq!(render_pixels(&bench, "teapot.glb", &["--exposure", "0", "--tone", "none"]), usual);
+    assert_eq!(render_pixels(&bench, "teapot.glb", &["--exposure", "0", "--tone-mapping", "none"]), usual);
     let darker = render_pixels(&bench, "teapot.glb", &["--exposure", "-1.5"]);
     let brighter = render_pixels(&bench, "teapot.glb", &["--exposure", "1"]);
     assert!(total_brightness(&darker) < total_brightness(&usual));
     assert!(total_brightness(&brighter) > total_brightness(&usual));
     let curves = ["neutral", "aces", "agx"];
-    let curves = curves.map(|curve| render_pixels(&bench, "teapot.glb", &["--tone", curve]));
+    let curves = curves.map(|curve| render_pixels(&bench, "teapot.glb", &["--tone-mapping", curve]));
     assert!(curves.iter().all(|curve| *curve != usual) && curves[0] != curves[1]);
-    for wrong in [["--exposure", "bright"], ["--exposure", "nan"], ["--tone", "filmic"]] {
+    for wrong in [["--exposure", "bright"], ["--exposure", "nan"], ["--tone-mapping", "filmic"]] {
         let run = bench.run(&[&["render", "teapot.glb"][..], &wrong].concat());
         assert_eq!(run.code, 2, "{wrong:?}");
     }

@@ -23,7 +23,7 @@ fn every_command_has_a_manual_page() {
     assert!(run.code == 0 && run.stdout.contains(".TH alberti 1"), "{}", run.stdout);
     let render = bench.run(&["man", "render"]).stdout;
     assert!(render.contains("alberti\\-render") && render.contains("\\-\\-size"), "{render}");
-    assert_eq!(bench.run(&["man", "--out", "pages"]).code, 0);
+    assert_eq!(bench.run(&["man", "--out-dir", "pages"]).code, 0);
     let page = |name: &str| std::fs::read_to_string(bench.path_of("pages").join(name));
     for command in ["sheet", "info", "check", "animate", "batch", "explain", "matrix", "scene-init"]
     {

@@ -28,7 +28,7 @@ fn a_frustum_is_read_back_and_a_misprint_is_found() {
 fn json_names_steps_and_items() {
     let bench = Sandbox::new("matrix_json");
     let columns = "1 0 0 0  0 1 0 0  0 0 1 0  5 6 7 1";
-    let run = bench.run(&["matrix", "--json", "--columns", columns]);
+    let run = bench.run(&["matrix", "--json", "--column-major", columns]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     let found: Value = serde_json::from_str(&run.stdout).expect("JSON");
     assert_eq!(found["schema"], json!({"name": "alberti-explain", "version": 1}));

@@ -53,8 +53,8 @@ fn names_that_meet_are_refused_before_anything_is_drawn() {
         (&["-o", "all.png"][..], "the pictures of crate.glb and lamp.glb would both be all.png"),
         (&["--views", "front,top", "-o", "{stem}.png"], "would both be crate.png"),
         (&["-o", "-"], "2 pictures do not go to the standard output"),
-        (&["-o", "{stm}.png"], "there is no `{stm}`"),
-        (&["-o", "{stem}.tiff"], "does not end in .png, .svg or .pdf"),
+        (&["-o", "{stm}.png"], "unknown field `{stm}`"),
+        (&["-o", "{stem}.tiff"], "has no known extension: .png, .svg or .pdf"),
     ] {
         let run = bench.run(&[&["render", "crate.glb", "lamp.glb"], flags].concat());
         assert!(run.code == 1 && run.stderr.contains(words), "{flags:?}: {}", run.stderr);

@@ -23,7 +23,7 @@ fn every_flag_of_every_command_is_in_the_reference() {
         "compare-projections",
         "sweep",
         "curve depth",
-        "demo tear",
+        "demo wrap-around",
         "animate",
         "batch",
         "reference",

@@ -29,9 +29,9 @@ fn crops_and_bands_are_the_pixels_of_the_whole() {
         assert_eq!(*pixel, whole[y * width as usize + x], "({x}, {y})");
     }
     let mut united = Vec::new();
-    for tile in ["1/4", "2/4", "3/4", "4/4"] {
-        render_region(&bench, "tile.png", &["--overlay", "axes", "--tile", tile]);
-        united.extend(bench.read_picture("tile.png").2);
+    for band in ["1/4", "2/4", "3/4", "4/4"] {
+        render_region(&bench, "band.png", &["--overlay", "axes", "--band", band]);
+        united.extend(bench.read_picture("band.png").2);
     }
     assert_eq!(united, whole);
 }
@@ -68,11 +68,11 @@ fn parts_with_shadows_and_occlusion_unite_byte_for_byte() {
         let whole = draw("whole.png", &[]);
         let shades = whole.iter().filter(|p| p[..3] == [0; 3] && (1..255).contains(&p[3]));
         assert!(shades.count() > 100, "the ground catches shadows");
-        let mut tiled = Vec::new();
-        for tile in ["1/3", "2/3", "3/3"] {
-            tiled.extend(draw("tile.png", &["--tile", tile]));
+        let mut bands = Vec::new();
+        for band in ["1/3", "2/3", "3/3"] {
+            bands.extend(draw("band.png", &["--band", band]));
         }
-        assert!(tiled == whole, "{size} in tiles");
+        assert!(bands == whole, "{size} in bands");
         // Left and right of a line, put together row by row.
         let left = draw("left.png", &["--crop", &format!("0,0,37,{rows}")]);
         let right = draw("right.png", &["--crop", &format!("37,0,{},{rows}", columns - 37)]);
@@ -88,17 +88,17 @@ fn invalid_regions_are_refused() {
     for (flags, message) in [
         (
             &["--crop", "100,0,30,10"][..],
-            "--crop 100,0,30,10 is not in the picture, which has 120 x 90 pixels",
+            "--crop 100,0,30,10 is not inside the picture of 120 x 90 pixels",
         ),
-        (&["--tile", "91/200"], "--tile 91/200 has no row: there are 90"),
-        (&["--tile", "5/4"], "expected I/N with I from 1 to N, such as 2/8"),
+        (&["--band", "91/200"], "--band 91/200 is empty: the picture has only 90 rows"),
+        (&["--band", "5/4"], "expected I/N with I from 1 to N, such as 2/8"),
         (&["--crop", "1,2,0,4"], "expected column, row, width and height in pixels"),
         (&["--bits", "12"], "a channel cannot have 12 bits"),
         (&["--passes", "depht"], "tip: a similar value exists: 'depth'"),
-        (&["--passes-as", "npy"], "--passes <PASS,…>"),
+        (&["--pass-format", "npy"], "--passes <PASS,…>"),
         (&["--tolerance", "3"], "--compare <PNG>"),
         (&["--compare", "nowhere.png"], "cannot compare with nowhere.png"),
-        (&["-o", "a.svg", "--crop", "0,0,1,1"], "are for pictures: name a .png"),
+        (&["-o", "a.svg", "--crop", "0,0,1,1"], "need a raster image: name a .png"),
     ] {
         let run = bench.run(&[&["render", "crate.glb"], &SIZE[..], flags].concat());
         assert!(run.code == 1 || run.code == 2, "{flags:?}");
@@ -129,7 +129,7 @@ fn passes_lie_beside_the_picture() {
     render_region(
         &bench,
         "a.png",
-        &["--passes", "depth,normal,id", "--passes-as", "npy", "--samples", "1"],
+        &["--passes", "depth,normal,id", "--pass-format", "npy", "--samples", "1"],
     );
     let seen = bench.read_picture("a.png").2;
     let read = |name: &str| std::fs::read(bench.path_of(name)).expect(name);

@@ -44,7 +44,7 @@ fn a_starter_replaces_nothing_unless_it_must_and_finds_its_model_from_elsewhere(
     bench.copy_model("crate.glb");
     bench.write_file("crate.ron", "mine");
     let run = bench.run(&["scene", "init", "crate.glb"]);
-    assert!(run.code == 1 && run.stderr.contains("crate.ron is there already"), "{}", run.stderr);
+    assert!(run.code == 1 && run.stderr.contains("crate.ron already exists"), "{}", run.stderr);
     assert_eq!(std::fs::read_to_string(bench.path_of("crate.ron")).expect("mine"), "mine");
     assert_eq!(bench.run(&["scene", "init", "crate.glb", "--force"]).code, 0);
     std::fs::create_dir(bench.path_of("scenes")).expect("a folder");

@@ -81,7 +81,7 @@ fn view_volumes_stand_below_the_pictures() {
     let sweep =
         ["sweep", "box.gltf", "--vary", "fov", "--from", "20", "--to", "50", "--steps", "2"];
     let bytes = |threads: &str| {
-        let flags = ["--volumes", "-o", "out.svg", "--threads", threads];
+        let flags = ["--view-volumes", "-o", "out.svg", "--threads", threads];
         assert_succeeds(&bench, &[&sweep[..], &flags].concat());
         std::fs::read(bench.path_of("out.svg")).expect("a drawing")
     };

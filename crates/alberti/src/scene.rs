@@ -1,4 +1,4 @@
-//! `alberti scene`: begins, checks and lays out scene files, and tells what they may say.
+//! `alberti scene`: creates, validates, formats and documents scene files.
 
 mod fmt;
 mod init;
@@ -16,13 +16,13 @@ pub(crate) struct SceneArgs {
 
 #[derive(Debug, Subcommand)]
 enum SceneCommand {
-    /// Tell everything that is wrong with scenes and their models, and what is probably not meant
+    /// Validate scenes and their models, with warnings about values that are probably unintended
     Check(check::CheckScenesArgs),
-    /// Write a scene file for a model, with comments, to go on from
+    /// Create a commented scene file for a model
     Init(init::InitArgs),
-    /// Lay out scene files alike; comments stay
+    /// Format scene files, keeping comments
     Fmt(fmt::FmtArgs),
-    /// Tell what each field of a scene file means
+    /// Print the reference of scene fields
     Doc(ReferenceArgs),
 }
 

@@ -1,6 +1,13 @@
-//! Animations: which numbers of a model change with time. [`Model::pose`](super::Model::pose) sets them.
+//! Animations: which numbers of a model change with time. [`Model::pose`](crate::Model::pose) sets them.
 
-use super::{AnimationCurve, ObjectProperty, UvTransformPart};
+mod curve;
+pub(crate) mod object_model;
+mod pose;
+
+pub use curve::{AnimationCurve, Interpolation};
+pub use object_model::ObjectProperty;
+
+use crate::UvTransformPart;
 
 /// An animation of the file.
 #[derive(Clone, PartialEq, Debug)]
@@ -55,7 +62,7 @@ pub enum AnimationTarget {
     },
     /// The way a texture lies.
     TextureTransform {
-        /// The entry of [`Model::uv_transforms`](super::Model::uv_transforms).
+        /// The entry of [`Model::uv_transforms`](crate::Model::uv_transforms).
         transform: usize,
         /// Which part of it.
         part: UvTransformPart,

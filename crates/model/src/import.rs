@@ -12,65 +12,30 @@
 //! do. What makes the shape unreadable refuses the file; what only spoils the look is a [`Warning`](crate::Warning).
 //! A lenient reader has warnings of both, as long as something is left to load. [`check`] tells all that is wrong.
 
-mod accessor;
-mod animation;
-mod animation_pointer;
-mod attribute;
-mod buffers;
-mod camera;
 mod check;
-mod container;
-mod document;
-mod draco;
-mod edge_visibility;
-mod elements;
 mod error;
-mod extensions;
-mod gpu_instancing;
-mod image_decoder;
-mod images;
-mod jpeg;
-mod json_repair;
-#[cfg(feature = "basisu")]
-mod ktx2;
-mod lights;
+pub(crate) mod gltf;
+pub(crate) mod image_decoder;
 mod limits;
-mod material;
-mod memory_budget;
-mod meshopt;
-mod model_builder;
-mod morph_target;
-mod node_transform;
+pub(crate) mod memory_budget;
+mod name_or_index;
 mod normals;
 mod parallel_decoding;
-mod primitive;
-mod scene_graph;
-mod selection;
-mod skin;
-mod texture;
-mod topology;
-mod untyped_members;
-mod uri_resolver;
+pub(crate) mod uri_resolver;
 mod warnings;
-mod webp;
 
+pub use check::{CheckReport, check_bytes, check_file};
+pub use error::ImportError;
+pub use gltf::{ExtensionUse, extension_use};
 pub use image_decoder::decode_bounded as decode_image;
-
-pub use check::{CheckReport, Problem, Severity, check_bytes, check_file};
-pub use error::{Diagnostic, ImportError, ImportErrorKind};
-pub use extensions::{ExtensionUse, extension_use};
 pub use limits::Limits;
-pub use selection::NameOrIndex;
+pub use name_or_index::NameOrIndex;
 
 use crate::Model;
 use crate::Timings;
-use accessor::AccessorReader;
-use buffers::Buffers;
-use container::Container;
-use document::GltfDocument;
+use gltf::import_gltf;
 use std::path::{Path, PathBuf};
 use uri_resolver::UriResolver;
-use warnings::ImportWarnings;
 
 /// How a file is loaded.
 #[derive(Clone, Debug, Default)]
@@ -111,9 +76,9 @@ pub enum ImageLoading {
 /// ```no_run
 /// use model::{ImportOptions, load};
 /// let model = load("chair.glb".as_ref(), &ImportOptions::default())?;
-/// let triangles: usize = model.meshes.iter().flat_map(|mesh| &mesh.primitives).map(|p| p.count()).sum();
+/// let triangles: usize = model.meshes.iter().flat_map(|mesh| &mesh.primitives).map(|p| p.item_count()).sum();
 /// for warning in &model.warnings {
-///     println!("{}: {}", warning.pointer, warning.message);
+///     println!("{warning}");
 /// }
 /// # Ok::<(), model::ImportError>(())
 /// ```
@@ -142,26 +107,4 @@ pub fn load_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<M
     let loaded = UriResolver::in_memory(bytes.len(), options)
         .and_then(|resolver| import_gltf(path, bytes, &resolver, options));
     loaded.map_err(|fault| ImportError { file: path.to_owned(), diagnostic: fault })
-}
-
-fn import_gltf(
-    path: &Path,
-    bytes: &[u8],
-    resolver: &UriResolver<'_>,
-    options: &ImportOptions,
-) -> Result<Model, Diagnostic> {
-    let limits = resolver.limits;
-    let mut warnings = ImportWarnings::new(options.lenient);
-    let container = Container::from_bytes(bytes, &mut warnings)?;
-    let json = &bytes[container.json];
-    let parse = || GltfDocument::parse_json(json, limits, &mut warnings);
-    let document = options.timings.measure("parse", parse)?;
-    let chunk = container.binary.map(|range| &bytes[range]);
-    extensions::check_extensions(&document.root, &mut warnings)?;
-    let buffers = Buffers::new(&document.root, resolver, chunk, limits);
-    let source = AccessorReader::new(&document.root, &buffers, limits);
-    let mut model = model_builder::build_model(&document, &source, options, &mut warnings)?;
-    model.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    model.warnings = warnings.into_list();
-    Ok(model)
 }

@@ -1,6 +1,15 @@
 //! Materials: what a surface looks like, as the file has it.
 
-use super::MaterialExtensions;
+mod extensions;
+mod texture_slot;
+mod uv_transform;
+
+pub use extensions::{
+    Anisotropy, Clearcoat, Iridescence, MaterialExtensions, Sheen, Specular, SpecularGlossiness,
+    Transmission, Volume,
+};
+pub use texture_slot::TextureSlot;
+pub use uv_transform::{UvTransform, UvTransformPart};
 
 /// What a surface looks like: glTF's metallic-roughness model, and what extensions add to it.
 ///

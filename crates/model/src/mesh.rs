@@ -1,6 +1,10 @@
 //! Meshes: arrays of vertices, and lists of points, lines or triangles over them.
 
-use super::PrimitiveEdges;
+mod edge_visibility;
+mod tangents;
+
+pub use edge_visibility::{EdgeList, EdgeVisibility, PrimitiveEdges};
+
 use raster::Clusters;
 use std::sync::OnceLock;
 

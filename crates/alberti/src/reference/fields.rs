@@ -1,4 +1,4 @@
-//! Sections of the reference from the types of scene files.
+//! Sections of the reference for the types of scene files.
 
 use super::{ReferenceEntry, ReferenceSection};
 use pipeline::scene::reference::{FieldEntry, Shape, TYPES, TypeEntry, VariantEntry};
@@ -20,13 +20,13 @@ fn field_entry(field: &FieldEntry) -> ReferenceEntry {
     ReferenceEntry {
         term: field.name.to_owned(),
         value: field.holds.to_owned(),
-        note: if field.optional { String::new() } else { "needed".to_owned() },
+        note: if field.optional { String::new() } else { "required".to_owned() },
         about: field.about.to_owned(),
         inner: Vec::new(),
     }
 }
 
-/// A variant, written as in a scene: `Word`, `Word(value)` or `Word(field: …)`.
+/// The entry of a variant, written as in a scene: `Word`, `Word(value)` or `Word(field: …)`.
 fn variant_entry(variant: &VariantEntry) -> ReferenceEntry {
     let brackets = match variant.holds {
         Some(holds) => format!("({holds})"),

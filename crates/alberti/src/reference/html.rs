@@ -1,4 +1,4 @@
-//! The reference as one page of HTML that needs no other file.
+//! The reference as a self-contained HTML page.
 
 use super::{ReferenceEntry, ReferenceSection};
 
@@ -57,13 +57,13 @@ fn section_anchor(title: &str) -> String {
     title.replace(' ', "-")
 }
 
-/// Words that are titles of sections become links to them, wherever they stand behind a bracket or a blank.
+/// Escapes text and turns words that are titles of sections into links to them.
 fn link_titles(text: &str, titles: &[&str]) -> String {
     let mut html = String::new();
     for (number, part) in text.split_inclusive(|c: char| !c.is_alphanumeric()).enumerate() {
         let word = part.trim_end_matches(|c: char| !c.is_alphanumeric());
         let rest = escape_html(&part[word.len()..]);
-        // The first word of a variant is its own name.
+        // The first word of a variant is its own name, not a type.
         let is_link = titles.contains(&word) && (number > 0 || !text.contains('('));
         if is_link {
             html.push_str(&format!("<a href=\"#{}\">{word}</a>{rest}", section_anchor(word)));
@@ -74,7 +74,7 @@ fn link_titles(text: &str, titles: &[&str]) -> String {
     html
 }
 
-/// What stands between backticks is code.
+/// Escapes text and turns backticks into `<code>`.
 fn mark_code(text: &str) -> String {
     let parts = escape_html(text).split('`').map(str::to_owned).collect::<Vec<_>>();
     let part = |(number, part): (usize, &String)| match number % 2 {

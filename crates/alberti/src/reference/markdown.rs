@@ -30,7 +30,7 @@ fn write_entry(page: &mut String, entry: &ReferenceEntry, depth: usize) {
     entry.inner.iter().for_each(|inner| write_entry(page, inner, depth + 1));
 }
 
-/// Outside of code, angle brackets and stars are text and not markup.
+/// Escapes angle brackets, stars and underscores outside of code spans.
 fn escape_markdown(text: &str) -> String {
     let parts = text.split('`').enumerate().map(|(number, part)| match number % 2 {
         0 => part.replace('<', "&lt;").replace('*', "\\*").replace('_', "\\_"),

@@ -1,8 +1,8 @@
-//! The reference as text for a terminal.
+//! The reference as plain text for a terminal.
 
 use super::{ReferenceEntry, ReferenceSection};
 
-/// The width of a line.
+/// The width of a line in characters.
 const LINE_WIDTH: usize = 100;
 
 pub(super) fn format_text(sections: &[ReferenceSection]) -> String {
@@ -34,7 +34,7 @@ fn write_entry(page: &mut String, entry: &ReferenceEntry, indent: usize) {
     entry.inner.iter().for_each(|inner| write_entry(page, inner, indent + 4));
 }
 
-/// Paragraphs, broken between words.
+/// Appends paragraphs, wrapped at [`LINE_WIDTH`] and indented.
 fn wrap_paragraphs(page: &mut String, text: &str, indent: usize) {
     for line in text.lines().filter(|line| !line.is_empty()) {
         let mut column = 0;

@@ -1,4 +1,4 @@
-//! `alberti scene fmt`: lays out scene files.
+//! `alberti scene fmt`: formats scene files.
 
 use crate::{CliError, print_stdout};
 use pipeline::scene::{format_source, parse_scene};
@@ -11,7 +11,7 @@ pub(crate) struct FmtArgs {
     /// Scenes (.ron); `-` reads one from the standard input and writes it to the standard output
     #[arg(required = true)]
     files: Vec<PathBuf>,
-    /// Write nothing; name the files that are laid out otherwise, and end with 1 if there are any
+    /// Do not write; print the files that are not formatted, and exit with 1 if there are any
     #[arg(long)]
     check: bool,
 }

@@ -37,12 +37,13 @@ mod store;
 mod uris;
 mod usage;
 
-pub use report::{CheckReport, Problem, Severity};
+pub use report::CheckReport;
 
-use super::document::check_json_limits;
-use super::error::Diagnostic;
+use super::ImportOptions;
+use super::gltf::document::check_json_limits;
+use super::gltf::import_gltf;
 use super::uri_resolver::{self, UriResolver};
-use super::{ImportOptions, import_gltf};
+use crate::diagnostic::Diagnostic;
 use data::ElementRules;
 use diagnostics::Diagnostics;
 use document::CheckedDocument;
@@ -56,10 +57,10 @@ use usage::UsageMap;
 /// A file that cannot be read is a report with that error: there is always a report.
 ///
 /// ```no_run
-/// use model::{ImportOptions, check};
-/// let report = check("chair.glb".as_ref(), &ImportOptions::default());
-/// for problem in &report.problems {
-///     println!("{problem}");
+/// use model::import::{ImportOptions, check_file};
+/// let report = check_file("chair.glb".as_ref(), &ImportOptions::default());
+/// for diagnostic in &report.diagnostics {
+///     println!("{diagnostic}");
 /// }
 /// println!("{}", report.summary());
 /// ```

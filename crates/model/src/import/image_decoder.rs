@@ -2,20 +2,35 @@
 //!
 //! What an image is, its first bytes say; the file's name and the glTF `mimeType` are not asked.
 
-use super::jpeg::check_chroma_sampling;
-use super::webp::check_frame_sizes;
+mod jpeg;
+#[cfg(feature = "basisu")]
+mod ktx2;
+mod webp;
+
 use crate::Image;
 use image_webp::WebPDecoder;
+use jpeg::check_chroma_sampling;
 use png::{BitDepth, ColorType, Transformations};
+use std::borrow::Cow;
 use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use webp::check_frame_sizes;
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
+/// An image of a file that has been read but not decoded.
+pub(crate) struct EncodedImage<'a> {
+    /// The index of the image in the file.
+    pub(crate) index: usize,
+    pub(crate) bytes: Cow<'a, [u8]>,
+    /// Width and height in texels.
+    pub(crate) size: (u32, u32),
+}
+
 /// Width and height, from the header alone.
-pub(super) fn image_size(bytes: &[u8]) -> Result<(u32, u32), String> {
+pub(crate) fn image_size(bytes: &[u8]) -> Result<(u32, u32), String> {
     catch_decoder_panic(|| match ImageFormat::from_magic(bytes)? {
         ImageFormat::Png => {
             let mut decoder = png::Decoder::new(Cursor::new(bytes));
@@ -30,7 +45,7 @@ pub(super) fn image_size(bytes: &[u8]) -> Result<(u32, u32), String> {
         }
         ImageFormat::WebP => Ok(webp_decoder(bytes)?.dimensions()),
         #[cfg(feature = "basisu")]
-        ImageFormat::Ktx2 => super::ktx2::size(bytes),
+        ImageFormat::Ktx2 => ktx2::size(bytes),
     })
     .and_then(|(width, height)| {
         let (texels, most) = (
@@ -46,7 +61,7 @@ pub(super) fn image_size(bytes: &[u8]) -> Result<(u32, u32), String> {
 }
 
 /// The name of the format, or nothing if it is not known.
-pub(super) fn format_name(bytes: &[u8]) -> &'static str {
+pub(crate) fn format_name(bytes: &[u8]) -> &'static str {
     match ImageFormat::from_magic(bytes) {
         Ok(ImageFormat::Png) => "png",
         Ok(ImageFormat::Jpeg) => "jpeg",
@@ -67,13 +82,13 @@ pub fn decode_bounded(bytes: &[u8], most: u64) -> Result<Image, String> {
 }
 
 /// The whole image. Its size should have been asked first: this allocates as much as the image has texels.
-pub(super) fn decode_rgba(bytes: &[u8]) -> Result<Image, String> {
+pub(crate) fn decode_rgba(bytes: &[u8]) -> Result<Image, String> {
     catch_decoder_panic(|| match ImageFormat::from_magic(bytes)? {
         ImageFormat::Png => decode_png(bytes),
         ImageFormat::Jpeg => decode_jpeg(bytes),
         ImageFormat::WebP => decode_webp(bytes),
         #[cfg(feature = "basisu")]
-        ImageFormat::Ktx2 => super::ktx2::decode(bytes),
+        ImageFormat::Ktx2 => ktx2::decode(bytes),
     })
 }
 
@@ -121,7 +136,7 @@ impl ImageFormat {
                 return Ok(Self::WebP);
             }
             #[cfg(feature = "basisu")]
-            [..] if bytes.starts_with(&super::ktx2::MAGIC) => return Ok(Self::Ktx2),
+            [..] if bytes.starts_with(&ktx2::MAGIC) => return Ok(Self::Ktx2),
             [] => return Err("the image is empty".to_owned()),
             [0xAB, b'K', b'T', b'X', ..] => "a KTX image",
             [b'D', b'D', b'S', b' ', ..] => "a DDS image",

@@ -3,7 +3,7 @@
 //! Which thread decodes which image makes no difference: results are kept by their place.
 
 use super::image_decoder;
-use super::images::EncodedImage;
+use super::image_decoder::EncodedImage;
 use crate::Image;
 use crate::Timings;
 use std::convert::Infallible;

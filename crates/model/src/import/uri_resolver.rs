@@ -7,8 +7,8 @@
 //! model may name other folders: then `..` and symbolic links may lead there too, and nothing else changes.
 
 use super::ImportOptions;
-use super::error::{Diagnostic, ImportErrorKind};
 use super::limits::Limits;
+use crate::diagnostic::{Diagnostic, codes};
 use base64::Engine;
 use base64::alphabet;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
@@ -19,12 +19,12 @@ use std::path::{Component, Path, PathBuf};
 
 /// Reads the files that a glTF file refers to.
 #[derive(Debug)]
-pub(super) struct UriResolver<'a> {
+pub(crate) struct UriResolver<'a> {
     /// The folder of the glTF file and the one that everything must stay below; `None` if no file may be read.
     sandbox: Option<AssetSandbox>,
-    pub(super) limits: &'a Limits,
+    pub(crate) limits: &'a Limits,
     /// Whether a missing file stops loading; see [`ImportOptions::lenient`].
-    pub(super) lenient: bool,
+    pub(crate) lenient: bool,
     /// The bytes that have been read so far.
     bytes_read: Cell<u64>,
 }
@@ -41,7 +41,7 @@ struct AssetSandbox {
 impl<'a> UriResolver<'a> {
     /// A resolver for the assets of `file`, which must be below the folders that the options name, or below the file's own.
     /// The file itself has been read: its `length` counts.
-    pub(super) fn new(
+    pub(crate) fn new(
         file: &Path,
         length: usize,
         options: &'a ImportOptions,
@@ -56,7 +56,7 @@ impl<'a> UriResolver<'a> {
     }
 
     /// A resolver for the assets of a glTF file in memory: they begin at the root, or, without one, may not be files.
-    pub(super) fn in_memory(length: usize, options: &'a ImportOptions) -> Result<Self, Diagnostic> {
+    pub(crate) fn in_memory(length: usize, options: &'a ImportOptions) -> Result<Self, Diagnostic> {
         let root = options.root.as_deref().map(canonical_folder).transpose()?;
         Self::with_sandbox(root.map(|root| (root.clone(), root)), length, options)
     }
@@ -78,7 +78,7 @@ impl<'a> UriResolver<'a> {
     }
 
     /// The bytes that a URI stands for; `pointer` is where the URI is.
-    pub(super) fn read_uri(&self, uri: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
+    pub(crate) fn read_uri(&self, uri: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
         let bytes = match uri.split_once(':') {
             Some((scheme, data)) if scheme.eq_ignore_ascii_case("data") => {
                 decode_data_uri(data, pointer)?
@@ -99,7 +99,7 @@ impl<'a> UriResolver<'a> {
     }
 
     /// The bytes of all files that have been read so far.
-    pub(super) fn total_bytes(&self) -> u64 {
+    pub(crate) fn total_bytes(&self) -> u64 {
         self.bytes_read.get()
     }
 
@@ -125,8 +125,8 @@ impl<'a> UriResolver<'a> {
             Some(scheme) => {
                 forbidden_path(pointer, &format!("the scheme {scheme:?} of {uri:?} is not read"))
             }
-            None => Diagnostic::new(
-                ImportErrorKind::Unreadable,
+            None => Diagnostic::error(
+                codes::IO_ERROR,
                 pointer,
                 format!("the file {uri:?} does not exist"),
                 "put it beside the glTF file",
@@ -178,7 +178,7 @@ impl AssetSandbox {
 }
 
 /// Reads a whole regular file, but no more than the limit.
-pub(super) fn read_file(
+pub(crate) fn read_file(
     path: &Path,
     limits: &Limits,
     pointer: &str,
@@ -188,12 +188,7 @@ pub(super) fn read_file(
     if !metadata.is_file() {
         let problem =
             if metadata.is_dir() { "this is a folder" } else { "this is not a regular file" };
-        return Err(Diagnostic::new(
-            ImportErrorKind::Unreadable,
-            pointer,
-            problem.to_owned(),
-            "give a file",
-        ));
+        return Err(Diagnostic::error(codes::IO_ERROR, pointer, problem.to_owned(), "give a file"));
     }
     let allowed = limits.file_bytes;
     let mut bytes = Vec::new();
@@ -216,7 +211,7 @@ fn canonical_allowed_folder(folder: &Path) -> Result<PathBuf, Diagnostic> {
     folder.canonicalize().map_err(|error| {
         let problem =
             format!("the folder {}, allowed for files, cannot be used: {error}", folder.display());
-        Diagnostic::new(ImportErrorKind::Unreadable, "", problem, "name a folder that exists")
+        Diagnostic::error(codes::IO_ERROR, "", problem, "name a folder that exists")
     })
 }
 
@@ -234,13 +229,13 @@ fn unreadable_file(pointer: &str, path: &Path, error: &std::io::Error) -> Diagno
         }
         _ => (format!("{name} cannot be read: {error}"), "check the file"),
     };
-    Diagnostic::new(ImportErrorKind::Unreadable, pointer, problem, remedy)
+    Diagnostic::error(codes::IO_ERROR, pointer, problem, remedy)
 }
 
 fn forbidden_path(pointer: &str, problem: &str) -> Diagnostic {
     let remedy = "copy the file beside the glTF file and name it by a relative path, or allow its folder \
                   with --allow-outside DIR";
-    Diagnostic::new(ImportErrorKind::Forbidden, pointer, problem.to_owned(), remedy)
+    Diagnostic::error(codes::FORBIDDEN_PATH, pointer, problem.to_owned(), remedy)
 }
 
 /// The scheme of a URI (RFC 3986 §3.1), if it has one.

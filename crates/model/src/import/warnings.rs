@@ -1,7 +1,6 @@
 //! The list of soft faults, kept short even if a file has millions.
 
-use super::error::{Diagnostic, ImportErrorKind};
-use crate::Warning;
+use crate::diagnostic::{Diagnostic, Severity, codes};
 
 /// So many warnings are kept; a reader has lost patience long before.
 const MAX_WARNINGS: usize = 500;
@@ -11,7 +10,7 @@ const MAX_WARNINGS: usize = 500;
 pub(super) struct ImportWarnings {
     /// Whether faults that stop loading are only warnings, where something is left to load.
     lenient: bool,
-    list: Vec<Warning>,
+    list: Vec<Diagnostic>,
     omitted: usize,
 }
 
@@ -26,8 +25,12 @@ impl ImportWarnings {
     }
 
     pub(super) fn push_warning(&mut self, pointer: &str, message: impl Into<String>) {
+        self.push(warning(codes::LEFT_OUT, pointer, message.into()));
+    }
+
+    fn push(&mut self, warning: Diagnostic) {
         if self.list.len() < MAX_WARNINGS {
-            self.list.push(Warning { pointer: pointer.to_owned(), message: message.into() });
+            self.list.push(warning);
         } else {
             self.omitted += 1;
         }
@@ -35,7 +38,11 @@ impl ImportWarnings {
 
     /// A fault that costs no more than what `consequence` says.
     pub(super) fn downgrade(&mut self, fault: &Diagnostic, consequence: &str) {
-        self.push_warning(&fault.location, format!("{}; {consequence}", fault.message));
+        self.push(warning(
+            fault.code,
+            &fault.location,
+            format!("{}; {consequence}", fault.message),
+        ));
     }
 
     /// A fault that stops loading; of a reader who is lenient it costs no more than what `consequence` says. Limits hold
@@ -45,8 +52,7 @@ impl ImportWarnings {
         fault: Diagnostic,
         consequence: &str,
     ) -> Result<(), Diagnostic> {
-        if !self.lenient || matches!(fault.kind, ImportErrorKind::Limit | ImportErrorKind::NotFound)
-        {
+        if !self.lenient || matches!(fault.code, codes::LIMIT_EXCEEDED | codes::NO_SUCH_ITEM) {
             return Err(fault);
         }
         self.downgrade(&fault, consequence);
@@ -56,15 +62,20 @@ impl ImportWarnings {
     /// Adds the warnings of another list.
     pub(super) fn append_warnings(&mut self, other: Self) {
         let Self { list, omitted: left_out, .. } = other;
-        list.iter().for_each(|warning| self.push_warning(&warning.pointer, &*warning.message));
+        list.into_iter().for_each(|warning| self.push(warning));
         self.omitted += left_out;
     }
 
-    pub(super) fn into_list(mut self) -> Vec<Warning> {
+    pub(super) fn into_list(mut self) -> Vec<Diagnostic> {
         if self.omitted > 0 {
             let message = format!("{} more warnings are not listed", self.omitted);
-            self.list.push(Warning { pointer: String::new(), message });
+            self.list.push(warning(codes::LEFT_OUT, "", message));
         }
         self.list
     }
+}
+
+fn warning(code: &'static str, location: &str, message: String) -> Diagnostic {
+    let severity = Severity::Warning;
+    Diagnostic { severity, code, location: location.to_owned(), message, help: None }
 }

@@ -3,7 +3,8 @@
 
 use projection::{Convention, Handedness, NdcY};
 use std::str::FromStr;
-use viewport::{DepthRange, PixelConvention, Rectangle, Viewport, ViewportError};
+use homog::PixelConvention;
+use viewport::{DepthRange, Rectangle, Viewport, ViewportError};
 
 /// The conventions of a book or of a graphics interface.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]

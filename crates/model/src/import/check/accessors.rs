@@ -39,11 +39,11 @@ struct ByteRange {
 
 impl AccessorChecker<'_> {
     fn check_layout(&self, accessor: &Value, layout: AccessorLayout) {
-        let findings = self.document.diagnostics;
+        let diagnostics = self.document.diagnostics;
         let pointer = &self.pointer;
         if layout.normalized && layout.component_type >= ComponentType::U32 {
             let message = "only bytes and shorts can be normalised";
-            findings.add(
+            diagnostics.add(
                 &codes::ACCESSOR_NORMALIZED_INVALID,
                 format_args!("{pointer}/normalized"),
                 message,
@@ -52,7 +52,7 @@ impl AccessorChecker<'_> {
         if layout.element_type.is_matrix() && !layout.byte_offset.is_multiple_of(4) {
             let message =
                 format_args!("matrices begin at multiples of 4, and not at {}", layout.byte_offset);
-            findings.add(
+            diagnostics.add(
                 &codes::ACCESSOR_MATRIX_ALIGNMENT,
                 format_args!("{pointer}/byteOffset"),
                 message,
@@ -64,7 +64,7 @@ impl AccessorChecker<'_> {
                 let size = layout.element_size();
                 let message =
                     format_args!("the stride is {stride}, and an element has {size} bytes");
-                findings.add(&codes::ACCESSOR_SMALL_BYTESTRIDE, pointer, message);
+                diagnostics.add(&codes::ACCESSOR_SMALL_BYTESTRIDE, pointer, message);
             }
             let length = layout.byte_length(stride.unwrap_or(layout.packed_stride()));
             let stretch = ByteRange {
@@ -97,12 +97,12 @@ impl AccessorChecker<'_> {
 
     fn check_sparse(&self, sparse: &Value, layout: AccessorLayout) {
         let Some(count) = integer_member(sparse, "count") else { return };
-        let findings = self.document.diagnostics;
+        let diagnostics = self.document.diagnostics;
         let pointer = format!("{}/sparse", self.pointer);
         if count > layout.count {
             let message = format_args!("{count} elements of {} are to be replaced", layout.count);
             let code = &codes::ACCESSOR_SPARSE_COUNT_OUT_OF_RANGE;
-            findings.add(code, format_args!("{pointer}/count"), message);
+            diagnostics.add(code, format_args!("{pointer}/count"), message);
         }
         if let Some(indices) = sparse.get("indices") {
             let size = integer_member(indices, "componentType")
@@ -147,18 +147,18 @@ impl AccessorChecker<'_> {
 
     /// Whether a stretch lies in a view, and where it should begin.
     fn check_byte_range(&self, view: usize, stretch: &ByteRange, pointer: &str) {
-        let findings = self.document.diagnostics;
+        let diagnostics = self.document.diagnostics;
         let Some(json) = self.document.root_array("bufferViews").get(view) else { return };
         let ByteRange { offset, length, size } = *stretch;
         let start = integer_member(json, "byteOffset").unwrap_or(0);
         if !offset.is_multiple_of(size as u64) {
             let message = format_args!("{offset} is no multiple of the {size} bytes of a number");
             let at = format_args!("{pointer}/byteOffset");
-            findings.add(&codes::ACCESSOR_OFFSET_ALIGNMENT, at, message);
+            diagnostics.add(&codes::ACCESSOR_OFFSET_ALIGNMENT, at, message);
         } else if !start.saturating_add(offset).is_multiple_of(size as u64) {
             let message =
                 format_args!("{start} + {offset} is no multiple of the {size} bytes of a number");
-            findings.add(&codes::ACCESSOR_TOTAL_OFFSET_ALIGNMENT, pointer, message);
+            diagnostics.add(&codes::ACCESSOR_TOTAL_OFFSET_ALIGNMENT, pointer, message);
         }
         if let Some(there) = integer_member(json, "byteLength")
             && offset.saturating_add(length) > there
@@ -166,24 +166,24 @@ impl AccessorChecker<'_> {
             let message = format_args!(
                 "{length} bytes from {offset} on are not all in view {view}, which has {there}"
             );
-            findings.add(&codes::ACCESSOR_TOO_LONG, pointer, message);
+            diagnostics.add(&codes::ACCESSOR_TOO_LONG, pointer, message);
         }
     }
 
     /// The indices of replaced elements rise and are below the number of elements.
     fn check_sparse_indices(&self, sparse: &Value, layout: AccessorLayout, pointer: &str) {
         let Some(indices) = self.store.sparse_indices(sparse) else { return };
-        let findings = self.document.diagnostics;
+        let diagnostics = self.document.diagnostics;
         let falls = indices.array_windows().filter(|[a, b]: &&[u32; 2]| a >= b).count();
         if falls > 0 {
             let message = format_args!("the indices do not rise (places: {falls})");
-            findings.add(&codes::ACCESSOR_SPARSE_INDICES_NON_INCREASING, pointer, message);
+            diagnostics.add(&codes::ACCESSOR_SPARSE_INDICES_NON_INCREASING, pointer, message);
         }
         let outside = indices.iter().filter(|&&index| u64::from(index) >= layout.count).count();
         if outside > 0 {
             let message =
                 format_args!("{outside} of {} indices have no element to replace", indices.len());
-            findings.add(&codes::ACCESSOR_SPARSE_INDEX_OOB, pointer, message);
+            diagnostics.add(&codes::ACCESSOR_SPARSE_INDEX_OOB, pointer, message);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Animations: samplers, channels, and what they move (glTF 2.0 §3.11).
 
-use super::codes::{self, Code};
+use super::codes::{self, DiagnosticCode};
 use super::data::{ElementRule, ElementRules};
 use super::document::{
     CheckedDocument, array_items, extension_object, index_member, integer_member, string_member,
@@ -64,7 +64,7 @@ struct AnimationChecker<'a, 'd> {
 }
 
 impl<'a> AnimationChecker<'a, '_> {
-    fn report(&self, code: &Code, member: &str, message: impl Display) {
+    fn report(&self, code: &DiagnosticCode, member: &str, message: impl Display) {
         self.document.diagnostics.add(code, format_args!("{}/{member}", self.pointer), message);
     }
 

@@ -3,11 +3,11 @@
 //! Names and severities are those of the Khronos glTF validator 2.0 (its ISSUES.md) wherever it knows the problem, so that
 //! whoever knows them finds them here; its "information" and "hint" are notes. The last few are our own.
 
-use super::report::Severity;
+use crate::diagnostic::Severity;
 
 /// A kind of problem.
 #[derive(Debug)]
-pub(super) struct Code {
+pub(super) struct DiagnosticCode {
     pub(super) name: &'static str,
     pub(super) severity: Severity,
     /// What to do about it.
@@ -16,8 +16,8 @@ pub(super) struct Code {
 
 macro_rules! codes {
     ($($severity:ident { $($remedy:literal => $($name:ident)*;)* })*) => {$($($(
-        pub(super) const $name: Code =
-            Code { name: stringify!($name), severity: Severity::$severity, remedy: $remedy };
+        pub(super) const $name: DiagnosticCode =
+            DiagnosticCode { name: stringify!($name), severity: Severity::$severity, remedy: $remedy };
     )*)*)*};
 }
 
@@ -118,7 +118,7 @@ codes! {
         "export the file again if something is missing in the picture" => LEFT_OUT;
         "nothing, unless it is missed in the picture" => NOT_SHOWN;
     }
-    Note {
+    Info {
         "remove it" => ACCESSOR_INDEX_TRIANGLE_DEGENERATE NODE_EMPTY NODE_MATRIX_DEFAULT UNUSED_OBJECT;
         "nothing: extensions that are not known here are not checked" => UNSUPPORTED_EXTENSION;
     }

@@ -2,7 +2,7 @@
 //!
 //! One problem tells of all elements of an accessor that are wrong in one way: how many there are, and the first of them.
 
-use super::codes::{self, Code};
+use super::codes::{self, DiagnosticCode};
 use super::document::{CheckedDocument, array_items};
 use super::elements::AccessorElements;
 use super::layout::{AccessorLayout, ComponentType};
@@ -284,7 +284,7 @@ impl RuleScan<'_> {
     }
 
     fn report_violations(&self, document: &CheckedDocument<'_>, total: u64) {
-        let say = |code: &Code, tally: &Tally, what: &dyn Display| {
+        let say = |code: &DiagnosticCode, tally: &Tally, what: &dyn Display| {
             let Tally { count, first, value } = tally;
             if *count > 0 {
                 let message = format_args!(

@@ -5,13 +5,13 @@ use super::document::{
     CheckedDocument, array_items, as_whole_number, extension_object, string_member,
 };
 use super::schema::Collection;
-use super::schema::extensions::PLACES;
+use super::schema::extensions::EXTENSION_OBJECTS;
 use serde_json::Value;
 use std::collections::BTreeSet;
 
 /// The version of glTF the file is, and the one it needs.
 pub(super) fn check_asset(document: &CheckedDocument<'_>) {
-    let findings = document.diagnostics;
+    let diagnostics = document.diagnostics;
     let Some(asset) = document.root.get("asset") else { return };
     let parts = |key: &str| {
         let (major, minor) = string_member(asset, key)?.split_once('.')?;
@@ -21,44 +21,48 @@ pub(super) fn check_asset(document: &CheckedDocument<'_>) {
     if version.0 != 2 {
         let message =
             format_args!("the file is glTF {}.{}, and only 2 is known", version.0, version.1);
-        findings.add(&codes::UNKNOWN_ASSET_MAJOR_VERSION, "/asset/version", message);
+        diagnostics.add(&codes::UNKNOWN_ASSET_MAJOR_VERSION, "/asset/version", message);
     } else if version.1 > 0 {
         let message = format_args!("the file is glTF 2.{}, and only 2.0 is known", version.1);
-        findings.add(&codes::UNKNOWN_ASSET_MINOR_VERSION, "/asset/version", message);
+        diagnostics.add(&codes::UNKNOWN_ASSET_MINOR_VERSION, "/asset/version", message);
     }
     if let Some(minimum) = parts("minVersion").filter(|&minimum| minimum > version) {
         let message = format_args!("minVersion {}.{} is above the version", minimum.0, minimum.1);
-        findings.add(&codes::ASSET_MIN_VERSION_GREATER_THAN_VERSION, "/asset/minVersion", message);
+        diagnostics.add(
+            &codes::ASSET_MIN_VERSION_GREATER_THAN_VERSION,
+            "/asset/minVersion",
+            message,
+        );
     }
 }
 
 /// What is required must be used; what is not known is not checked.
 pub(super) fn check_extensions(document: &CheckedDocument<'_>) {
-    let findings = document.diagnostics;
+    let diagnostics = document.diagnostics;
     for (at, name) in array_items(document.root, "extensionsRequired").iter().enumerate() {
         if let Some(name) = name.as_str().filter(|name| !document.uses_extension(name)) {
             let message = format_args!("{name} is required and not in extensionsUsed");
             let pointer = format_args!("/extensionsRequired/{at}");
-            findings.add(&codes::UNUSED_EXTENSION_REQUIRED, pointer, message);
+            diagnostics.add(&codes::UNUSED_EXTENSION_REQUIRED, pointer, message);
         }
     }
     for (at, name) in array_items(document.root, "extensionsUsed").iter().enumerate() {
         if let Some(name) = name.as_str().filter(|name| !is_known(name)) {
             let message = format_args!("{name} is not known here, and what it says is not checked");
             let pointer = format_args!("/extensionsUsed/{at}");
-            findings.add(&codes::UNSUPPORTED_EXTENSION, pointer, message);
+            diagnostics.add(&codes::UNSUPPORTED_EXTENSION, pointer, message);
         }
     }
 }
 
 fn is_known(extension: &str) -> bool {
-    PLACES.iter().any(|place| place.name == extension)
+    EXTENSION_OBJECTS.iter().any(|place| place.name == extension)
 }
 
 /// Each variant may choose a material of a primitive once, and there must be variants at all.
 pub(super) fn check_variants(document: &CheckedDocument<'_>) {
     const NAME: &str = "KHR_materials_variants";
-    let findings = document.diagnostics;
+    let diagnostics = document.diagnostics;
     let has_variants = extension_object(document.root, NAME).is_some();
     for (at, mesh) in document.root_array("meshes").iter().enumerate() {
         for (part, primitive) in array_items(mesh, "primitives").iter().enumerate() {
@@ -66,7 +70,7 @@ pub(super) fn check_variants(document: &CheckedDocument<'_>) {
             let pointer = format!("/meshes/{at}/primitives/{part}/extensions/{NAME}");
             if !has_variants {
                 let message = format_args!("/extensions/{NAME} must say which variants there are");
-                findings.add(&codes::UNSATISFIED_DEPENDENCY, &pointer, message);
+                diagnostics.add(&codes::UNSATISFIED_DEPENDENCY, &pointer, message);
             }
             let mut known = BTreeSet::new();
             for (number, mapping) in array_items(own, "mappings").iter().enumerate() {
@@ -78,7 +82,7 @@ pub(super) fn check_variants(document: &CheckedDocument<'_>) {
                 if distinct.len() == all.len() && all.iter().filter(twice).count() > 0 {
                     let message = "a variant has a material for this primitive already";
                     let pointer = format_args!("{pointer}/mappings/{number}/variants");
-                    findings.add(
+                    diagnostics.add(
                         &codes::KHR_MATERIALS_VARIANTS_NON_UNIQUE_VARIANT,
                         pointer,
                         message,
@@ -91,13 +95,17 @@ pub(super) fn check_variants(document: &CheckedDocument<'_>) {
 
 /// Numbers of cameras that make no view.
 pub(super) fn check_cameras(document: &CheckedDocument<'_>) {
-    let findings = document.diagnostics;
+    let diagnostics = document.diagnostics;
     for (at, camera) in document.root_array("cameras").iter().enumerate() {
         if let Some(kind @ ("perspective" | "orthographic")) = string_member(camera, "type")
             && camera.get(kind).is_none()
         {
             let message = format_args!("the member `{kind}` is missing, and the type says so");
-            findings.add(&codes::UNDEFINED_PROPERTY, format_args!("/cameras/{at}/{kind}"), message);
+            diagnostics.add(
+                &codes::UNDEFINED_PROPERTY,
+                format_args!("/cameras/{at}/{kind}"),
+                message,
+            );
         }
         for kind in ["perspective", "orthographic"] {
             let Some(lens) = camera.get(kind) else { continue };
@@ -108,21 +116,21 @@ pub(super) fn check_cameras(document: &CheckedDocument<'_>) {
                 && far > 0.0
             {
                 let message = format_args!("zfar {far} is not above znear {near}");
-                findings.add(&codes::CAMERA_ZFAR_LEQUAL_ZNEAR, &pointer, message);
+                diagnostics.add(&codes::CAMERA_ZFAR_LEQUAL_ZNEAR, &pointer, message);
             }
             for key in ["xmag", "ymag"] {
                 let Some(size) = number(key) else { continue };
                 let pointer = format_args!("{pointer}/{key}");
                 if size == 0.0 {
-                    findings.add(&codes::CAMERA_XMAG_YMAG_ZERO, pointer, "nothing is that flat");
+                    diagnostics.add(&codes::CAMERA_XMAG_YMAG_ZERO, pointer, "nothing is that flat");
                 } else if size < 0.0 {
                     let message = format_args!("{size} is negative");
-                    findings.add(&codes::CAMERA_XMAG_YMAG_NEGATIVE, pointer, message);
+                    diagnostics.add(&codes::CAMERA_XMAG_YMAG_NEGATIVE, pointer, message);
                 }
             }
             if let Some(angle) = number("yfov").filter(|&angle| angle >= std::f64::consts::PI) {
                 let message = format_args!("{angle} radians are half a turn or more");
-                findings.add(
+                diagnostics.add(
                     &codes::CAMERA_YFOV_GEQUAL_PI,
                     format_args!("{pointer}/yfov"),
                     message,

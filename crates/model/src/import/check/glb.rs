@@ -4,7 +4,7 @@
 //!  magic · version · length │ length · JSON · … │ length · BIN · … │ length · anything · …
 //! ```
 
-use super::codes::{self, Code};
+use super::codes::{self, DiagnosticCode};
 use super::diagnostics::Diagnostics;
 use std::fmt::Display;
 use std::ops::Range;
@@ -19,40 +19,40 @@ pub(super) struct ContainerParts {
 }
 
 /// Finds the parts of a file and what is wrong with its container.
-pub(super) fn check_container(bytes: &[u8], findings: &Diagnostics) -> ContainerParts {
+pub(super) fn check_container(bytes: &[u8], diagnostics: &Diagnostics) -> ContainerParts {
     if !bytes.starts_with(b"glTF") {
         let mark = if bytes.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
-        check_byte_order_mark(bytes, findings);
+        check_byte_order_mark(bytes, diagnostics);
         return ContainerParts { json: Some(mark..bytes.len()), ..ContainerParts::default() };
     }
     let mut reader = ContainerReader {
         bytes,
-        findings,
+        diagnostics,
         parts: ContainerParts { is_binary: true, ..ContainerParts::default() },
     };
     reader.check_header();
     if let Some(json) = &reader.parts.json {
-        check_byte_order_mark(&bytes[json.clone()], findings);
+        check_byte_order_mark(&bytes[json.clone()], diagnostics);
     }
     reader.parts
 }
 
 /// JSON must not begin with a byte order mark (glTF 2.0 §2.7); it is skipped.
-fn check_byte_order_mark(json: &[u8], findings: &Diagnostics) {
+fn check_byte_order_mark(json: &[u8], diagnostics: &Diagnostics) {
     if json.starts_with(b"\xEF\xBB\xBF") {
-        findings.add(&codes::INVALID_JSON, "", "the JSON begins with a byte order mark");
+        diagnostics.add(&codes::INVALID_JSON, "", "the JSON begins with a byte order mark");
     }
 }
 
 struct ContainerReader<'a> {
     bytes: &'a [u8],
-    findings: &'a Diagnostics,
+    diagnostics: &'a Diagnostics,
     parts: ContainerParts,
 }
 
 impl ContainerReader<'_> {
-    fn report(&self, code: &Code, message: impl Display) {
-        self.findings.add(code, "", message);
+    fn report(&self, code: &DiagnosticCode, message: impl Display) {
+        self.diagnostics.add(code, "", message);
     }
 
     fn read_u32(&self, at: usize) -> Option<usize> {
@@ -174,9 +174,9 @@ mod tests {
     }
 
     fn reported_codes(bytes: &[u8]) -> (ContainerParts, Vec<&'static str>) {
-        let findings = Diagnostics::default();
-        let parts = check_container(bytes, &findings);
-        let (problems, _) = findings.into_parts();
+        let diagnostics = Diagnostics::default();
+        let parts = check_container(bytes, &diagnostics);
+        let (problems, _) = diagnostics.into_parts();
         (parts, problems.iter().map(|problem| problem.code).collect())
     }
 

@@ -66,12 +66,12 @@ struct ImageChecker<'a> {
 impl ImageChecker<'_> {
     /// Checks an image; gives what it is, as far as its bytes or the file tell.
     fn check_image(&self, image: &Value) -> Option<String> {
-        let findings = self.document.diagnostics;
+        let diagnostics = self.document.diagnostics;
         let declared = string_member(image, "mimeType");
         if image.get("bufferView").is_some() && declared.is_none() {
             let message = "an image in a buffer view must have a mimeType";
             let pointer = format_args!("{}/bufferView", self.pointer);
-            findings.add(&codes::UNSATISFIED_DEPENDENCY, pointer, message);
+            diagnostics.add(&codes::UNSATISFIED_DEPENDENCY, pointer, message);
         }
         let in_uri = string_member(image, "uri").and_then(uris::media_type);
         let bytes = self.image_bytes(image);
@@ -80,12 +80,12 @@ impl ImageChecker<'_> {
             && found != said
         {
             let message = format_args!("the image is {found}, and not {said}");
-            findings.add(&codes::IMAGE_MIME_TYPE_INVALID, &self.pointer, message);
+            diagnostics.add(&codes::IMAGE_MIME_TYPE_INVALID, &self.pointer, message);
         }
         if let Some(said) = in_uri.filter(|said| bytes.is_some() && Some(said.as_str()) != found) {
             let message =
                 format_args!("the image is {}, and not {said}", found.unwrap_or("unknown"));
-            findings.add(&codes::INVALID_URI, format_args!("{}/uri", self.pointer), message);
+            diagnostics.add(&codes::INVALID_URI, format_args!("{}/uri", self.pointer), message);
         }
         let kind = found.or(declared)?;
         if let Some((_, Some(extension))) = IMAGE_FORMATS.iter().find(|known| known.0 == kind)
@@ -97,31 +97,31 @@ impl ImageChecker<'_> {
             let is_webp = kind == "image/webp";
             let strange = &codes::IMAGE_UNRECOGNIZED_FORMAT;
             let code = if is_webp { &codes::IMAGE_NON_ENABLED_MIME_TYPE } else { strange };
-            findings.add(code, &self.pointer, message);
+            diagnostics.add(code, &self.pointer, message);
         }
         Some(kind.to_owned())
     }
 
     fn image_bytes(&self, image: &Value) -> Option<Cow<'_, [u8]>> {
-        let findings = self.document.diagnostics;
+        let diagnostics = self.document.diagnostics;
         if let Some(view) = index_member(image, "bufferView") {
             let pointer = format!("{}/bufferView", self.pointer);
             self.usage.note_view(view, ViewUse::Image, &pointer);
             if self.store.view_stride(view).is_some() {
                 let message = "the view of an image must not have a stride";
-                findings.add(&codes::IMAGE_BUFFER_VIEW_WITH_BYTESTRIDE, &pointer, message);
+                diagnostics.add(&codes::IMAGE_BUFFER_VIEW_WITH_BYTESTRIDE, &pointer, message);
             }
             return self.store.view_bytes(view).map(Cow::Borrowed);
         }
         let uri = string_member(image, "uri")?;
         let pointer = format!("{}/uri", self.pointer);
-        uris::check_uri(uri, &pointer, self.is_binary, findings);
-        uris::read_uri(self.resolver, uri, &pointer, findings).map(Cow::Owned)
+        uris::check_uri(uri, &pointer, self.is_binary, diagnostics);
+        uris::read_uri(self.resolver, uri, &pointer, diagnostics).map(Cow::Owned)
     }
 
     /// What an image is; its header must be whole.
     fn check_image_header(&self, bytes: &[u8]) -> Option<&'static str> {
-        let findings = self.document.diagnostics;
+        let diagnostics = self.document.diagnostics;
         let Some(kind) = sniff_media_type(bytes) else {
             let is_cut = IMAGE_FORMATS.len() > bytes.len();
             let code = if is_cut {
@@ -130,7 +130,7 @@ impl ImageChecker<'_> {
                 &codes::IMAGE_UNRECOGNIZED_FORMAT
             };
             let message = format_args!("{} bytes are of no format that glTF knows", bytes.len());
-            findings.add(code, &self.pointer, message);
+            diagnostics.add(code, &self.pointer, message);
             return None;
         };
         let problem = match kind {
@@ -143,7 +143,7 @@ impl ImageChecker<'_> {
                 .any(|words| problem.contains(words));
             let code =
                 if is_cut { &codes::IMAGE_UNEXPECTED_EOS } else { &codes::IMAGE_DATA_INVALID };
-            findings.add(code, &self.pointer, problem);
+            diagnostics.add(code, &self.pointer, problem);
         }
         Some(kind)
     }

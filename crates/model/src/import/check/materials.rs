@@ -89,24 +89,24 @@ impl MaterialRequirements {
     /// Checks a primitive with so many sets of texture coordinates; `pointer` is where it names the material.
     pub(super) fn check_primitive(
         self,
-        findings: &Diagnostics,
+        diagnostics: &Diagnostics,
         pointer: &str,
         sets: u64,
         has_tangents: bool,
     ) {
         if let Some(set) = self.max_uv_set.filter(|&set| set >= sets) {
             let message = format_args!("the material needs TEXCOORD_{set}");
-            findings.add(&codes::MESH_PRIMITIVE_TOO_FEW_TEXCOORDS, pointer, message);
+            diagnostics.add(&codes::MESH_PRIMITIVE_TOO_FEW_TEXCOORDS, pointer, message);
         }
         if has_tangents {
             return;
         }
         if self.has_normal_map {
             let message = "the material needs tangents, which are derived where the mesh has none";
-            findings.add(&codes::MESH_PRIMITIVE_GENERATED_TANGENT_SPACE, pointer, message);
+            diagnostics.add(&codes::MESH_PRIMITIVE_GENERATED_TANGENT_SPACE, pointer, message);
         } else if self.needs_tangents {
             let message = "the material needs tangents, and nothing tells how to derive them";
-            findings.add(&codes::MESH_PRIMITIVE_NO_TANGENT_SPACE, pointer, message);
+            diagnostics.add(&codes::MESH_PRIMITIVE_NO_TANGENT_SPACE, pointer, message);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Meshes: their attributes, indices and morph targets (glTF 2.0 §3.7.2).
 
-use super::codes::{self, Code};
+use super::codes::{self, DiagnosticCode};
 use super::data::{ElementRule, ElementRules};
 use super::document::{
     CheckedDocument, array_items, escape_pointer_token, index_member, integer_member,
@@ -69,7 +69,7 @@ type ResolvedAttributes<'a> = Vec<(&'a str, usize, &'a Value)>;
 type AttributeCounts<'a> = BTreeMap<&'a str, Option<u64>>;
 
 impl<'a> PrimitiveChecker<'a, '_> {
-    fn report(&self, code: &Code, member: &str, message: impl Display) {
+    fn report(&self, code: &DiagnosticCode, member: &str, message: impl Display) {
         let slash = if member.is_empty() { "" } else { "/" };
         let pointer = format_args!("{}{slash}{member}", self.pointer);
         self.document.diagnostics.add(code, pointer, message);

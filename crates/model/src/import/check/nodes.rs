@@ -52,31 +52,39 @@ pub(super) fn check_nodes(document: &CheckedDocument<'_>) -> NodeTree {
 }
 
 fn check_transform(document: &CheckedDocument<'_>, at: usize, node: &Value) {
-    let findings = document.diagnostics;
+    let diagnostics = document.diagnostics;
     let has_parts = ["translation", "rotation", "scale"].iter().any(|key| node.get(key).is_some());
     if node.get("matrix").is_some() && has_parts {
         let message = "a node has either a matrix or translation, rotation and scale";
-        findings.add(&codes::NODE_MATRIX_TRS, format_args!("/nodes/{at}/matrix"), message);
+        diagnostics.add(&codes::NODE_MATRIX_TRS, format_args!("/nodes/{at}/matrix"), message);
     }
     if let Some(matrix) = number_array::<16>(node, "matrix") {
         let pointer = format_args!("/nodes/{at}/matrix");
         let matrix = DMat4::from_cols_array(&matrix);
         if matrix == DMat4::IDENTITY {
-            findings.add(&codes::NODE_MATRIX_DEFAULT, pointer, "the matrix changes nothing");
+            diagnostics.add(&codes::NODE_MATRIX_DEFAULT, pointer, "the matrix changes nothing");
         } else if !is_decomposable(&matrix) {
             let message = "the matrix is no product of translation, rotation and scale";
-            findings.add(&codes::NODE_MATRIX_NON_TRS, pointer, message);
+            diagnostics.add(&codes::NODE_MATRIX_NON_TRS, pointer, message);
         }
     }
     if let Some(rotation) = number_array::<4>(node, "rotation") {
         let length = rotation.iter().map(|x| x * x).sum::<f64>().sqrt();
         if (length - 1.0).abs() > 5e-7 * 4.0 + ROTATION_ROUNDING {
             let message = format_args!("the rotation {rotation:?} is of length {length}");
-            findings.add(&codes::ROTATION_NON_UNIT, format_args!("/nodes/{at}/rotation"), message);
+            diagnostics.add(
+                &codes::ROTATION_NON_UNIT,
+                format_args!("/nodes/{at}/rotation"),
+                message,
+            );
         }
     }
     if node.as_object().is_some_and(serde_json::Map::is_empty) {
-        findings.add(&codes::NODE_EMPTY, format_args!("/nodes/{at}"), "the node has nothing in it");
+        diagnostics.add(
+            &codes::NODE_EMPTY,
+            format_args!("/nodes/{at}"),
+            "the node has nothing in it",
+        );
     }
 }
 
@@ -123,23 +131,27 @@ impl MeshSummary {
 }
 
 fn check_mesh_use(document: &CheckedDocument<'_>, at: usize, node: &Value, shapes: &[MeshSummary]) {
-    let findings = document.diagnostics;
+    let diagnostics = document.diagnostics;
     let Some(&shape) = index_member(node, "mesh").and_then(|mesh| shapes.get(mesh)) else { return };
     let weights = array_items(node, "weights").len();
     if weights != 0 && shape.has_primitives && weights != shape.targets {
         let message = format_args!("{weights} weights for {} morph targets", shape.targets);
-        findings.add(&codes::NODE_WEIGHTS_INVALID, format_args!("/nodes/{at}/weights"), message);
+        diagnostics.add(&codes::NODE_WEIGHTS_INVALID, format_args!("/nodes/{at}/weights"), message);
     }
     let has_skin =
         index_member(node, "skin").is_some_and(|skin| skin < document.root_array("skins").len());
     if has_skin && shape.has_primitives && !shape.has_joints {
         let message = "the mesh has no joints that the skin could bend";
         let pointer = format_args!("/nodes/{at}/skin");
-        findings.add(&codes::NODE_SKIN_WITH_NON_SKINNED_MESH, pointer, message);
+        diagnostics.add(&codes::NODE_SKIN_WITH_NON_SKINNED_MESH, pointer, message);
     }
     if shape.has_joints && node.get("skin").is_none() {
         let message = "the mesh has joints, and the node no skin";
-        findings.add(&codes::NODE_SKINNED_MESH_WITHOUT_SKIN, format_args!("/nodes/{at}"), message);
+        diagnostics.add(
+            &codes::NODE_SKINNED_MESH_WITHOUT_SKIN,
+            format_args!("/nodes/{at}"),
+            message,
+        );
     }
 }
 

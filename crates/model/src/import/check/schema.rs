@@ -9,7 +9,7 @@ pub(super) mod extensions;
 
 /// An object: its name in the tables of extensions, and its members. All may have `extensions` and `extras` besides.
 #[derive(Debug)]
-pub(super) struct Object {
+pub(super) struct ObjectSchema {
     pub(super) name: &'static str,
     pub(super) members: &'static [MemberSchema],
 }
@@ -26,15 +26,15 @@ pub(super) struct MemberSchema {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum PresenceRule {
     /// Whenever one likes.
-    May,
+    Optional,
     /// Always.
-    Must,
+    Required,
     /// Only together with another member.
-    With(&'static str),
+    Requires(&'static str),
     /// Exactly one of this member and that one must be there.
-    Either(&'static str),
+    ExactlyOne(&'static str),
     /// Only without another member.
-    Not(&'static str),
+    Excludes(&'static str),
 }
 
 /// What a member must be.
@@ -43,17 +43,17 @@ pub(super) enum ValueKind {
     /// Anything at all.
     Any,
     /// true or false.
-    Flag,
+    Boolean,
     /// A text.
     Text,
     /// A text of the form `2.0`.
     Version,
     /// One of these texts; another one is only a warning.
-    Word(&'static [&'static str]),
+    EnumString(&'static [&'static str]),
     /// A whole number from the first to the second.
     Integer(u64, u64),
     /// One of these whole numbers; another one is only a warning.
-    Choice(&'static [u64]),
+    EnumInteger(&'static [u64]),
     /// A number in a range.
     Number(NumberRange),
     /// So many numbers, each in a range; 0 for any number but none.
@@ -65,9 +65,9 @@ pub(super) enum ValueKind {
     /// Texts, all different.
     Texts,
     /// An object.
-    Object(&'static Object),
+    Object(&'static ObjectSchema),
     /// At least one object.
-    Objects(&'static Object),
+    Objects(&'static ObjectSchema),
     /// Accessors by the names of attributes.
     Attributes,
     /// Several of them: morph targets.
@@ -82,8 +82,8 @@ pub(super) struct NumberRange {
     pub(super) exclusive_min: bool,
 }
 
-const fn not(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
-    MemberSchema { name, kind, rule: PresenceRule::Not(other) }
+const fn excludes(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
+    MemberSchema { name, kind, rule: PresenceRule::Excludes(other) }
 }
 
 const ANY: NumberRange =
@@ -134,18 +134,18 @@ impl Collection {
     ];
 }
 
-const fn may(name: &'static str, kind: ValueKind) -> MemberSchema {
-    MemberSchema { name, kind, rule: PresenceRule::May }
+const fn optional(name: &'static str, kind: ValueKind) -> MemberSchema {
+    MemberSchema { name, kind, rule: PresenceRule::Optional }
 }
 
-const fn must(name: &'static str, kind: ValueKind) -> MemberSchema {
-    MemberSchema { name, kind, rule: PresenceRule::Must }
+const fn required(name: &'static str, kind: ValueKind) -> MemberSchema {
+    MemberSchema { name, kind, rule: PresenceRule::Required }
 }
 
-const fn with(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
-    MemberSchema { name, kind, rule: PresenceRule::With(other) }
+const fn requires(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
+    MemberSchema { name, kind, rule: PresenceRule::Requires(other) }
 }
 
-const fn either(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
-    MemberSchema { name, kind, rule: PresenceRule::Either(other) }
+const fn one_of(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
+    MemberSchema { name, kind, rule: PresenceRule::ExactlyOne(other) }
 }

@@ -1,10 +1,10 @@
 //! The walk over a document by the tables of the schema.
 
-use super::codes::{self, Code};
+use super::codes::{self, DiagnosticCode};
 use super::document::{CheckedDocument, as_whole_number, escape_pointer_token};
 use super::schema::core::ROOT;
-use super::schema::extensions::PLACES;
-use super::schema::{Collection, MemberSchema, NumberRange, Object, PresenceRule, ValueKind};
+use super::schema::extensions::EXTENSION_OBJECTS;
+use super::schema::{Collection, MemberSchema, NumberRange, ObjectSchema, PresenceRule, ValueKind};
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 use std::fmt::Display;
@@ -25,7 +25,7 @@ struct SchemaWalker<'a> {
 }
 
 impl SchemaWalker<'_> {
-    fn report(&self, code: &Code, message: impl Display) {
+    fn report(&self, code: &DiagnosticCode, message: impl Display) {
         self.document.diagnostics.add(code, &self.pointer, message);
     }
 
@@ -45,18 +45,18 @@ impl SchemaWalker<'_> {
         self.pointer.truncate(length);
     }
 
-    fn check_object(&mut self, members: &Map<String, Value>, object: &Object) {
+    fn check_object(&mut self, members: &Map<String, Value>, object: &ObjectSchema) {
         for member in object.members {
             match members.get(member.name) {
                 Some(value) => {
                     self.descend(member.name, |walker| walker.check_value(value, member.kind))
                 }
-                None if member.rule == PresenceRule::Must => {
+                None if member.rule == PresenceRule::Required => {
                     let name = member.name;
                     let message = format_args!("the member `{name}` is missing");
                     // Several may be missing of one object: each is a problem of its own.
-                    let findings = &self.document.diagnostics;
-                    findings.add(
+                    let diagnostics = &self.document.diagnostics;
+                    diagnostics.add(
                         &codes::UNDEFINED_PROPERTY,
                         format_args!("{}/{name}", self.pointer),
                         message,
@@ -81,17 +81,17 @@ impl SchemaWalker<'_> {
     fn check_presence(&mut self, members: &Map<String, Value>, member: &MemberSchema) {
         let is_there = members.contains_key(member.name);
         match member.rule {
-            PresenceRule::With(other) if is_there && !members.contains_key(other) => {
+            PresenceRule::Requires(other) if is_there && !members.contains_key(other) => {
                 self.descend(member.name, |walker| {
                     let message = format_args!("it means nothing without `{other}`");
                     walker.report(&codes::UNSATISFIED_DEPENDENCY, message);
                 });
             }
-            PresenceRule::Either(other) if is_there == members.contains_key(other) => {
+            PresenceRule::ExactlyOne(other) if is_there == members.contains_key(other) => {
                 let message = format_args!("either `{}` or `{other}` must be there", member.name);
                 self.report(&codes::ONE_OF_MISMATCH, message);
             }
-            PresenceRule::Not(other) if is_there && members.contains_key(other) => {
+            PresenceRule::Excludes(other) if is_there && members.contains_key(other) => {
                 let message =
                     format_args!("there must not be both `{}` and `{other}`", member.name);
                 self.report(&codes::ONE_OF_MISMATCH, message);
@@ -100,16 +100,16 @@ impl SchemaWalker<'_> {
         }
     }
 
-    fn check_extensions(&mut self, value: &Value, host: &Object) {
+    fn check_extensions(&mut self, value: &Value, parent: &ObjectSchema) {
         let Value::Object(extensions) = value else {
             return self.report_type_mismatch(value, "an object");
         };
         for (name, value) in extensions {
-            self.descend(name, |walker| walker.check_extension(name, value, host));
+            self.descend(name, |walker| walker.check_extension(name, value, parent));
         }
     }
 
-    fn check_extension(&mut self, name: &str, value: &Value, host: &Object) {
+    fn check_extension(&mut self, name: &str, value: &Value, parent: &ObjectSchema) {
         if !self.document.uses_extension(name) {
             let message = format_args!("{} does not list it", "/extensionsUsed");
             self.report(&codes::UNDECLARED_EXTENSION, message);
@@ -117,14 +117,14 @@ impl SchemaWalker<'_> {
         let Value::Object(members) = value else {
             return self.report_type_mismatch(value, "an object");
         };
-        let mut places = PLACES.iter().filter(|place| place.name == name).peekable();
+        let mut places = EXTENSION_OBJECTS.iter().filter(|place| place.name == name).peekable();
         if places.peek().is_none() {
             return;
         }
-        match places.find(|place| place.host == host.name) {
+        match places.find(|place| place.parent == parent.name) {
             Some(place) => self.check_object(members, &place.object),
             None => {
-                let message = format_args!("the extension has no object in a {}", host.name);
+                let message = format_args!("the extension has no object in a {}", parent.name);
                 self.report(&codes::UNEXPECTED_EXTENSION_OBJECT, message);
             }
         }
@@ -133,14 +133,14 @@ impl SchemaWalker<'_> {
     fn check_value(&mut self, value: &Value, kind: ValueKind) {
         match kind {
             ValueKind::Any => {}
-            ValueKind::Flag if value.is_boolean() => {}
-            ValueKind::Flag => self.report_type_mismatch(value, "true or false"),
+            ValueKind::Boolean if value.is_boolean() => {}
+            ValueKind::Boolean => self.report_type_mismatch(value, "true or false"),
             ValueKind::Text if value.is_string() => {}
             ValueKind::Text => self.report_type_mismatch(value, "a text"),
             ValueKind::Version => self.check_version(value),
-            ValueKind::Word(words) => self.check_enum_string(value, words),
+            ValueKind::EnumString(words) => self.check_enum_string(value, words),
             ValueKind::Integer(least, most) => self.check_integer(value, least, most),
-            ValueKind::Choice(numbers) => self.check_enum_integer(value, numbers),
+            ValueKind::EnumInteger(numbers) => self.check_enum_integer(value, numbers),
             ValueKind::Number(range) => match value.as_f64() {
                 Some(number) => self.check_number(number, range),
                 None => self.report_type_mismatch(value, "a number"),
@@ -314,7 +314,7 @@ impl SchemaWalker<'_> {
         }
     }
 
-    fn check_objects(&mut self, value: &Value, object: &Object) {
+    fn check_objects(&mut self, value: &Value, object: &ObjectSchema) {
         let Value::Array(items) = value else {
             return self.report_type_mismatch(value, "an array of objects");
         };

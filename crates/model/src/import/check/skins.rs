@@ -1,6 +1,6 @@
 //! Skins: joints, their matrices, and the weights of the vertices they bend (glTF 2.0 §3.7.3).
 
-use super::codes::{self, Code};
+use super::codes::{self, DiagnosticCode};
 use super::data::{ElementRule, ElementRules};
 use super::document::{
     CheckedDocument, array_items, as_whole_number, index_member, integer_member, object_members,
@@ -36,20 +36,20 @@ fn check_common_root(
     skin: &Value,
     pointer: &str,
 ) {
-    let findings = document.diagnostics;
+    let diagnostics = document.diagnostics;
     let top = |&joint: &usize| tree.roots.get(joint).copied().flatten();
     let mut tops = joints.iter().map(top);
     let first = tops.next();
     if first.is_some_and(|first| first.is_none() || tops.any(|top| top != first)) {
         let message = "the joints are not all below one node";
-        findings.add(&codes::SKIN_NO_COMMON_ROOT, format_args!("{pointer}/joints"), message);
+        diagnostics.add(&codes::SKIN_NO_COMMON_ROOT, format_args!("{pointer}/joints"), message);
     }
     let skeleton = index_member(skin, "skeleton").filter(|&node| node < tree.parents.len());
     if let Some(node) = skeleton
         && !joints.iter().all(|&joint| tree.is_at_or_below(joint, node))
     {
         let message = format_args!("not all joints are below node {node}");
-        findings.add(&codes::SKIN_SKELETON_INVALID, format_args!("{pointer}/skeleton"), message);
+        diagnostics.add(&codes::SKIN_SKELETON_INVALID, format_args!("{pointer}/skeleton"), message);
     }
 }
 
@@ -61,25 +61,25 @@ fn check_inverse_bind_matrices(
     skin: &Value,
     pointer: &str,
 ) {
-    let findings = document.diagnostics;
+    let diagnostics = document.diagnostics;
     let Some(at) = index_member(skin, "inverseBindMatrices") else { return };
     let Some(accessor) = document.root_array("accessors").get(at) else { return };
     let pointer = format!("{pointer}/inverseBindMatrices");
     usage.note_accessor(at, AccessorUse::InverseBind, &pointer);
     if usage.has_stride(at) {
         let message = "the view of the matrices must not have a stride";
-        findings.add(&codes::SKIN_IBM_ACCESSOR_WITH_BYTESTRIDE, &pointer, message);
+        diagnostics.add(&codes::SKIN_IBM_ACCESSOR_WITH_BYTESTRIDE, &pointer, message);
     }
     let Some(layout) = AccessorLayout::from_accessor(accessor) else { return };
     if (layout.element_type, layout.component_type) == (MAT4, ComponentType::F32) {
         demands.add(at, ElementRule::Matrices, &pointer);
     } else {
         let message = format_args!("the matrices cannot be {}", layout.format_name());
-        findings.add(&codes::SKIN_IBM_INVALID_FORMAT, &pointer, message);
+        diagnostics.add(&codes::SKIN_IBM_INVALID_FORMAT, &pointer, message);
     }
     if layout.count < joints as u64 {
         let message = format_args!("{} matrices for {joints} joints", layout.count);
-        findings.add(&codes::INVALID_IBM_ACCESSOR_COUNT, &pointer, message);
+        diagnostics.add(&codes::INVALID_IBM_ACCESSOR_COUNT, &pointer, message);
     }
 }
 
@@ -150,7 +150,7 @@ impl InfluenceChecker<'_> {
         for vertex in 0..count.unwrap_or(0) {
             self.check_vertex(&sets, vertex, &mut faults);
         }
-        let words: [(&Code, &str, &str); 4] = [
+        let words: [(&DiagnosticCode, &str, &str); 4] = [
             (&codes::ACCESSOR_JOINTS_INDEX_OOB, "JOINTS", "joints are not in the skin"),
             (&codes::ACCESSOR_JOINTS_INDEX_DUPLICATE, "JOINTS", "joints bend a vertex twice"),
             (&codes::ACCESSOR_WEIGHTS_NEGATIVE, "WEIGHTS", "weights are negative"),

@@ -7,8 +7,8 @@ use super::document::{
 use super::elements::AccessorElements;
 use super::layout::{AccessorLayout, ComponentType};
 use super::uris;
+use crate::import::gltf::meshopt::CompressedView;
 use crate::import::memory_budget::MemoryBudget;
-use crate::import::meshopt::CompressedView;
 use crate::import::uri_resolver::UriResolver;
 use serde_json::Value;
 use std::cell::{Cell, OnceCell};
@@ -60,7 +60,7 @@ impl<'a> BufferStore<'a> {
         chunk: Option<&'a [u8]>,
         is_binary: bool,
     ) -> Option<BufferBytes<'a>> {
-        let findings = self.document.diagnostics;
+        let diagnostics = self.document.diagnostics;
         let length = integer_member(buffer, "byteLength");
         let Some(uri) = string_member(buffer, "uri") else {
             let has_no_uri = buffer.is_object() && buffer.get("uri").is_none();
@@ -68,7 +68,7 @@ impl<'a> BufferStore<'a> {
             // A buffer without data is what meshopt has for those who cannot read it.
             if chunk.is_none() && is_binary && has_no_uri && at == 0 {
                 let message = "the buffer is to be the binary chunk, and there is none";
-                findings.add(
+                diagnostics.add(
                     &codes::BUFFER_MISSING_GLB_DATA,
                     format_args!("/buffers/{at}"),
                     message,
@@ -80,7 +80,7 @@ impl<'a> BufferStore<'a> {
                 let more = chunk.len() as u64 - length;
                 let message =
                     format_args!("the binary chunk has {more} bytes more than the buffer");
-                findings.add(
+                diagnostics.add(
                     &codes::BUFFER_GLB_CHUNK_TOO_BIG,
                     format_args!("/buffers/{at}"),
                     message,
@@ -89,8 +89,8 @@ impl<'a> BufferStore<'a> {
             return Some(BufferBytes::Chunk(chunk));
         };
         let pointer = format!("/buffers/{at}/uri");
-        uris::check_buffer_uri(uri, &pointer, is_binary, findings);
-        let bytes = uris::read_uri(self.resolver, uri, &pointer, findings)?;
+        uris::check_buffer_uri(uri, &pointer, is_binary, diagnostics);
+        let bytes = uris::read_uri(self.resolver, uri, &pointer, diagnostics)?;
         if let Some(length) = length {
             self.check_length(at, bytes.len(), length);
         }
@@ -114,8 +114,13 @@ impl<'a> BufferStore<'a> {
         if let Err(fault) = &charged {
             self.exhausted.set(true);
             let message = format_args!("{}; the data from here on is not checked", fault.message);
-            let findings = self.document.diagnostics;
-            findings.add_with_help(&codes::LIMIT_EXCEEDED, pointer, message, &fault.help);
+            let diagnostics = self.document.diagnostics;
+            diagnostics.add_with_help(
+                &codes::LIMIT_EXCEEDED,
+                pointer,
+                message,
+                fault.help.as_deref().unwrap_or_default(),
+            );
         }
         charged.is_ok()
     }
@@ -225,7 +230,7 @@ pub(super) fn check_buffer_views(document: &CheckedDocument<'_>) {
 }
 
 fn check_buffer_view(document: &CheckedDocument<'_>, at: usize, view: &Value) {
-    let findings = document.diagnostics;
+    let diagnostics = document.diagnostics;
     let offset = integer_member(view, "byteOffset").unwrap_or(0);
     let length = integer_member(view, "byteLength");
     let buffer =
@@ -239,20 +244,20 @@ fn check_buffer_view(document: &CheckedDocument<'_>, at: usize, view: &Value) {
             "bytes {offset} to {offset} + {length} are not all in a buffer of {there}"
         );
         let pointer = format_args!("/bufferViews/{at}/{member}");
-        findings.add(&codes::BUFFER_VIEW_TOO_LONG, pointer, message);
+        diagnostics.add(&codes::BUFFER_VIEW_TOO_LONG, pointer, message);
     }
     let Some(stride) = integer_member(view, "byteStride") else { return };
     let pointer = format!("/bufferViews/{at}/byteStride");
     if !stride.is_multiple_of(4) {
         let message = format_args!("{stride} is no multiple of 4");
-        findings.add(&codes::VALUE_MULTIPLE_OF, &pointer, message);
+        diagnostics.add(&codes::VALUE_MULTIPLE_OF, &pointer, message);
     }
     if integer_member(view, "target") == Some(34_963) {
         let message = "a view of indices has no stride";
-        findings.add(&codes::BUFFER_VIEW_INVALID_BYTE_STRIDE, &pointer, message);
+        diagnostics.add(&codes::BUFFER_VIEW_INVALID_BYTE_STRIDE, &pointer, message);
     }
     if let Some(length) = length.filter(|&length| stride > length) {
         let message = format_args!("the stride is {stride}, and the view has {length} bytes");
-        findings.add(&codes::BUFFER_VIEW_TOO_BIG_BYTE_STRIDE, &pointer, message);
+        diagnostics.add(&codes::BUFFER_VIEW_TOO_BIG_BYTE_STRIDE, &pointer, message);
     }
 }

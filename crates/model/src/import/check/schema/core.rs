@@ -5,276 +5,298 @@ use super::Collection::{
     Samplers, Scenes, Skins, Textures,
 };
 use super::ValueKind::{
-    Any, Attributes, Choice, Flag, Index, Indices, Integer, Number, Numbers, Objects, Targets,
-    Text, Texts, Version, Word,
+    Any, Attributes, Boolean, EnumInteger, EnumString, Index, Indices, Integer, Number, Numbers,
+    Objects, Targets, Text, Texts, Version,
 };
-use super::{ANY, NOT_NEGATIVE, Object, POSITIVE, SIGNED_UNIT, UNIT, either, may, must, not, with};
+use super::{
+    ANY, NOT_NEGATIVE, ObjectSchema, POSITIVE, SIGNED_UNIT, UNIT, excludes, one_of, optional,
+    required, requires,
+};
 
-const MOST: u64 = u64::MAX;
-const NAME: super::MemberSchema = may("name", Text);
+const MAX_INTEGER: u64 = u64::MAX;
+const NAME: super::MemberSchema = optional("name", Text);
 
-const fn object(name: &'static str, members: &'static [super::MemberSchema]) -> Object {
-    Object { name, members }
+const fn object_schema(
+    name: &'static str,
+    members: &'static [super::MemberSchema],
+) -> ObjectSchema {
+    ObjectSchema { name, members }
 }
 
-const fn one(object: &'static Object) -> super::ValueKind {
+const fn object_kind(object: &'static ObjectSchema) -> super::ValueKind {
     super::ValueKind::Object(object)
 }
 
-pub(in super::super) static ROOT: Object = object(
+pub(in super::super) static ROOT: ObjectSchema = object_schema(
     "glTF",
     &[
-        may("extensionsUsed", Texts),
-        with("extensionsRequired", "extensionsUsed", Texts),
-        may("accessors", Objects(&ACCESSOR)),
-        may("animations", Objects(&ANIMATION)),
-        must("asset", one(&ASSET)),
-        may("buffers", Objects(&BUFFER)),
-        may("bufferViews", Objects(&BUFFER_VIEW)),
-        may("cameras", Objects(&CAMERA)),
-        may("images", Objects(&IMAGE)),
-        may("materials", Objects(&MATERIAL)),
-        may("meshes", Objects(&MESH)),
-        may("nodes", Objects(&NODE)),
-        may("samplers", Objects(&SAMPLER)),
-        with("scene", "scenes", Index(Scenes)),
-        may("scenes", Objects(&SCENE)),
-        may("skins", Objects(&SKIN)),
-        may("textures", Objects(&TEXTURE)),
+        optional("extensionsUsed", Texts),
+        requires("extensionsRequired", "extensionsUsed", Texts),
+        optional("accessors", Objects(&ACCESSOR)),
+        optional("animations", Objects(&ANIMATION)),
+        required("asset", object_kind(&ASSET)),
+        optional("buffers", Objects(&BUFFER)),
+        optional("bufferViews", Objects(&BUFFER_VIEW)),
+        optional("cameras", Objects(&CAMERA)),
+        optional("images", Objects(&IMAGE)),
+        optional("materials", Objects(&MATERIAL)),
+        optional("meshes", Objects(&MESH)),
+        optional("nodes", Objects(&NODE)),
+        optional("samplers", Objects(&SAMPLER)),
+        requires("scene", "scenes", Index(Scenes)),
+        optional("scenes", Objects(&SCENE)),
+        optional("skins", Objects(&SKIN)),
+        optional("textures", Objects(&TEXTURE)),
     ],
 );
 
-static ACCESSOR: Object = object(
+static ACCESSOR: ObjectSchema = object_schema(
     "accessor",
     &[
-        may("bufferView", Index(BufferViews)),
-        with("byteOffset", "bufferView", Integer(0, MOST)),
-        must("componentType", Choice(&[5120, 5121, 5122, 5123, 5125, 5126])),
-        may("normalized", Flag),
-        must("count", Integer(1, MOST)),
-        must("type", Word(&["SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"])),
+        optional("bufferView", Index(BufferViews)),
+        requires("byteOffset", "bufferView", Integer(0, MAX_INTEGER)),
+        required("componentType", EnumInteger(&[5120, 5121, 5122, 5123, 5125, 5126])),
+        optional("normalized", Boolean),
+        required("count", Integer(1, MAX_INTEGER)),
+        required("type", EnumString(&["SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"])),
         // How many there must be depends on the type: see the check of accessors.
-        may("max", Numbers(0, ANY)),
-        may("min", Numbers(0, ANY)),
-        may("sparse", one(&SPARSE)),
+        optional("max", Numbers(0, ANY)),
+        optional("min", Numbers(0, ANY)),
+        optional("sparse", object_kind(&SPARSE)),
         NAME,
     ],
 );
 
-static SPARSE: Object = object(
+static SPARSE: ObjectSchema = object_schema(
     "sparse",
     &[
-        must("count", Integer(1, MOST)),
-        must("indices", one(&SPARSE_INDICES)),
-        must("values", one(&SPARSE_VALUES)),
+        required("count", Integer(1, MAX_INTEGER)),
+        required("indices", object_kind(&SPARSE_INDICES)),
+        required("values", object_kind(&SPARSE_VALUES)),
     ],
 );
 
-static SPARSE_INDICES: Object = object(
+static SPARSE_INDICES: ObjectSchema = object_schema(
     "sparseIndices",
     &[
-        must("bufferView", Index(BufferViews)),
-        may("byteOffset", Integer(0, MOST)),
-        must("componentType", Choice(&[5121, 5123, 5125])),
+        required("bufferView", Index(BufferViews)),
+        optional("byteOffset", Integer(0, MAX_INTEGER)),
+        required("componentType", EnumInteger(&[5121, 5123, 5125])),
     ],
 );
 
-static SPARSE_VALUES: Object = object(
+static SPARSE_VALUES: ObjectSchema = object_schema(
     "sparseValues",
-    &[must("bufferView", Index(BufferViews)), may("byteOffset", Integer(0, MOST))],
+    &[required("bufferView", Index(BufferViews)), optional("byteOffset", Integer(0, MAX_INTEGER))],
 );
 
-static ANIMATION: Object = object(
+static ANIMATION: ObjectSchema = object_schema(
     "animation",
-    &[must("channels", Objects(&CHANNEL)), must("samplers", Objects(&ANIMATION_SAMPLER)), NAME],
-);
-
-static CHANNEL: Object =
-    object("channel", &[must("sampler", Index(AnimationSamplers)), must("target", one(&TARGET))]);
-
-static TARGET: Object = object(
-    "target",
     &[
-        may("node", Index(Nodes)),
-        must("path", Word(&["translation", "rotation", "scale", "weights", "pointer"])),
-    ],
-);
-
-static ANIMATION_SAMPLER: Object = object(
-    "animationSampler",
-    &[
-        must("input", Index(Accessors)),
-        may("interpolation", Word(&["LINEAR", "STEP", "CUBICSPLINE"])),
-        must("output", Index(Accessors)),
-    ],
-);
-
-static ASSET: Object = object(
-    "asset",
-    &[
-        may("copyright", Text),
-        may("generator", Text),
-        must("version", Version),
-        may("minVersion", Version),
-    ],
-);
-
-static BUFFER: Object =
-    object("buffer", &[may("uri", Text), must("byteLength", Integer(1, MOST)), NAME]);
-
-static BUFFER_VIEW: Object = object(
-    "bufferView",
-    &[
-        must("buffer", Index(Buffers)),
-        may("byteOffset", Integer(0, MOST)),
-        must("byteLength", Integer(1, MOST)),
-        may("byteStride", Integer(4, 252)),
-        may("target", Choice(&[34_962, 34_963])),
+        required("channels", Objects(&CHANNEL)),
+        required("samplers", Objects(&ANIMATION_SAMPLER)),
         NAME,
     ],
 );
 
-static CAMERA: Object = object(
+static CHANNEL: ObjectSchema = object_schema(
+    "channel",
+    &[required("sampler", Index(AnimationSamplers)), required("target", object_kind(&TARGET))],
+);
+
+static TARGET: ObjectSchema = object_schema(
+    "target",
+    &[
+        optional("node", Index(Nodes)),
+        required("path", EnumString(&["translation", "rotation", "scale", "weights", "pointer"])),
+    ],
+);
+
+static ANIMATION_SAMPLER: ObjectSchema = object_schema(
+    "animationSampler",
+    &[
+        required("input", Index(Accessors)),
+        optional("interpolation", EnumString(&["LINEAR", "STEP", "CUBICSPLINE"])),
+        required("output", Index(Accessors)),
+    ],
+);
+
+static ASSET: ObjectSchema = object_schema(
+    "asset",
+    &[
+        optional("copyright", Text),
+        optional("generator", Text),
+        required("version", Version),
+        optional("minVersion", Version),
+    ],
+);
+
+static BUFFER: ObjectSchema = object_schema(
+    "buffer",
+    &[optional("uri", Text), required("byteLength", Integer(1, MAX_INTEGER)), NAME],
+);
+
+static BUFFER_VIEW: ObjectSchema = object_schema(
+    "bufferView",
+    &[
+        required("buffer", Index(Buffers)),
+        optional("byteOffset", Integer(0, MAX_INTEGER)),
+        required("byteLength", Integer(1, MAX_INTEGER)),
+        optional("byteStride", Integer(4, 252)),
+        optional("target", EnumInteger(&[34_962, 34_963])),
+        NAME,
+    ],
+);
+
+static CAMERA: ObjectSchema = object_schema(
     "camera",
     &[
         // The one that the type names must be there: see the check of cameras.
-        not("orthographic", "perspective", one(&ORTHOGRAPHIC)),
-        may("perspective", one(&PERSPECTIVE)),
-        must("type", Word(&["perspective", "orthographic"])),
+        excludes("orthographic", "perspective", object_kind(&ORTHOGRAPHIC)),
+        optional("perspective", object_kind(&PERSPECTIVE)),
+        required("type", EnumString(&["perspective", "orthographic"])),
         NAME,
     ],
 );
 
-static ORTHOGRAPHIC: Object = object(
+static ORTHOGRAPHIC: ObjectSchema = object_schema(
     "orthographic",
     &[
-        must("xmag", Number(ANY)),
-        must("ymag", Number(ANY)),
-        must("zfar", Number(POSITIVE)),
-        must("znear", Number(NOT_NEGATIVE)),
+        required("xmag", Number(ANY)),
+        required("ymag", Number(ANY)),
+        required("zfar", Number(POSITIVE)),
+        required("znear", Number(NOT_NEGATIVE)),
     ],
 );
 
-static PERSPECTIVE: Object = object(
+static PERSPECTIVE: ObjectSchema = object_schema(
     "perspective",
     &[
-        may("aspectRatio", Number(POSITIVE)),
-        must("yfov", Number(POSITIVE)),
-        may("zfar", Number(POSITIVE)),
-        must("znear", Number(POSITIVE)),
+        optional("aspectRatio", Number(POSITIVE)),
+        required("yfov", Number(POSITIVE)),
+        optional("zfar", Number(POSITIVE)),
+        required("znear", Number(POSITIVE)),
     ],
 );
 
-static IMAGE: Object = object(
+static IMAGE: ObjectSchema = object_schema(
     "image",
     &[
-        either("uri", "bufferView", Text),
-        may("mimeType", Text),
-        either("bufferView", "uri", Index(BufferViews)),
+        one_of("uri", "bufferView", Text),
+        optional("mimeType", Text),
+        one_of("bufferView", "uri", Index(BufferViews)),
         NAME,
     ],
 );
 
-static MATERIAL: Object = object(
+static MATERIAL: ObjectSchema = object_schema(
     "material",
     &[
         NAME,
-        may("pbrMetallicRoughness", one(&METALLIC_ROUGHNESS)),
-        may("normalTexture", one(&NORMAL_TEXTURE)),
-        may("occlusionTexture", one(&OCCLUSION_TEXTURE)),
-        may("emissiveTexture", one(&TEXTURE_INFO)),
-        may("emissiveFactor", Numbers(3, UNIT)),
-        may("alphaMode", Word(&["OPAQUE", "MASK", "BLEND"])),
-        may("alphaCutoff", Number(NOT_NEGATIVE)),
-        may("doubleSided", Flag),
+        optional("pbrMetallicRoughness", object_kind(&METALLIC_ROUGHNESS)),
+        optional("normalTexture", object_kind(&NORMAL_TEXTURE)),
+        optional("occlusionTexture", object_kind(&OCCLUSION_TEXTURE)),
+        optional("emissiveTexture", object_kind(&TEXTURE_INFO)),
+        optional("emissiveFactor", Numbers(3, UNIT)),
+        optional("alphaMode", EnumString(&["OPAQUE", "MASK", "BLEND"])),
+        optional("alphaCutoff", Number(NOT_NEGATIVE)),
+        optional("doubleSided", Boolean),
     ],
 );
 
-static METALLIC_ROUGHNESS: Object = object(
+static METALLIC_ROUGHNESS: ObjectSchema = object_schema(
     "pbrMetallicRoughness",
     &[
-        may("baseColorFactor", Numbers(4, UNIT)),
-        may("baseColorTexture", one(&TEXTURE_INFO)),
-        may("metallicFactor", Number(UNIT)),
-        may("roughnessFactor", Number(UNIT)),
-        may("metallicRoughnessTexture", one(&TEXTURE_INFO)),
+        optional("baseColorFactor", Numbers(4, UNIT)),
+        optional("baseColorTexture", object_kind(&TEXTURE_INFO)),
+        optional("metallicFactor", Number(UNIT)),
+        optional("roughnessFactor", Number(UNIT)),
+        optional("metallicRoughnessTexture", object_kind(&TEXTURE_INFO)),
     ],
 );
 
-pub(super) static TEXTURE_INFO: Object =
-    object("textureInfo", &[must("index", Index(Textures)), may("texCoord", Integer(0, MOST))]);
-
-pub(super) static NORMAL_TEXTURE: Object = object(
+pub(super) static TEXTURE_INFO: ObjectSchema = object_schema(
     "textureInfo",
-    &[must("index", Index(Textures)), may("texCoord", Integer(0, MOST)), may("scale", Number(ANY))],
+    &[required("index", Index(Textures)), optional("texCoord", Integer(0, MAX_INTEGER))],
 );
 
-static OCCLUSION_TEXTURE: Object = object(
+pub(super) static NORMAL_TEXTURE: ObjectSchema = object_schema(
     "textureInfo",
     &[
-        must("index", Index(Textures)),
-        may("texCoord", Integer(0, MOST)),
-        may("strength", Number(UNIT)),
+        required("index", Index(Textures)),
+        optional("texCoord", Integer(0, MAX_INTEGER)),
+        optional("scale", Number(ANY)),
     ],
 );
 
-static MESH: Object = object(
-    "mesh",
-    &[must("primitives", Objects(&PRIMITIVE)), may("weights", Numbers(0, ANY)), NAME],
+static OCCLUSION_TEXTURE: ObjectSchema = object_schema(
+    "textureInfo",
+    &[
+        required("index", Index(Textures)),
+        optional("texCoord", Integer(0, MAX_INTEGER)),
+        optional("strength", Number(UNIT)),
+    ],
 );
 
-static PRIMITIVE: Object = object(
+static MESH: ObjectSchema = object_schema(
+    "mesh",
+    &[required("primitives", Objects(&PRIMITIVE)), optional("weights", Numbers(0, ANY)), NAME],
+);
+
+static PRIMITIVE: ObjectSchema = object_schema(
     "primitive",
     &[
-        must("attributes", Attributes),
-        may("indices", Index(Accessors)),
-        may("material", Index(Materials)),
-        may("mode", Integer(0, 6)),
-        may("targets", Targets),
+        required("attributes", Attributes),
+        optional("indices", Index(Accessors)),
+        optional("material", Index(Materials)),
+        optional("mode", Integer(0, 6)),
+        optional("targets", Targets),
     ],
 );
 
-static NODE: Object = object(
+static NODE: ObjectSchema = object_schema(
     "node",
     &[
-        may("camera", Index(Cameras)),
-        may("children", Indices(Nodes)),
-        with("skin", "mesh", Index(Skins)),
-        may("matrix", Numbers(16, ANY)),
-        may("mesh", Index(Meshes)),
-        may("rotation", Numbers(4, SIGNED_UNIT)),
-        may("scale", Numbers(3, ANY)),
-        may("translation", Numbers(3, ANY)),
-        with("weights", "mesh", Numbers(0, ANY)),
+        optional("camera", Index(Cameras)),
+        optional("children", Indices(Nodes)),
+        requires("skin", "mesh", Index(Skins)),
+        optional("matrix", Numbers(16, ANY)),
+        optional("mesh", Index(Meshes)),
+        optional("rotation", Numbers(4, SIGNED_UNIT)),
+        optional("scale", Numbers(3, ANY)),
+        optional("translation", Numbers(3, ANY)),
+        requires("weights", "mesh", Numbers(0, ANY)),
         NAME,
     ],
 );
 
-static SAMPLER: Object = object(
+static SAMPLER: ObjectSchema = object_schema(
     "sampler",
     &[
-        may("magFilter", Choice(&[9728, 9729])),
-        may("minFilter", Choice(&[9728, 9729, 9984, 9985, 9986, 9987])),
-        may("wrapS", Choice(&[33_071, 33_648, 10_497])),
-        may("wrapT", Choice(&[33_071, 33_648, 10_497])),
+        optional("magFilter", EnumInteger(&[9728, 9729])),
+        optional("minFilter", EnumInteger(&[9728, 9729, 9984, 9985, 9986, 9987])),
+        optional("wrapS", EnumInteger(&[33_071, 33_648, 10_497])),
+        optional("wrapT", EnumInteger(&[33_071, 33_648, 10_497])),
         NAME,
     ],
 );
 
-static SCENE: Object = object("scene", &[may("nodes", Indices(Nodes)), NAME]);
+static SCENE: ObjectSchema = object_schema("scene", &[optional("nodes", Indices(Nodes)), NAME]);
 
-static SKIN: Object = object(
+static SKIN: ObjectSchema = object_schema(
     "skin",
     &[
-        may("inverseBindMatrices", Index(Accessors)),
-        may("skeleton", Index(Nodes)),
-        must("joints", Indices(Nodes)),
+        optional("inverseBindMatrices", Index(Accessors)),
+        optional("skeleton", Index(Nodes)),
+        required("joints", Indices(Nodes)),
         NAME,
     ],
 );
 
-static TEXTURE: Object =
-    object("texture", &[may("sampler", Index(Samplers)), may("source", Index(Images)), NAME]);
+static TEXTURE: ObjectSchema = object_schema(
+    "texture",
+    &[optional("sampler", Index(Samplers)), optional("source", Index(Images)), NAME],
+);
 
 /// What is not described further.
 pub(super) const UNKNOWN: super::ValueKind = Any;
