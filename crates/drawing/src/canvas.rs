@@ -131,7 +131,7 @@ impl<C: Channel> RegionCanvas<'_, C> {
         let Some(pixmap) = Pixmap::new(tile.width, tile.height) else { return };
         let mut canvas = Canvas { pixmap, corner: [tile.x, tile.y] };
         self.for_each_shared_pixel(shown, &mut canvas, |pixel, canvas_pixel| {
-            *canvas_pixel = C::to_canvas(*pixel)
+            *canvas_pixel = C::to_canvas(*pixel);
         });
         draw(&mut canvas);
         self.for_each_shared_pixel(shown, &mut canvas, |pixel, canvas_pixel| {

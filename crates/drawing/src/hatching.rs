@@ -206,7 +206,7 @@ fn hatch_triangle(
     let clip = vertices.map(|vertex| projector.world_to_clip_point(vertex));
     let clipped = clip_triangle(clip, &Volume::CHAPTER);
     let positions =
-        clipped.vertices().iter().filter_map(|vertex| projector.to_screen(vertex.point));
+        clipped.vertices().iter().filter_map(|vertex| projector.project_to_screen(vertex.point));
     let extent = positions.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], position| {
         let at = pattern.normal.dot(position.truncate());
         [least.min(at), most.max(at)]

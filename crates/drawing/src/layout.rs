@@ -45,7 +45,7 @@ impl Placement {
     ///
     /// `title` is that of the document; `paper` fills the background, and decides between dark and
     /// light ink if the style has none.
-    fn to_page(&self, pixels: DVec2) -> DVec2 {
+    fn pixels_to_page(&self, pixels: DVec2) -> DVec2 {
         self.corner + pixels * self.scale
     }
 }
@@ -89,7 +89,7 @@ impl LineDrawing {
     #[must_use]
     pub fn face_fill_image(&self, placement: Placement, prefix: &str) -> Option<PlacedImage> {
         let picture = self.face_fill.clone()?;
-        let (corner, end) = (to_micrometers(placement.corner), placement.to_page(self.size));
+        let (corner, end) = (to_micrometers(placement.corner), placement.pixels_to_page(self.size));
         let end = to_micrometers(end);
         let size = [0, 1].map(|axis| (end[axis] - corner[axis]).max(1));
         Some(PlacedImage { id: format!("{prefix}tone"), corner, size, picture })
@@ -113,7 +113,7 @@ impl LineDrawing {
         for segment in &self.segments {
             kinds.for_each_segment(segment, |kind, ends, object| {
                 segments.push(PageSegment {
-                    ends: ends.map(|end| placement.to_page(end)),
+                    ends: ends.map(|end| placement.pixels_to_page(end)),
                     layer: kind,
                     object,
                 });

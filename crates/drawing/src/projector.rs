@@ -33,7 +33,7 @@ impl Projector {
     }
 
     /// Perspective divide and viewport transform; `None` where there is no finite image.
-    pub(super) fn to_screen(&self, point: HPoint<Clip>) -> Option<DVec3> {
+    pub(super) fn project_to_screen(&self, point: HPoint<Clip>) -> Option<DVec3> {
         let screen = self.0.project_to_screen(point)?.raw();
         screen.is_finite().then_some(screen)
     }

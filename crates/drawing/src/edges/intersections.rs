@@ -87,7 +87,7 @@ pub(super) fn intersect_faces(
             }
         }
     });
-    Intersections { segments: segments, is_cut_off: is_cut_off.into_inner() }
+    Intersections { segments, is_cut_off: is_cut_off.into_inner() }
 }
 
 /// Whether two faces share two vertices: neighbors meet in an edge and do not intersect.

@@ -262,7 +262,8 @@ fn push_occluders(
     let normal = normal * towards.signum();
     let offset = normal.dot(a);
     let mut push_clipped = |points: [HPoint<Clip>; 3]| {
-        let [Some(a), Some(b), Some(c)] = points.map(|point| projector.to_screen(point)) else {
+        let [Some(a), Some(b), Some(c)] = points.map(|point| projector.project_to_screen(point))
+        else {
             return;
         };
         let bounds = Aabb::from_points([a, b, c]);
