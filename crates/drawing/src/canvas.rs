@@ -131,7 +131,7 @@ impl<C: Channel> RegionCanvas<'_, C> {
         let Some(pixmap) = Pixmap::new(tile.width, tile.height) else { return };
         let mut canvas = Canvas { pixmap, corner: [tile.x, tile.y] };
         self.for_each_shared_pixel(shown, &mut canvas, |pixel, canvas_pixel| {
-            *canvas_pixel = C::to_canvas(*pixel)
+            *canvas_pixel = C::to_canvas(*pixel);
         });
         draw(&mut canvas);
         self.for_each_shared_pixel(shown, &mut canvas, |pixel, canvas_pixel| {
@@ -164,8 +164,8 @@ impl<C: Channel> RegionCanvas<'_, C> {
 
 /// Conversion of pixels to the 8-bit canvas and back.
 ///
-/// Pixels of 8 bits are drawn on. Pixels of 16 bits would lose precision: they are left as they are, and
-/// the drawing is composited over them.
+/// Pixels of 8 bits are drawn on. Pixels of 16 bits would lose precision: they keep their values,
+/// and the drawing is composited over them.
 trait CanvasChannel: Channel {
     /// The pixel of the canvas under the drawing.
     fn to_canvas(pixel: [Self; 4]) -> PremultipliedColorU8;
@@ -229,7 +229,7 @@ impl Canvas {
                     self.pixmap.stroke_path(&path, &paint, &stroke, Transform::identity(), None);
                 }
             }
-            // Holes must be in the path of what they are holes of.
+            // The even-odd rule applies within a path: holes must share that of their outline.
             for path in skia_paths(&group.fills, scale, self.corner, usize::MAX) {
                 let rule = FillRule::EvenOdd;
                 self.pixmap.fill_path(&path, &paint, rule, Transform::identity(), None);
@@ -243,7 +243,7 @@ impl Canvas {
         let (width, height) = (self.pixmap.width(), self.pixmap.height());
         let first = self.corner;
         let span = |axis: usize, side: u32, sides: u32| {
-            // Pixels of the pasted picture for one of the canvas, and where the canvas begins in it.
+            // Image pixels for one canvas pixel, and where the canvas begins in the image.
             let pixels = f64::from(side) / (f64::from(size[axis]) / 1000.0 * scale[axis]);
             let start = -f64::from(corner[axis]) / 1000.0 * scale[axis] * pixels;
             (first[axis]..first[axis] + sides).map(move |at| {
@@ -286,7 +286,7 @@ fn skia_stroke(pen: &Pen, dashes: &[f64], scale: f64) -> Stroke {
             Join::Round => LineJoin::Round,
             Join::Bevel => LineJoin::Bevel,
         },
-        // None for no dashes.
+        // `None` for an empty pattern: a continuous stroke.
         dash: StrokeDash::new(dashes, 0.0),
     }
 }

@@ -1,7 +1,8 @@
 //! Fixed-point decimals: lengths written exactly with at most three decimals, as short as possible.
 //!
-//! Numbers are formatted from whole thousandths, so nothing is rounded twice and no locale
-//! interferes.
+//! SVG and PDF count in millimeters, pages in micrometers: a number of thousandths is written digit
+//! by digit, so nothing is rounded, no locale interferes, and both formats show the same digits.
+//! Leading and trailing zeros are omitted, as both grammars allow.
 
 /// Writes a number of thousandths: 12500 as `12.5`, −250 as `-.25`.
 pub(super) fn write_thousandths(out: &mut Vec<u8>, number: i64) {

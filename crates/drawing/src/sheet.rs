@@ -47,6 +47,20 @@ use view_layout::{PlacedView, ViewLayout};
 use viewport::{DrawingScale, Paper, Rectangle};
 
 /// A drawing sheet: the views on it and their appearance.
+///
+/// ```
+/// use drawing::{Sheet, TitleBlockText};
+/// use viewport::Paper;
+///
+/// let sheet = Sheet {
+///     title_block: TitleBlockText { author: "L. B. Alberti".to_owned(), ..Default::default() },
+///     ..Sheet::for_paper(Paper::A4, "A4")
+/// };
+/// assert!(sheet.dimensions && sheet.scale.is_none());
+/// // Without models there is nothing to draw.
+/// let error = sheet.draw(&[], &[], 1).expect_err("no models");
+/// assert!(error.to_string().contains("nothing to draw"));
+/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Sheet {
     /// The paper in its orientation.

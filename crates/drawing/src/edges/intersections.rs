@@ -63,7 +63,7 @@ pub(super) fn intersect_faces(
     }
     let boxes: Vec<Aabb> = triangles.iter().map(|t| Aabb::from_points(t.vertices)).collect();
     let tree = Bvh::new(&boxes, half_surface_area);
-    // The lesser of two asks for the greater, of which there are few where it is.
+    // Each pair is tested once, by the smaller box: few large boxes overlap it.
     let size = |at: usize| (half_surface_area(boxes[at].max - boxes[at].min), at);
     let count = mesh.faces.len();
     let (most, most_crossed) =
@@ -87,7 +87,7 @@ pub(super) fn intersect_faces(
             }
         }
     });
-    Intersections { segments: segments, is_cut_off: is_cut_off.into_inner() }
+    Intersections { segments, is_cut_off: is_cut_off.into_inner() }
 }
 
 /// Whether two faces share two vertices: neighbors meet in an edge and do not intersect.
@@ -103,7 +103,7 @@ struct IntersectionTriangle {
     normal: DVec3,
     /// Which sides are boundary edges.
     borders: [bool; 3],
-    /// What is nearer than this to a boundary side is on it.
+    /// A point nearer than this to a boundary side is on it.
     border_distance: f64,
 }
 

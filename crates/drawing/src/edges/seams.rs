@@ -62,8 +62,9 @@ pub(super) fn border_edges(sides: &HalfEdges) -> Vec<BorderEdge> {
 
 /// Welds boundary vertices that are within each other's weld radius; `true` if there were any.
 ///
-/// Vertices are visited by index, and each one takes in its unwelded neighbors. A chain of near
-/// vertices does not collapse into one, because a vertex that was taken in does not search again.
+/// Vertices are visited by index, and each one takes in its unwelded neighbors, found by a BVH over
+/// the points. A chain of near vertices does not collapse into one, because a vertex that was taken
+/// in does not search again.
 pub(super) fn weld_near_borders(
     mesh: &mut WorldMesh,
     borders: &[BorderEdge],

@@ -42,7 +42,7 @@ fn group_holes_with_outlines(
     let mut outer: Vec<(f64, Vec<SectionLoop>)> = Vec::new();
     let mut holes: Vec<SectionLoop> = Vec::new();
     let areas: Vec<f64> = loops.iter().map(|points| axes.doubled_area(points)).collect();
-    // A surface that is turned inside out as a whole, by a mirror say.
+    // A negative total area: the surface is inside out, by a reflection for example.
     let sign = if areas.iter().sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
     for (points, area) in loops.into_iter().zip(areas) {
         if area * sign < 0.0 {
@@ -57,7 +57,7 @@ fn group_holes_with_outlines(
             outer.iter_mut().find(|(_, region)| axes.loop_contains_point(&region[0], hole[0]));
         match around {
             Some((_, region)) => region.push(hole),
-            // A hole in nothing is matter turned inside out.
+            // A hole outside every outline is a body modeled inside out.
             None => outer.push((f64::INFINITY, vec![hole])),
         }
     }

@@ -21,8 +21,8 @@ pub(crate) struct Face {
     pub(crate) material: u32,
     /// The index of the section plane it closes, if it is part of a section cap.
     pub(crate) cap_section: Option<u16>,
-    /// What the file says of its three sides (`EXT_mesh_primitive_edge_visibility`), from the first
-    /// vertex to the second and so on; `None` if it says nothing.
+    /// The visibility of its three sides in the file (`EXT_mesh_primitive_edge_visibility`), from
+    /// the first vertex to the second and so on; `None` if the file has none.
     pub(crate) edge_visibility: Option<[EdgeVisibility; 3]>,
 }
 
@@ -117,7 +117,7 @@ impl WorldMesh {
             Topology::Triangles => {
                 let edges = primitive.edges.as_deref();
                 let marks = |at: usize| Some(*edges?.visibility.as_ref()?.get(at)?);
-                // Who names the lines to be seen wants no others.
+                // A file that lists visible edges draws no others but silhouettes.
                 let rest = edges.map(|_| [EdgeVisibility::Silhouette; 3]);
                 let vertices = primitive.indices.as_chunks::<3>().0.iter();
                 let faces = vertices.enumerate().map(|(at, vertices)| {

@@ -81,7 +81,7 @@ fn round_length(most: f64) -> f64 {
     }
     let fits = |factor: &&f64| **factor * power <= most * (1.0 + 1e-9);
     let rounded = [5.0, 2.0, 1.0].iter().find(fits).map_or(power, |factor| factor * power);
-    // Powers below 1 are not exact; the label shall not show it.
+    // Powers of ten below 1 are inexact in binary, and labels print all digits.
     if rounded < 1.0 { 1.0 / libm::round(1.0 / rounded) } else { libm::round(rounded) }
 }
 

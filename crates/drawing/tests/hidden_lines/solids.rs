@@ -1,4 +1,4 @@
-//! Solids in front of, behind, inside of and through each other.
+//! Hidden-line removal on solids in front of, inside and through each other.
 
 use crate::stage::*;
 use drawing::EdgeClass::{Boundary, Crease, Intersection, Line, Silhouette};
@@ -48,7 +48,7 @@ fn a_cube_within_a_cube_is_hidden() {
 ///
 /// ```text
 ///          ╱╲
-///        ╱   ╲──────╮     Where it comes out is a square, of which two sides are seen. It hides a part of the cube's
+///        ╱   ╲──────╮     Where it comes out is a square, of which two sides are visible. It hides a part of the cube's
 ///       │     │ ╲____╲    lower right and of its rear right edge.
 ///        ╲    │ │    │
 /// ```
@@ -182,7 +182,7 @@ fn a_cycle_of_three() {
 }
 
 /// A floor that begins behind the eye, at height −1, and a line below it at height −2: where the near plane has cut the floor
-/// away, the line is seen.
+/// away, the line is visible.
 #[test]
 fn a_floor_cut_by_the_near_plane() {
     let floor =
@@ -209,7 +209,7 @@ fn a_floor_cut_by_the_near_plane() {
 /// Where two faces meet, seen from the front, a line runs exactly behind their common edge: together they hide it. Behind the
 /// border of one it touches, and stays.
 #[test]
-fn what_runs_exactly_behind_an_edge() {
+fn a_line_exactly_behind_a_shared_edge_is_hidden() {
     let roof = triangle_mesh(
         &[
             [-1.0, -1.0, 0.0],
