@@ -73,6 +73,7 @@ mod point_coordinates;
 mod screen_corners;
 mod stereo;
 mod view_projection;
+mod view_transform;
 mod window;
 
 pub use basis::Basis;
@@ -86,4 +87,6 @@ pub use parallel_framing::{ParallelFraming, frame_oblique, frame_parallel};
 pub use screen_corners::ScreenCorners;
 pub use stereo::{CameraView, StereoPair, StereoRig, apex_moved_view};
 pub use view_projection::ViewProjection;
+
+pub use view_transform::ViewTransform;
 pub use window::ViewWindow;

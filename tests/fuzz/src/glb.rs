@@ -1,9 +1,9 @@
 //! Binary glTF files: taken apart where a mutation has spoilt their lengths, and put together.
 
-#[path = "../../../xtask/src/glb.rs"]
+#[path = "../../../scenes/generator/src/glb.rs"]
 mod write;
 
-pub use write::glb;
+pub use write::encode_glb as glb;
 
 /// The JSON and the binary chunk of a file, or of a JSON text alone. Declared lengths are not
 /// believed: the second chunk is where its name is.

@@ -1,9 +1,9 @@
 //! Whose conventions an explanation speaks in: the canonical volume, the side that view space looks to, and how pixels are
 //! counted. The picture does not depend on them.
 
+use homog::PixelConvention;
 use projection::{Convention, Handedness, NdcY};
 use std::str::FromStr;
-use homog::PixelConvention;
 use viewport::{DepthRange, Rectangle, Viewport, ViewportError};
 
 /// The conventions of a book or of a graphics interface.
