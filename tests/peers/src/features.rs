@@ -6,7 +6,7 @@
 
 use crate::measure::{Contestant, Series, rounds};
 use model::{Anisotropy, Clearcoat, Iridescence, MaterialExtensions, Sheen, Transmission, Volume};
-use pipeline::scene::{ResolveOptions, Scene, parse};
+use pipeline::scene::{ResolveOptions, Scene, parse_scene};
 use pipeline::{Origin, Picture, Renderer, Textures, Timings};
 use std::path::Path;
 use std::sync::Arc;
@@ -88,7 +88,7 @@ fn scene(fields: &str, image: &str, folder: &Path) -> Result<Scene, String> {
         "Scene(models: [(path: \"FlightHelmet.gltf\")], {environment}{fields}{} image: (size: (1920, 1080), {image}))",
         if fields.is_empty() { "" } else { "," }
     );
-    let file = parse("feature.ron", &text).map_err(|error| error.to_string())?;
+    let file = parse_scene("feature.ron", &text).map_err(|error| error.to_string())?;
     let origin = Origin::from_text("feature.ron", text, folder.to_owned());
     Scene::resolve(&origin, &file, &ResolveOptions::default()).map_err(|error| error.to_string())
 }

@@ -12,7 +12,7 @@ use homog::Affine;
 use model::ModelInstance;
 use model::import::{ImportOptions, load};
 use model::{
-    Image, Material, Mesh, Mipmap, Model, Primitive, Sampler, Texture as Used, TextureUse,
+    Image, Material, Mesh, MipmapMode, Model, Primitive, Sampler, Texture as Used, TextureInfo,
 };
 use pipeline::scene::{ImageSpec, Style};
 use pipeline::{Picture, Renderer, Textures, Timings};
@@ -47,24 +47,24 @@ impl Render {
                 view_to_clip: scene.view_to_clip(Convention::CHAPTER),
             },
             lights: vec![
-                Light::Sun { towards: TOWARDS_LIGHT, lux: lux(1.0 - AMBIENT), shadow: None },
+                Light::Sun { to_light: TOWARDS_LIGHT, lux: lux(1.0 - AMBIENT), shadow: None },
                 Light::Ambient { lux: lux(AMBIENT) },
             ],
             ground: None,
             occlusion_radius: None,
             environment: None,
-            develop: shade::Develop::default(),
+            tone_mapper: shade::ToneMapper::default(),
             style: Style::Shaded,
             image: ImageSpec {
                 width,
                 height,
                 background: [0.0; 4],
-                backdrop: None,
+                environment_blur: None,
                 samples,
-                anisotropy: 1,
+                max_anisotropy: 1,
             },
-            views: Vec::new(),
-            painting: None,
+            insets: Vec::new(),
+            backdrop: None,
             overlays: Vec::new(),
             sections: Vec::new(),
         };
@@ -113,7 +113,7 @@ fn model(scene: &Scene) -> Result<Model, String> {
         ..Mesh::default()
     };
     // As the peers read textures: no mip maps.
-    let sampler = Sampler { mipmap: Mipmap::None, ..Sampler::default() };
+    let sampler = Sampler { mipmap_mode: MipmapMode::None, ..Sampler::default() };
     let count = scene.textures.len();
     Ok(Model {
         meshes: vec![mesh],
@@ -156,7 +156,7 @@ fn primitive(scene: &Scene, part: &Part, number: usize) -> Primitive {
 
 fn material(part: &Part) -> Material {
     let [r, g, b] = part.tint;
-    let used = |texture| TextureUse { texture, uv_set: 0, uv_map: TextureUse::KEEP_UV };
+    let used = |texture| TextureInfo { texture, uv_set: 0, uv_matrix: TextureInfo::IDENTITY_UV };
     Material {
         base_color: [r, g, b, 1.0],
         base_color_texture: part.texture.map(used),

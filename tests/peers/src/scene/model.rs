@@ -4,7 +4,7 @@ use super::{Lens, Part, Scene, Texture, Vertex, aspect};
 use camera::{NamedView, Slopes, frame_perspective};
 use homog::{Normal, Point, World};
 use model::import::{ImportOptions, load};
-use model::{Image, Model, Posed, Primitive, Topology};
+use model::{Image, Model, Primitive, SkinnedPrimitive, Topology};
 use projection::{Fov, Perspective};
 use std::path::{Path, PathBuf};
 
@@ -22,7 +22,7 @@ pub fn helmet(name: &'static str, folder: &Path) -> Result<Scene, String> {
     let mut scene = framed(name, &model)?;
     for (instance, primitive) in model.scene_primitives() {
         if primitive.topology == Topology::Triangles {
-            add(&mut scene, &model, primitive, &model.posed(instance, primitive));
+            add(&mut scene, &model, primitive, &model.skin_primitive(instance, primitive));
         }
     }
     scene.about = format!("{}, {} triangles, textured, lambert", model.name, scene.triangles());
@@ -65,7 +65,7 @@ fn texture(image: &Option<Image>) -> Texture {
     )
 }
 
-fn add(scene: &mut Scene, model: &Model, primitive: &Primitive, posed: &Posed<'_>) {
+fn add(scene: &mut Scene, model: &Model, primitive: &Primitive, posed: &SkinnedPrimitive<'_>) {
     let first = scene.vertices.len() as u32;
     let (begin, map) = (scene.indices.len(), posed.to_model);
     let uvs = primitive.uvs.first();
