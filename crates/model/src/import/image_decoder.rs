@@ -171,23 +171,23 @@ fn png_problem(error: &png::DecodingError) -> String {
 
 /// Decodes a PNG, converting palettes, gray and 16 bits to RGBA of 8 bits.
 fn decode_png(bytes: &[u8]) -> Result<Image, String> {
-    let problem = |error: png::DecodingError| png_problem(&error);
+    let message = |error: png::DecodingError| png_problem(&error);
     let mut decoder =
         png::Decoder::new_with_limits(Cursor::new(bytes), png::Limits { bytes: 1 << 30 });
     decoder.set_transformations(Transformations::normalize_to_color8() | Transformations::ALPHA);
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
-    let mut reader = decoder.read_info().map_err(problem)?;
+    let mut reader = decoder.read_info().map_err(message)?;
     let (width, height) = reader.info().size();
     match reader.output_color_type() {
         (ColorType::Rgba, BitDepth::Eight) => {
             let mut rgba = blank_texels(width, height);
-            reader.next_frame(rgba.as_flattened_mut()).map_err(problem)?;
+            reader.next_frame(rgba.as_flattened_mut()).map_err(message)?;
             Ok(Image { width, height, rgba })
         }
         (ColorType::GrayscaleAlpha, BitDepth::Eight) => {
             let mut grey = vec![0; reader.output_buffer_size().ok_or("the PNG is too large")?];
-            reader.next_frame(&mut grey).map_err(problem)?;
+            reader.next_frame(&mut grey).map_err(message)?;
             let pairs = grey.as_chunks().0.iter();
             checked_image(width, height, pairs.map(|&[y, alpha]| [y, y, y, alpha]).collect())
         }
@@ -333,7 +333,7 @@ mod tests {
             assert_eq!((image.width, image.height), (8, 8));
             assert_eq!(image.rgba, [[128, 128, 128, 255]; 64], "{components} components");
         }
-        let problem = decode_rgba(&jpeg(4)).unwrap_err();
-        assert_eq!(problem, "the JPEG is in CMYK, for printing; only RGB and grey are read");
+        let message = decode_rgba(&jpeg(4)).unwrap_err();
+        assert_eq!(message, "the JPEG is in CMYK, for printing; only RGB and grey are read");
     }
 }

@@ -37,9 +37,9 @@ impl<'a> MemoryBudget<'a> {
             return Err(Diagnostic::limit_exceeded(pointer, &what, "array_bytes", array_bytes));
         }
         if made.saturating_sub(FREE_ARRAY_BYTES) > files.saturating_mul(array_growth) {
-            let problem = format!("{what}, more than {array_growth} times the files");
-            let remedy = Diagnostic::raise_limit_help("array_growth");
-            return Err(Diagnostic::error(codes::LIMIT_EXCEEDED, pointer, problem, &remedy));
+            let message = format!("{what}, more than {array_growth} times the files");
+            let help = Diagnostic::raise_limit_help("array_growth");
+            return Err(Diagnostic::error(codes::LIMIT_EXCEEDED, pointer, message, &help));
         }
         Ok(())
     }

@@ -40,11 +40,11 @@ impl ImportWarnings {
     }
 
     /// Adds an error as a warning; `consequence` says what is left out or replaced because of it.
-    pub(super) fn downgrade(&mut self, fault: &Diagnostic, consequence: &str) {
+    pub(super) fn downgrade(&mut self, diagnostic: &Diagnostic, consequence: &str) {
         self.push(warning(
-            fault.code,
-            &fault.location,
-            format!("{}; {consequence}", fault.message),
+            diagnostic.code,
+            &diagnostic.location,
+            format!("{}; {consequence}", diagnostic.message),
         ));
     }
 
@@ -54,13 +54,13 @@ impl ImportWarnings {
     /// returned always.
     pub(super) fn downgrade_if_lenient(
         &mut self,
-        fault: Diagnostic,
+        diagnostic: Diagnostic,
         consequence: &str,
     ) -> Result<(), Diagnostic> {
-        if !self.lenient || matches!(fault.code, codes::LIMIT_EXCEEDED | codes::NO_SUCH_ITEM) {
-            return Err(fault);
+        if !self.lenient || matches!(diagnostic.code, codes::LIMIT_EXCEEDED | codes::NO_SUCH_ITEM) {
+            return Err(diagnostic);
         }
-        self.downgrade(&fault, consequence);
+        self.downgrade(&diagnostic, consequence);
         Ok(())
     }
 

@@ -39,8 +39,8 @@ pub(super) fn import_animations(
         let mut channels = Vec::with_capacity(json.channels.len());
         let reader = AnimationReader { source, samplers: &json.samplers, animation: at };
         let mut keep = |read: Result<AnimationChannel, Diagnostic>| match read {
-            Err(fault) if fault.is_downgradable() => {
-                warnings.downgrade(&fault, "the channel is left out");
+            Err(diagnostic) if diagnostic.is_downgradable() => {
+                warnings.downgrade(&diagnostic, "the channel is left out");
                 Ok(())
             }
             read => read.map(|channel| channels.push(channel)),
@@ -90,8 +90,8 @@ impl AnimationReader<'_> {
             }
         };
         if property != NodeProperty::Weights && target.trs.is_none() {
-            let problem = format!("node {node} has a matrix, which cannot be animated");
-            return Err(Diagnostic::invalid(&format!("{pointer}/target/node"), problem));
+            let message = format!("node {node} has a matrix, which cannot be animated");
+            return Err(Diagnostic::invalid(&format!("{pointer}/target/node"), message));
         }
         let kind = ChannelValueKind::for_property(property);
         let curve = self.read_sampler(json.sampler.value(), kind, &format!("{pointer}/sampler"))?;
@@ -109,8 +109,8 @@ impl AnimationReader<'_> {
             animation_pointer::resolve_pointer(self.source.root, targets, &json.target)
         else {
             let pointer = format!("{pointer}/target/extensions/KHR_animation_pointer/pointer");
-            let problem = format!("\"{}\" is nothing that can be animated here", json.target);
-            return Err(Diagnostic::invalid(&pointer, problem));
+            let message = format!("\"{}\" is nothing that can be animated here", json.target);
+            return Err(Diagnostic::invalid(&pointer, message));
         };
         let curve = self.read_sampler(json.sampler, kind, &format!("{pointer}/sampler"))?;
         Ok(AnimationChannel { target, curve })
@@ -180,12 +180,12 @@ impl AnimationReader<'_> {
             ChannelValueKind::Numbers(width) => width,
         };
         if values.len() != rows * width || width == 0 {
-            let problem = format!(
+            let message = format!(
                 "{} numbers are not enough, or too many, for {} keys",
                 values.len(),
                 times.len()
             );
-            return Err(Diagnostic::invalid(&pointer, problem));
+            return Err(Diagnostic::invalid(&pointer, message));
         }
         Ok(AnimationCurve { interpolation, times, values, components: width })
     }

@@ -58,8 +58,8 @@ impl EdgeReader<'_, '_> {
     /// Downgrades faults in the file's content to a warning.
     fn warn_if_soft(&mut self, read: Result<(), Diagnostic>) -> Result<(), Diagnostic> {
         match read {
-            Err(fault) if fault.is_downgradable() => {
-                self.warnings.downgrade(&fault, "its edges are left out");
+            Err(diagnostic) if diagnostic.is_downgradable() => {
+                self.warnings.downgrade(&diagnostic, "its edges are left out");
                 Ok(())
             }
             read => read,
@@ -122,10 +122,11 @@ impl EdgeReader<'_, '_> {
                 "the visibility must be SCALAR of unsigned bytes",
             ));
         }
-        let (found, due) = (elements.count, (6 * self.triangles).div_ceil(8));
-        if found != due {
-            let problem = format!("{found} bytes for {} triangles, not {due}", self.triangles);
-            return Err(Diagnostic::invalid(pointer, problem));
+        let (actual, expected) = (elements.count, (6 * self.triangles).div_ceil(8));
+        if actual != expected {
+            let message =
+                format!("{actual} bytes for {} triangles, not {expected}", self.triangles);
+            return Err(Diagnostic::invalid(pointer, message));
         }
         self.source.charge_array(accessor, self.triangles, 3)?;
         let bytes = self.source.read_u16s::<1>(&elements)?;
@@ -159,10 +160,11 @@ impl EdgeReader<'_, '_> {
     fn retain_existing_vertices(&mut self, mut lines: EdgeList, pointer: &str) -> EdgeList {
         let before = lines.vertex_pairs.len();
         lines.vertex_pairs.retain(|ends| ends.iter().all(|&end| (end as usize) < self.vertices));
-        let lost = before - lines.vertex_pairs.len();
-        if lost > 0 {
-            let message =
-                format!("edges use vertices that do not exist; they are left out (edges: {lost})");
+        let dropped = before - lines.vertex_pairs.len();
+        if dropped > 0 {
+            let message = format!(
+                "edges use vertices that do not exist; they are left out (edges: {dropped})"
+            );
             self.warnings.push_warning(pointer, message);
         }
         lines
@@ -175,8 +177,8 @@ impl EdgeReader<'_, '_> {
             return Some(material);
         }
         let pointer = format!("{pointer}/material");
-        let fault = Diagnostic::unresolved_index(&pointer, "material", material, count);
-        self.warnings.downgrade(&fault, "the material of the primitive is used");
+        let diagnostic = Diagnostic::unresolved_index(&pointer, "material", material, count);
+        self.warnings.downgrade(&diagnostic, "the material of the primitive is used");
         None
     }
 }

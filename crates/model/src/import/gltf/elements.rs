@@ -113,8 +113,8 @@ impl ResolvedAccessor<'_> {
         }
         if let Some(SparseElements { indices, values }) = &self.sparse {
             for (&index, from) in indices.iter().zip(values.bytes.chunks(values.stride)) {
-                let place = (index as usize).checked_sub(self.first);
-                if let Some(to) = place.and_then(|place| elements.get_mut(place)) {
+                let slot = (index as usize).checked_sub(self.first);
+                if let Some(to) = slot.and_then(|slot| elements.get_mut(slot)) {
                     convert_element(to, from, &convert);
                 }
             }

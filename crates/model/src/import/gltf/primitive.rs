@@ -55,12 +55,12 @@ pub(super) fn import_meshes(
                 warnings: &mut *warnings,
             };
             primitives.push(match reader.read_primitive() {
-                Err(fault) if fault.code == codes::MISSING_DATA => {
-                    warnings.downgrade(&fault, "the primitive is left out");
+                Err(diagnostic) if diagnostic.code == codes::MISSING_DATA => {
+                    warnings.downgrade(&diagnostic, "the primitive is left out");
                     Primitive::default()
                 }
-                Err(fault) => {
-                    warnings.downgrade_if_lenient(fault, "the primitive is left out")?;
+                Err(diagnostic) => {
+                    warnings.downgrade_if_lenient(diagnostic, "the primitive is left out")?;
                     Primitive::default()
                 }
                 Ok(primitive) => primitive,
@@ -165,8 +165,8 @@ impl<'a> PrimitiveReader<'a, '_> {
         let positions = self.attribute_accessor(Semantic::Positions);
         let has_other_data = positions.is_some_and(|accessor| !self.source.has_no_data(accessor));
         match draco::decode_draco(self.source, self.json, tangents, &self.pointer) {
-            Err(fault) if fault.is_downgradable() && has_other_data => {
-                self.warnings.downgrade(&fault, "the uncompressed data is used");
+            Err(diagnostic) if diagnostic.is_downgradable() && has_other_data => {
+                self.warnings.downgrade(&diagnostic, "the uncompressed data is used");
                 Ok(None)
             }
             decoded => decoded,
@@ -328,8 +328,8 @@ impl<'a> PrimitiveReader<'a, '_> {
             return Some(material);
         }
         let pointer = format!("{}/material", self.pointer);
-        let fault = Diagnostic::unresolved_index(&pointer, "material", material, count);
-        self.warnings.downgrade(&fault, "the default material is used");
+        let diagnostic = Diagnostic::unresolved_index(&pointer, "material", material, count);
+        self.warnings.downgrade(&diagnostic, "the default material is used");
         None
     }
 }

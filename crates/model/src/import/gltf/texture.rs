@@ -20,9 +20,9 @@ pub(super) fn import_textures(root: &Root, warnings: &mut ImportWarnings) -> Vec
                 || {
                     let pointer = format!("{pointer}/sampler");
                     let count = root.samplers.len();
-                    let fault =
+                    let diagnostic =
                         Diagnostic::unresolved_index(&pointer, "sampler", index.value(), count);
-                    warnings.downgrade(&fault, "the texture is read in the usual way");
+                    warnings.downgrade(&diagnostic, "the texture is read in the usual way");
                     Sampler::default()
                 },
                 convert_sampler,
@@ -47,8 +47,8 @@ fn texture_image(root: &Root, at: usize, warnings: &mut ImportWarnings) -> Optio
     }
     if image != NO_SOURCE {
         let pointer = format!("/textures/{at}/source");
-        let fault = Diagnostic::unresolved_index(&pointer, "image", image, root.images.len());
-        warnings.downgrade(&fault, "the texture is not shown");
+        let diagnostic = Diagnostic::unresolved_index(&pointer, "image", image, root.images.len());
+        warnings.downgrade(&diagnostic, "the texture is not shown");
     }
     None
 }

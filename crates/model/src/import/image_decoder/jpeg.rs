@@ -65,11 +65,14 @@ mod tests {
 
     #[test]
     fn the_first_component_must_be_the_finest_in_both_directions() {
-        for usual in [&[0x11][..], &[0x11; 3], &[0x22, 0x11, 0x11], &[0x21, 0x11, 0x11]] {
-            assert_eq!(check_chroma_sampling(&frame_header(usual)), Ok(()), "{usual:x?}");
+        for supported in [&[0x11][..], &[0x11; 3], &[0x22, 0x11, 0x11], &[0x21, 0x11, 0x11]] {
+            assert_eq!(check_chroma_sampling(&frame_header(supported)), Ok(()), "{supported:x?}");
         }
-        for odd in [[0x11, 0x11, 0x22], [0x21, 0x12, 0x11], [0x12, 0x11, 0x21]] {
-            assert!(check_chroma_sampling(&frame_header(&odd)).is_err(), "{odd:x?}");
+        for unsupported in [[0x11, 0x11, 0x22], [0x21, 0x12, 0x11], [0x12, 0x11, 0x21]] {
+            assert!(
+                check_chroma_sampling(&frame_header(&unsupported)).is_err(),
+                "{unsupported:x?}"
+            );
         }
     }
 

@@ -75,12 +75,12 @@ fn decode_vertex_block(
                 count,
             )?;
         }
-        let place = 4 * at..4 * at + 4;
+        let slot = 4 * at..4 * at + 4;
         let mut value = [0; 4];
-        value.copy_from_slice(&before[place.clone()]);
+        value.copy_from_slice(&before[slot.clone()]);
         for (number, element) in elements.chunks_exact_mut(stride).enumerate() {
             value = channel.apply_delta(value, deltas.map(|deltas| deltas[number]));
-            element[place.clone()].copy_from_slice(&value);
+            element[slot.clone()].copy_from_slice(&value);
         }
     }
     Ok(())
@@ -128,9 +128,9 @@ fn decode_byte_group(
             let packed = stream.take_front(BYTE_GROUP_SIZE * bits / 8)?;
             let (mask, per_byte) = ((1u8 << bits) - 1, 8 / bits);
             for (at, delta) in group.iter_mut().enumerate() {
-                let place = at % per_byte;
+                let slot = at % per_byte;
                 // Single bits begin at the low end of a byte, all others at the high end.
-                let shift = if bits == 1 { place } else { 8 - bits * (place + 1) };
+                let shift = if bits == 1 { slot } else { 8 - bits * (slot + 1) };
                 let value = packed[at / per_byte] >> shift & mask;
                 *delta = if value == mask { stream.read_byte()? } else { value };
             }
@@ -156,7 +156,7 @@ impl DeltaChannel {
         match (mode >> 4, mode & 15) {
             (0, 0) => Ok(Self::Bytes8),
             (0, 1) => Ok(Self::Words16),
-            (turn, 2) => Ok(Self::Xor32(u32::from(turn))),
+            (rotation, 2) => Ok(Self::Xor32(u32::from(rotation))),
             _ => Err(StreamError::Channel(mode)),
         }
     }
@@ -179,8 +179,8 @@ impl DeltaChannel {
                 let ([a, b], [c, d]) = (after(0), after(2));
                 [a, b, c, d]
             }
-            Self::Xor32(turn) => {
-                let changed = u32::from_le_bytes(delta).rotate_right(turn);
+            Self::Xor32(rotation) => {
+                let changed = u32::from_le_bytes(delta).rotate_right(rotation);
                 (changed ^ u32::from_le_bytes(before)).to_le_bytes()
             }
         }
@@ -242,14 +242,14 @@ mod tests {
     #[test]
     fn version_1_has_controls_and_three_kinds_of_delta() {
         let bits = 0x3F80_0000u32 ^ 0x4000_0000;
-        let turned = bits.rotate_left(4).to_le_bytes();
+        let rotated = bits.rotate_left(4).to_le_bytes();
         // Three channels of two elements: bytes by groups of one bit and literally; words; bits turned by 4.
         let mut stream = vec![0xA1, 0b10_10_11_01, 0b10_10_11_11, 0xFF];
         stream.extend([0, 0b01, 0, 6]); // byte 0: one group of one bit: 6 → +3, then 0
         stream.extend([1, 4]); // byte 1: −1, +2
         stream.extend([0x01, 0x02]); // low bytes of words
         stream.extend([0x02, 0x00]); // high bytes: 0x0201 → −257, 0x0002 → +1
-        for byte in turned {
+        for byte in rotated {
             stream.extend([byte, 0]);
         }
         stream.extend([0; 9]);
