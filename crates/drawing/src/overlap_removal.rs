@@ -147,6 +147,8 @@ struct CoveredIntervals(BTreeMap<i64, LineInterval>);
 
 /// An integer that is ordered as the number is (IEEE 754 total order), so that it can be a key of a
 /// map.
+///
+/// Negative numbers have descending bit patterns; flipping all bits but the sign makes them ascend.
 fn total_order_key(number: f64) -> i64 {
     let bits = number.to_bits() as i64;
     bits ^ (((bits >> 63) as u64) >> 1) as i64
