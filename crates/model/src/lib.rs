@@ -51,6 +51,7 @@ pub use trs::Trs;
 pub use uv_transform::{UvTransform, UvTransformPart};
 
 use homog::{Affine, Model as ModelSpace};
+use std::sync::Arc;
 
 /// Everything that was read from one glTF file.
 #[derive(Clone, Debug, Default)]
@@ -64,8 +65,9 @@ pub struct Model {
     /// The textures, as numbered in the file.
     pub textures: Vec<Texture>,
     /// The images, as numbered in the file; `None` for those that no visible primitive uses (they are not
-    /// decoded) and for broken ones (a warning says so).
-    pub images: Vec<Option<Image>>,
+    /// decoded) and for broken ones (a warning says so). They are shared: a clone of a model that is
+    /// posed differently has the same images.
+    pub images: Arc<[Option<Image>]>,
     /// The nodes, as numbered in the file. They form a forest: the importer has refused cycles.
     pub nodes: Vec<Node>,
     /// The root nodes of the scene that is shown.

@@ -101,7 +101,6 @@ pub(super) fn import_images(
 ) {
     let needed = needed_images(model, source.root.images.len());
     model.image_infos = source.root.images.iter().map(image_info).collect();
-    model.images = vec![None; needed.len()];
     match what {
         ImageLoading::Decode if early.needed == needed => {
             store_decoded(model, early, decoded, warnings)
@@ -132,15 +131,17 @@ fn store_decoded(
 ) {
     warnings.append_warnings(found.warnings);
     store_headers(&found.encoded, &mut model.image_infos);
+    let mut images = vec![None; model.image_infos.len()];
     for (image, decoded) in found.encoded.iter().zip(decoded) {
         match decoded {
-            Ok(decoded) => model.images[image.index] = Some(decoded),
+            Ok(decoded) => images[image.index] = Some(decoded),
             Err(problem) => {
                 let fault = Diagnostic::invalid(&format!("/images/{}", image.index), problem);
                 warnings.downgrade(&fault, SHOWN_WITHOUT_IMAGE);
             }
         }
     }
+    model.images = images.into();
 }
 
 fn image_info(json: &JsonImage) -> ImageInfo {
