@@ -1,7 +1,8 @@
 //! Intended differences between the check and the Khronos validator, with reasons.
 
 use alberti_tests::manifest::Row;
-use model::import::{CheckReport, Severity};
+use model::Severity;
+use model::import::CheckReport;
 use std::collections::BTreeSet;
 
 const KTX: &str = "KHR_texture_ktx, for images of several layers, is not supported";
@@ -96,7 +97,7 @@ pub fn difference_from_validator(
     }
     let unlocated = report.diagnostics.iter().find(|diagnostic| {
         diagnostic.severity == Severity::Error
-            && diagnostic.pointer.is_empty()
+            && diagnostic.location.is_empty()
             && !concerns_whole_file(diagnostic.code)
     });
     if let Some(diagnostic) = unlocated {

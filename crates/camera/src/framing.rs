@@ -109,7 +109,7 @@ pub struct Framing {
 
 /// Places a camera of the given orientation so that the image of `points` just fills the frame.
 ///
-/// In the direction that [`Fit`] names the image touches both sides of the padded frame; in the
+/// In the direction that [`FramingConstraint`] names the image touches both sides of the padded frame; in the
 /// other it is centred, with the same margin on both sides. `padding` is the part of the frame's
 /// width and height to be left free on every side: 0.05 is 5 per cent. For bounds pass
 /// [`homog::Bounds::corners`]; the points themselves give a closer fit.
@@ -126,7 +126,7 @@ pub struct Framing {
 /// ```
 /// use camera::{NamedView, Slopes, frame_perspective};
 /// use homog::{Bounds, Point};
-/// let cube = Bounds::of([[-1.0; 3], [1.0; 3]].map(Point::from)).expect("a cube");
+/// let cube = Bounds::from_points([[-1.0; 3], [1.0; 3]].map(Point::from)).expect("a cube");
 /// let slopes = Slopes { left: -0.5, right: 0.5, bottom: -0.5, top: 0.5 };
 /// let framing = frame_perspective(cube.corners(), NamedView::Front.basis(), slopes, 0.0)?;
 /// assert_eq!(framing.camera.eye(), Point::new(0.0, 0.0, 3.0)); // its front face, 2 wide, at distance 2

@@ -1,16 +1,16 @@
 //! Arrays of points: projected and given outcodes in one pass.
 //!
-//! Most meshes are wholly visible or wholly hidden. [`Extent`] tells in two comparisons, and the triangles of the
+//! Most meshes are wholly visible or wholly hidden. [`OutcodeSummary`] tells in two comparisons, and the triangles of the
 //! rest are sorted by the outcodes of their corners before any of them is cut:
 //!
 //! ```
-//! use clip::{Extent, Outcode, Volume};
+//! use clip::{OutcodeSummary, Outcode, Volume};
 //! use homog::{Clip, HPoint, Model, Projective};
 //! let model_to_clip = Projective::<Model, Clip>::from_raw(glam::DMat4::IDENTITY);
 //! let positions = [[0.0_f32, 0.0, 0.0], [0.5, 0.5, 0.5], [3.0, 0.0, 0.0]];
 //! let mut points = [HPoint::<Clip>::new(0.0, 0.0, 0.0, 1.0); 3];
 //! let mut outcodes = [Outcode::INSIDE; 3];
-//! let extent = Volume::CHAPTER.project(model_to_clip, &positions, &mut points, &mut outcodes);
+//! let extent = Volume::CHAPTER.project_positions(model_to_clip, &positions, &mut points, &mut outcodes);
 //! assert!(!extent.is_inside() && !extent.is_outside()); // look at single triangles
 //! assert_eq!(extent.count, 3);
 //! ```
@@ -89,7 +89,7 @@ impl Volume {
     }
 
     /// Projects many positions in f32: half the memory, about seven digits. For previews and bounds; what decides about
-    /// pixels goes by [`Self::project`].
+    /// pixels goes by [`Self::project_positions`].
     ///
     /// Every coordinate is ((x·m₀ + y·m₁) + z·m₂) + m₃ in this order, so that the bits are the same everywhere.
     pub fn project_positions_f32<S: Space>(

@@ -27,7 +27,7 @@ impl<S: Space> Outline<S> {
     /// let corner = |x: f64, y: f64| Point::<World>::new(x, y, 0.0);
     /// let square = |r: f64| vec![corner(-r, -r), corner(r, -r), corner(r, r), corner(-r, r)];
     /// let frame = Outline { loops: vec![square(2.0), square(1.0)], open: vec![] };
-    /// let cap = frame.cap(Plane::through(Point::ORIGIN, Normal::new(0.0, 0.0, -1.0)));
+    /// let cap = frame.triangulate_cap(Plane::through(Point::ORIGIN, Normal::new(0.0, 0.0, -1.0)));
     /// let area = |[a, b, c]: [Point<World>; 3]| (b - a).cross(c - a).z() / 2.0;
     /// assert_eq!(cap.into_iter().map(area).sum::<f64>(), 16.0 - 4.0);
     /// ```

@@ -23,7 +23,7 @@
 //! | what | by | gives |
 //! | --- | --- | --- |
 //! | a point | [`clip_point`], [`Volume::outcode`] | inside or not, and which planes say no |
-//! | many points | [`Volume::project`], [`Volume::outcodes`] | outcodes, and whether all are inside or all outside |
+//! | many points | [`Volume::project_positions`], [`Volume::compute_outcodes`] | outcodes, and whether all are inside or all outside |
 //! | a segment | [`clip_segment`] | its ends, their fractions of the way, the planes that cut |
 //! | a polyline | [`clip_polyline`] | unbroken runs |
 //! | a triangle | [`clip_triangle`] | a convex polygon with weights, without allocation |
@@ -38,7 +38,7 @@
 //! # Example
 //! A floor tile under the camera: one corner is ahead, the others are beside and behind it.
 //! ```
-//! use clip::{Fate, PlaneIndex, Volume, clip_triangle};
+//! use clip::{PlaneOutcome, PlaneIndex, Volume, clip_triangle};
 //! use homog::{Clip, Point, Projective, View};
 //!
 //! // The chapter's perspective with w > 0 in front (PE-3): window [−1, 1]², n = −1, f = −9.
@@ -50,7 +50,7 @@
 //! ]);
 //!
 //! let tile = [Point::new(0.0, -1.5, -6.0), Point::new(-4.0, -1.5, 2.0), Point::new(4.0, -1.5, 2.0)];
-//! let left = clip_triangle(tile.map(|corner| view_to_clip.point(corner)), &Volume::CHAPTER);
+//! let left = clip_triangle(tile.map(|corner| view_to_clip.transform_point(corner)), &Volume::CHAPTER);
 //!
 //! // The far corner stays. The floor leaves the picture through its lower border, 1.5 ahead of the eye.
 //! assert_eq!(left.vertices().len(), 5);
@@ -59,8 +59,8 @@
 //! assert!((lowest.y() + 1.0).abs() < 1e-15);
 //!
 //! // Which plane did what?
-//! assert_eq!(left.fates.of(PlaneIndex::BOTTOM), Fate::Cut);
-//! assert_eq!(left.fates.of(PlaneIndex::FAR), Fate::Kept);
+//! assert_eq!(left.outcomes.outcome_of(PlaneIndex::BOTTOM), PlaneOutcome::Clipped);
+//! assert_eq!(left.outcomes.outcome_of(PlaneIndex::FAR), PlaneOutcome::Accepted);
 //! ```
 //!
 //! Sources: Cohen and Sutherland (about 1967), Sutherland and Hodgman (1974), Blinn and Newell (1978), Liang and

@@ -27,7 +27,7 @@ impl<S: Space> Outline<S> {
     /// let sides = (0..4).map(|i| [base[i], base[(i + 1) % 4], tip]);
     /// let half_way = Plane::through(Point::new(0.0, 1.0, 0.0), Normal::new(0.0, -1.0, 0.0));
     /// let edges: Vec<_> = sides.filter_map(|side| cut_triangle(side, half_way).edge()).collect();
-    /// let outline = Outline::of_edges(&edges);
+    /// let outline = Outline::from_edges(&edges);
     /// assert_eq!((outline.loops.len(), outline.loops[0].len(), outline.open.len()), (1, 4, 0));
     /// ```
     #[must_use]

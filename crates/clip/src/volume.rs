@@ -119,7 +119,7 @@ impl Volume {
 
     /// The volume with one plane more; what is on the plane's negative side is outside.
     ///
-    /// A plane of the world comes here through [`homog::Projective::plane`].
+    /// A plane of the world comes here through [`homog::Projective::transform_plane`].
     ///
     /// # Errors
     /// [`VolumeError::NoPlane`] if the plane has no two sides, [`VolumeError::TooManyPlanes`] if there is no room.
@@ -176,7 +176,7 @@ impl Volume {
             & (point.w < SAFE)
     }
 
-    /// The outcode of a finite point. The sums of the box are those of [`Self::distance`] without the coefficients that
+    /// The outcode of a finite point. The sums of the box are those of [`Self::plane_distance`] without the coefficients that
     /// are 0; they have the right sign even where they overflow.
     #[inline]
     fn full_outcode(&self, point: DVec4) -> Outcode {

@@ -1,28 +1,28 @@
-//! What a drawing could not show as it should: told to whoever asked for it.
+//! Warnings: what a drawing leaves out, returned along with it.
 
 use core::fmt;
 
-/// What a drawing leaves out, and why.
+/// Something that a drawing leaves out or could not do, with the reason in its `Display` text.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 #[non_exhaustive]
 pub enum Warning {
-    /// The cut through an object does not close.
+    /// The outline of a section does not close.
     SectionOpen {
-        /// The object.
+        /// The name of the object.
         object: String,
     },
-    /// The cut through an object has too many points for a cap.
+    /// The outline of a section has too many points for a cap.
     SectionTooComplex {
-        /// The object.
+        /// The name of the object.
         object: String,
     },
-    /// The style shows surfaces, and only line drawings are cut open.
+    /// The style shows surfaces, and sections apply to line drawings only.
     SectionsIgnored,
-    /// Only pixels have viewports.
+    /// The format has no viewports; only PNG images have.
     ViewportsIgnored,
-    /// Not all crossings of surfaces were looked for.
+    /// The search for intersection edges was cut off.
     IntersectionsIncomplete,
-    /// Not all of the hatching was drawn.
+    /// The hatching was cut off.
     HatchingIncomplete,
 }
 

@@ -34,7 +34,7 @@ pub struct Cluster {
 impl Clusters {
     /// The clusters of a mesh. Triangles with a corner that the mesh has no position for are as if they were not there.
     ///
-    /// Without `cones` none is ever [turned away](Cluster::is_turned_away), and they are made in half the time.
+    /// Without `cones` none is ever [turned away](Cluster::is_back_facing), and they are made in half the time.
     #[must_use]
     pub fn build(positions: &[[f32; 3]], triangles: &[[u32; 3]], cones: bool) -> Self {
         let starts = (0..triangles.len()).step_by(CLUSTER_TRIANGLES);
@@ -221,7 +221,7 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
 pub struct MeshSelection {
     /// Runs of triangles, in their order, none touching the next.
     triangle_runs: Vec<Range<usize>>,
-    /// Whether vertices are needed, by blocks of [`BLOCK`].
+    /// Whether vertices are needed, by blocks of [`VERTEX_BLOCK`].
     vertex_blocks: Vec<bool>,
 }
 

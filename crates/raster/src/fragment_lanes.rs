@@ -1,4 +1,4 @@
-//! Eight fragments at once: what [`Fragment`](crate::Fragment) is to one pixel, bit for bit, and several times as fast.
+//! Eight fragments at once: what [`Fragment`] is to one pixel, bit for bit, and several times as fast.
 //!
 //! Everything here is a plain loop over eight lanes and is made part of the function that calls it, which is compiled for
 //! the processor's vector instructions. (Closures over arrays are not always taken along.)

@@ -19,7 +19,7 @@ pub const MAX_SIDE: u32 = 16384;
 
 /// The primitives of one picture.
 ///
-/// Fill it with [`triangle`](Self::triangle), [`line`](Self::line) and [`point`](Self::point), then
+/// Fill it with [`add_triangle`](Self::add_triangle), [`add_line`](Self::add_line) and [`add_point`](Self::add_point), then
 /// [`draw`](Self::draw) it. At equal depth the primitive given first wins, whatever the number of threads.
 #[derive(Clone, Debug)]
 pub struct Frame {
@@ -78,7 +78,7 @@ impl Frame {
         Self { simd_level: instructions, ..self }
     }
 
-    /// The same frame, whose large [`mesh`](Self::mesh)es are added by up to so many threads; 1 unless told otherwise. The
+    /// The same frame, whose large [`add_mesh`](Self::add_mesh)es are added by up to so many threads; 1 unless told otherwise. The
     /// frame does not depend on it.
     #[must_use]
     pub fn with_threads(self, threads: usize) -> Self {
@@ -132,13 +132,13 @@ impl Frame {
     }
 
     /// Adds a whole triangle; its corners may run either way. Leave out those that face away, if they are to be
-    /// invisible: see [`signed_area`](crate::signed_area).
+    /// invisible: see [`signed_area`].
     pub fn add_triangle(&mut self, corners: [ScreenVertex; 3], id: u32, cover: Opacity) {
         self.push_unclipped(corners, signed_area(corners), id, cover);
     }
 
     /// Adds the triangles of a mesh, named `first_id` and so on in their order. Triangles with a vertex that is missing, or
-    /// that the mesh does not have, are left out, and so are those with a negative [`signed_area`](crate::signed_area) if
+    /// that the mesh does not have, are left out, and so are those with a negative [`signed_area`] if
     /// `cull` asks for it, and those with a positive one if it asks for the others.
     pub fn add_mesh(
         &mut self,
@@ -152,7 +152,7 @@ impl Frame {
         self.add_mesh_runs(vertices, triangles, std::slice::from_ref(&all), first_id, cover, cull);
     }
 
-    /// As [`mesh`](Self::mesh), with some of the triangles only: `runs` of them, in their order. They keep their names.
+    /// As [`add_mesh`](Self::add_mesh), with some of the triangles only: `runs` of them, in their order. They keep their names.
     ///
     /// Runs must not overlap; what of them is not in the mesh is left out.
     pub fn add_mesh_runs(
@@ -219,7 +219,7 @@ impl Frame {
         }
     }
 
-    /// Adds a piece of a line that was clipped: as [`line`](Self::line), with the places of the piece's ends in the
+    /// Adds a piece of a line that was clipped: as [`add_line`](Self::add_line), with the places of the piece's ends in the
     /// source line, 0 at its first and 1 at its second end.
     pub fn add_clipped_line(
         &mut self,

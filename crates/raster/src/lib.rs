@@ -15,14 +15,14 @@
 //!
 //! ```
 //! use homog::Point;
-//! use raster::{Cover, Frame, Samples, ScreenVertex};
+//! use raster::{Opacity, Frame, Samples, ScreenVertex};
 //!
 //! let mut frame = Frame::new(16, 8, Samples::One)?;
 //! let corners = [(1.0, 7.0), (15.0, 7.0), (8.0, 0.0)];
 //! let corners = corners.map(|(x, y)| ScreenVertex::snap(Point::new(x, y, 0.5), 1.0).unwrap());
-//! frame.triangle(corners, 7, Cover::Solid);
+//! frame.add_triangle(corners, 7, Opacity::Opaque);
 //!
-//! let seen = frame.visibility();
+//! let seen = frame.visibility_buffer();
 //! let rows: Vec<String> = seen.ids.chunks(16)
 //!     .map(|row| row.iter().map(|id| if *id == Some(7) { '#' } else { '.' }).collect())
 //!     .collect();

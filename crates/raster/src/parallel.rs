@@ -16,7 +16,7 @@ where
     for_each_with_workers(&mut nothing, items, |(), item| work(item));
 }
 
-/// As [`share`], by up to a thread for each of the workers (one at least), which keep what they need from item to item.
+/// As [`for_each_parallel`], by up to a thread for each of the workers (one at least), which keep what they need from item to item.
 pub(crate) fn for_each_with_workers<W, T, I>(
     workers: &mut [W],
     items: I,

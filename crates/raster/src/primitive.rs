@@ -9,7 +9,7 @@ pub enum Opacity {
     /// It hides what is behind it.
     #[default]
     Opaque,
-    /// It hides what is behind it where [`Surface::keeps`](crate::Surface::keeps) says so, and is absent elsewhere.
+    /// It hides what is behind it where [`Surface::passes_alpha_test`](crate::Surface::passes_alpha_test) says so, and is absent elsewhere.
     Masked,
     /// It lets through what is behind it: its fragments are blended over the solid ones, the farthest first.
     Translucent,

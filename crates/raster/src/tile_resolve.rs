@@ -1,7 +1,7 @@
 //! From a filled tile to colours: each visible piece is shaded once per pixel, eight fragments at a time.
 //!
 //! Most rows of eight neighbouring pixels show one piece in each pixel: they are shaded as they lie. Of pixels on edges only the
-//! pieces that others than the first sample see are left over ([`Edges`]). What lies under layers is gathered fragment by
+//! pieces that others than the first sample see are left over ([`EdgePixels`]). What lies under layers is gathered fragment by
 //! fragment, shaded eight at a time and put together sample by sample.
 
 use crate::edge_pixels::EdgePixels;
@@ -292,7 +292,7 @@ impl<S: Surface> TileResolve<'_, S> {
         Some(Fragments::from_triangles(seen, &self.frame.source_weights, columns, self.rect.y + y))
     }
 
-    /// The colours of up to eight shares of a row, by their [fragments](Self::fragments); those of nothing have the background's.
+    /// The colours of up to eight shares of a row, by their [fragments](Self::gather_fragments); those of nothing have the background's.
     #[inline(always)]
     pub(crate) fn shade_contributions(
         &self,

@@ -32,7 +32,7 @@ pub(crate) struct TileVisibility {
 }
 
 impl TileVisibility {
-    /// The piece seen by a sample of a pixel ([`index_of`](crate::plane::index_of) says where it is); [`NOTHING`](crate::plane::NOTHING) for the background.
+    /// The piece seen by a sample of a pixel ([`pixel_index`](crate::sample_plane::pixel_index) says where it is); [`NO_TRIANGLE`] for the background.
     pub(crate) fn triangle(&self, sample: usize, at: usize) -> u32 {
         self.planes[sample].triangle[at]
     }

@@ -1,7 +1,7 @@
 //! Eight small triangles prepared for a tile at once.
 //!
 //! In fine meshes most of the work on a triangle is its set-up. Triangles near the tile fit 32-bit arithmetic throughout, and
-//! eight of them are prepared by the same instructions. The numbers are those of [`Setup`](crate::setup::Setup), bit for
+//! eight of them are prepared by the same instructions. The numbers are those of [`TriangleSetup`](crate::triangle_setup::TriangleSetup), bit for
 //! bit: edges are exact in both, and depth goes through the same steps. All is plain loops over the eight, which
 //! become vector instructions in the function that they are made part of.
 
@@ -27,7 +27,7 @@ pub(crate) struct TriangleBatch {
     y: [Ints; 3],
     first_depth: Floats,
     is_small: [bool; BATCH_SIZE],
-    /// See [`Functions`].
+    /// See [`TriangleFunctions`].
     a: [Ints; 3],
     b: [Ints; 3],
     bounds: [Ints; 4],
@@ -38,7 +38,7 @@ pub(crate) struct TriangleBatch {
     max_depth: Floats,
 }
 
-/// Where the functions of eight triangles start in one plane of samples: see [`Start`].
+/// Where the functions of eight triangles start in one plane of samples: see [`SampleStart`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BatchStarts {
     edges: [Ints; 3],
@@ -167,7 +167,7 @@ fn coordinate_extents([p, q, r]: &[Ints; 3]) -> (Ints, Ints) {
     (low, high)
 }
 
-/// The pixels that may have a sample within the bounds: see [`Setup::new`](crate::setup::Setup::new).
+/// The pixels that may have a sample within the bounds: see [`TriangleSetup::new`](crate::triangle_setup::TriangleSetup::new).
 #[inline(always)]
 fn pixel_bounds(extent: [Ints; 4], tile: TileRect, reach: (i32, i32)) -> [Ints; 4] {
     let [mut x0, mut y0, mut x1, mut y1] = extent;

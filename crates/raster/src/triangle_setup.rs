@@ -1,6 +1,6 @@
 //! A triangle prepared for one tile: everything that its samples need, in 32 bits.
 //!
-//! Edge functions are exact in 64 bits ([`Edge`]). Within a tile the samples of one plane lie whole pixels apart, so all
+//! Edge functions are exact in 64 bits ([`EdgeFunction`]). Within a tile the samples of one plane lie whole pixels apart, so all
 //! of them have the same value of E modulo 256, and E ≥ 0 holds if and only if ⌊E/256⌋ ≥ 0: the quotient steps by whole numbers
 //! and fits 32 bits. Where it is too large, it is cut off at ±2³⁰: the steps across a tile are smaller than that,
 //! so the sign, which is all that counts, stays right.

@@ -37,7 +37,7 @@ impl ScreenVertex {
         });
     }
 
-    /// As [`project_all`](Self::project_all), but only those positions that a selection needs. What `vertices` holds for the others
+    /// As [`project_positions`](Self::project_positions), but only those positions that a selection needs. What `vertices` holds for the others
     /// is not to be looked at.
     pub fn project_selected_positions<A: Space>(
         positions: &[[f32; 3]],

@@ -43,7 +43,7 @@ impl Frame {
     }
 
     /// Calls `each` with the fragment of the nearest primitive of each pixel where there is one, as
-    /// [`visibility`](Self::visibility) sees it, tile by tile.
+    /// [`visibility_buffer`](Self::visibility_buffer) sees it, tile by tile.
     pub fn for_each_fragment(&self, mut each: impl FnMut(Fragment<'_>)) {
         self.for_each_visible_pixel(|x, y, _, piece| {
             each(Fragment::new(piece, &self.source_weights, x, y));

@@ -3,10 +3,9 @@
 //! Run it with `cargo run -p viewport --example sheet`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
 
-use homog::Point;
+use homog::{PixelConvention, Point};
 use viewport::{
-    DepthRange, DrawingScale, FitPolicy, Paper, PixelConvention, Rectangle, Resolution, Viewport,
-    ViewportError,
+    DepthRange, DrawingScale, FitPolicy, Paper, Rectangle, Resolution, Viewport, ViewportError,
 };
 
 /// Width and height of the house in millimetres, as each view shows it.

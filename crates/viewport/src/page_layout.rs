@@ -52,7 +52,7 @@ impl Rectangle {
     }
 
     /// A rectangle of a fraction of the width and height, at the fractions `at` of the room that is left:
-    /// `inset(0.25, [1.0, 1.0])` is a quarter of each side in the corner of greatest coordinates.
+    /// `inset_rectangle(0.25, [1.0, 1.0])` is a quarter of each side in the corner of greatest coordinates.
     ///
     /// # Errors
     /// If a number is not finite, or the fraction is not greater than 0.

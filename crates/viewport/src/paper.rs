@@ -120,7 +120,7 @@ impl Paper {
 /// ```
 /// use viewport::DrawingScale;
 /// let scale = DrawingScale::new(1, 50)?;
-/// assert_eq!(scale.to_paper(5000.0), 100.0); // five metres are ten centimetres, all in millimetres
+/// assert_eq!(scale.to_paper_length(5000.0), 100.0); // five metres are ten centimetres, all in millimetres
 /// assert_eq!(scale.to_string(), "1:50");
 /// # Ok::<(), viewport::ViewportError>(())
 /// ```

@@ -14,8 +14,8 @@ use crate::ViewportError;
 /// A grid of points over [−1, 1]².
 ///
 /// ```
-/// use viewport::Grid;
-/// let grid = Grid::new(5, 3)?;
+/// use viewport::PointGrid;
+/// let grid = PointGrid::new(5, 3)?;
 /// assert_eq!(grid.xz(0, 0), Some([-1.0, -1.0]));
 /// assert_eq!(grid.xz(4, 2), Some([1.0, 1.0]));
 /// assert_eq!(grid.xz(5, 0), None); // the last row is number 4

@@ -11,7 +11,7 @@
 use crate::error::check_finite;
 use crate::{Rectangle, Viewport, ViewportError};
 use glam::{DMat4, DVec4};
-use homog::{Clip, HPoint, Point, Projective, Screen, Space, Vector};
+use homog::{Clip, HPoint, Point, Projective, Ray, Screen, Space, Vector};
 
 /// The way back from pixels and depth to a space `S`: that of the world, of a model or of the camera.
 ///
@@ -23,8 +23,8 @@ use homog::{Clip, HPoint, Point, Projective, Screen, Space, Vector};
 /// let view_to_clip = Projective::<View, Clip>::from_raw(glam::DMat4::from_cols_array_2d(&rows).transpose());
 /// let clip_to_view = view_to_clip.inverse().expect("regular");
 /// let back = Viewport::image(200, 100)?.unprojector(clip_to_view);
-/// let ray = back.ray([100.0, 50.0], [1.0, -1.0]).expect("the middle of the picture");
-/// assert_eq!(ray.direction.z(), -1.0);
+/// let pick = back.pick_ray([100.0, 50.0], [1.0, -1.0]).expect("the middle of the picture");
+/// assert_eq!(pick.ray.direction.z(), -1.0);
 /// # Ok::<(), viewport::ViewportError>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -33,13 +33,12 @@ pub struct Unprojector<S: Space> {
     screen_to_source: Projective<Screen, S>,
 }
 
-/// The line of all points that have their image at one place of the picture.
+/// The ray through one position of the image, between the near and the far plane.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Ray<S: Space> {
-    /// Where the ray starts: the centre of projection, or the point on the near plane for a parallel projection.
-    pub origin: Point<S>,
-    /// Away from the viewer, length 1.
-    pub direction: Vector<S>,
+pub struct PickRay<S: Space> {
+    /// The ray away from the viewer, its direction of length 1. It begins at the center of projection,
+    /// or, for a parallel projection, on the near plane.
+    pub ray: Ray<S>,
     /// The point on the near plane.
     pub near: Point<S>,
     /// The point on the far plane, not divided: with w = 0 it is at infinity.
@@ -115,7 +114,7 @@ impl<S: Space> Unprojector<S> {
     ///
     /// `None` where there is no such ray: the map is singular or something is not finite.
     #[must_use]
-    pub fn pick_ray(&self, [x, y]: [f64; 2], near_far: [f64; 2]) -> Option<Ray<S>> {
+    pub fn pick_ray(&self, [x, y]: [f64; 2], near_far: [f64; 2]) -> Option<PickRay<S>> {
         let at = |z: f64| {
             let depth = self.viewport.depth().ndc_to_depth(z);
             self.screen_to_source.transform_point(Point::new(x, y, depth))
@@ -130,7 +129,7 @@ impl<S: Space> Unprojector<S> {
         let direction = (beyond - near).normalized()?;
         let origin =
             if self.is_parallel() { near } else { divide_point(self.center_of_projection())? };
-        far.is_finite().then_some(Ray { origin, direction, near, far })
+        far.is_finite().then_some(PickRay { ray: Ray { origin, direction }, near, far })
     }
 
     /// Rounding must not turn a parallel projection into one from very far away.

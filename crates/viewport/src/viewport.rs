@@ -1,8 +1,8 @@
 //! The viewport: from the canonical square to a rectangle of pixels (VP-1 to VP-3).
 
 use crate::error::check_positive;
-use crate::{DepthRange, PixelConvention, Rectangle, ViewportError, YAxis};
-use homog::{Affine, Ndc, Point, Screen, Vector};
+use crate::{DepthRange, Rectangle, ViewportError};
+use homog::{Affine, Ndc, PixelConvention, Point, Screen, Vector, YAxis};
 
 /// A rectangle of pixels on which the canonical square [−1, 1]² is drawn, and the range depth goes to.
 ///
@@ -129,7 +129,7 @@ impl Viewport {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::PixelCenters;
+    use homog::PixelCenters;
 
     #[test]
     fn the_square_fills_the_image_in_every_convention() {

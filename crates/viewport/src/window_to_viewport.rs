@@ -31,8 +31,8 @@ pub struct Limits {
 ///     Limits { x: [-1.0, 3.0], y: [2.0, 4.0] },
 ///     Limits { x: [0.0, 8.0], y: [0.0, 4.0] },
 /// )?;
-/// assert_eq!(map.by_ratio([1.0, 3.0]), [4.0, 2.0]);
-/// assert_eq!(map.by_chain([1.0, 3.0]), [4.0, 2.0]);
+/// assert_eq!(map.map_by_ratio([1.0, 3.0]), [4.0, 2.0]);
+/// assert_eq!(map.map_by_chain([1.0, 3.0]), [4.0, 2.0]);
 /// assert!(map.is_undistorted());
 /// # Ok::<(), viewport::ViewportError>(())
 /// ```

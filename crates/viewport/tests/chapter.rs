@@ -2,10 +2,8 @@
 //! one passes.
 
 use glam::{DMat3, DMat4, DVec2, DVec4};
-use homog::{Affine, HPoint2, Homography, Ndc, Point, Projective, Vector, View};
-use viewport::{
-    DepthRange, Limits, PixelConvention, PointGrid, Rectangle, Viewport, WindowToViewport,
-};
+use homog::{Affine, HPoint2, Homography, Ndc, PixelConvention, Point, Projective, Vector, View};
+use viewport::{DepthRange, Limits, PointGrid, Rectangle, Viewport, WindowToViewport};
 
 fn rows(rows: [[f64; 4]; 4]) -> DMat4 {
     DMat4::from_cols_array_2d(&rows).transpose()
@@ -132,10 +130,10 @@ fn rays_of_a_parallel_projection_are_parallel() {
     let back = Viewport::image(640, 480).expect("has pixels").unprojector::<View>(clip_to_view);
     assert_eq!(back.center_of_projection().w(), 0.0);
     for pixel in [[0.0, 0.0], [320.0, 240.0], [640.0, 480.0]] {
-        let ray = back.pick_ray(pixel, [1.0, -1.0]).expect("there is one");
-        assert_eq!(ray.direction, -Vector::Z);
-        assert_eq!(ray.origin, ray.near);
-        assert_eq!(ray.near.z(), -1.0);
+        let pick = back.pick_ray(pixel, [1.0, -1.0]).expect("there is one");
+        assert_eq!(pick.ray.direction, -Vector::Z);
+        assert_eq!(pick.ray.origin, pick.near);
+        assert_eq!(pick.near.z(), -1.0);
     }
 }
 
@@ -150,9 +148,10 @@ fn rays_reach_to_infinity() {
         DepthRange::KEEP,
     )
     .unprojector::<View>(Projective::from_raw(raw).inverse().expect("regular"));
-    let ray = back.pick_ray([50.0, 50.0], [1.0, 0.0]).expect("there is one");
-    assert_eq!(ray.far.w(), 0.0);
-    assert_eq!((ray.direction, ray.origin, ray.near.z()), (-Vector::Z, Point::ORIGIN, -0.5));
+    let pick = back.pick_ray([50.0, 50.0], [1.0, 0.0]).expect("there is one");
+    assert_eq!(pick.far.w(), 0.0);
+    let expected = (-Vector::Z, Point::ORIGIN, -0.5);
+    assert_eq!((pick.ray.direction, pick.ray.origin, pick.near.z()), expected);
     assert_eq!(back.pick_ray([f64::NAN, 0.0], [1.0, 0.0]), None);
     assert_eq!(back.pick_ray([50.0, 50.0], [1.0, -1.7e308]), None, "the far point is no number");
 }

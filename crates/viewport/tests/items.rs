@@ -1,8 +1,8 @@
 //! Items of the sources that the laws leave out, each against its formula.
 
 use glam::DMat4;
-use homog::{Ndc, Point};
-use viewport::{DepthRange, PixelConvention, Rectangle, Viewport};
+use homog::{Ndc, PixelConvention, Point};
+use viewport::{DepthRange, Rectangle, Viewport};
 
 /// VP-1, entry by entry: scale by n/2, centre at (n − 1)/2, z as it is.
 #[test]

@@ -1,10 +1,13 @@
-//! Seams: borders of surfaces that only look like borders, because the file does not say that they belong together.
+//! Seams: false boundaries closed by near welding and by cutting edges at T-junctions.
 //!
 //! ```text
-//!   ●───────●───────●   Three faces above, two below: no side of the upper ones is a side of the lower ones. Cut at each
-//!   ●────●─────●────●   other's vertices they are (T-junctions).
+//!   ●───────●───────●     two faces above, three below: no side of the upper ones
+//!   ●────●─────●────●     is a side of the lower ones until both are cut at the T-junctions
 //! ```
-//! Only borders are looked at, so that closed surfaces stay as they are, however fine.
+//!
+//! Only boundary edges are examined, so a closed surface stays as it is, however fine its
+//! triangles. A boundary that finds its partner here is classified like any other edge; one that
+//! does not is drawn.
 
 use super::half_edges::{HalfEdge, HalfEdges};
 use super::weld::remap_vertices;
@@ -12,71 +15,80 @@ use super::world_mesh::{Face, WorldMesh};
 use crate::hidden_line::{Aabb, Bvh};
 use glam::DVec3;
 
-/// Points of borders nearer than this are one, in diagonals of the smaller of their objects: what quantisation to 12 bits
-/// may part.
+/// The weld radius in diagonals of an object: 1/4096, the step of positions quantized to 12 bits.
 pub(super) const WELD_FRACTION: f64 = 1.0 / 4096.0;
 
-/// An edge that one face alone has, or a part of it.
+/// A boundary edge, or a part of one between T-junctions: its ends, the lower index first, and its
+/// half-edge.
 pub(super) type BorderEdge = ([u32; 2], HalfEdge);
 
-/// Of each point the greatest distance at which it may be one with another.
+/// The weld radius of each vertex: within this distance another boundary vertex may be the same
+/// one.
+///
+/// The radius is relative to the object, since each is quantized in its own bounding box; where
+/// objects share a vertex the smaller counts.
 #[derive(Clone, Debug)]
 pub(super) struct WeldRadii(Vec<f64>);
 
 impl WeldRadii {
-    pub(super) fn from_mesh(shape: &WorldMesh) -> Self {
-        let mut boxes = vec![Aabb::EMPTY; shape.objects.len()];
-        let corners =
-            || shape.faces.iter().flat_map(|f| f.vertices.map(|c| (c as usize, f.object)));
-        for (corner, object) in corners() {
+    /// The radii of all vertices of a mesh; infinite for vertices without a face.
+    pub(super) fn from_mesh(mesh: &WorldMesh) -> Self {
+        let mut boxes = vec![Aabb::EMPTY; mesh.objects.len()];
+        let vertices =
+            || mesh.faces.iter().flat_map(|f| f.vertices.map(|c| (c as usize, f.object)));
+        for (vertex, object) in vertices() {
             let bounds = &mut boxes[object as usize];
-            *bounds = bounds.union(Aabb::from_points([shape.points[corner]]));
+            *bounds = bounds.union(Aabb::from_points([mesh.points[vertex]]));
         }
-        let mut reach = vec![f64::INFINITY; shape.points.len()];
-        for (corner, object) in corners() {
+        let mut radii = vec![f64::INFINITY; mesh.points.len()];
+        for (vertex, object) in vertices() {
             let bounds = boxes[object as usize];
-            reach[corner] = reach[corner].min((bounds.max - bounds.min).length() * WELD_FRACTION);
+            radii[vertex] = radii[vertex].min((bounds.max - bounds.min).length() * WELD_FRACTION);
         }
-        Self(reach)
+        Self(radii)
     }
 
-    /// The lesser of those of two ends.
+    /// The lesser radius of the two ends of an edge.
     pub(super) fn edge_radius(&self, [a, b]: [u32; 2]) -> f64 {
         self.0[a as usize].min(self.0[b as usize])
     }
 }
 
-/// The edges that one face alone has.
+/// The edges with a single half-edge.
 pub(super) fn border_edges(sides: &HalfEdges) -> Vec<BorderEdge> {
     let alone = sides.edges().filter(|(_, sides)| sides.len() == 1);
     alone.map(|(ends, sides)| (ends, sides[0])).collect()
 }
 
-/// Makes points of borders that nearly coincide one. True if there were any.
+/// Welds boundary vertices that are within each other's weld radius; `true` if there were any.
+///
+/// Vertices are visited by index, and each one takes in its unwelded neighbors, found by a BVH over
+/// the points. A chain of near vertices does not collapse into one, because a vertex that was taken
+/// in does not search again.
 pub(super) fn weld_near_borders(
-    shape: &mut WorldMesh,
+    mesh: &mut WorldMesh,
     borders: &[BorderEdge],
-    reach: &WeldRadii,
+    radii: &WeldRadii,
 ) -> bool {
     let points = border_vertices(borders);
     let boxes: Vec<Aabb> =
-        points.iter().map(|&at| Aabb::from_points([shape.points[at as usize]])).collect();
+        points.iter().map(|&at| Aabb::from_points([mesh.points[at as usize]])).collect();
     let tree = Bvh::new(&boxes, half_surface_area);
-    let mut same: Vec<u32> = (0..shape.points.len() as u32).collect();
+    let mut same: Vec<u32> = (0..mesh.points.len() as u32).collect();
     let mut is_taken = vec![false; points.len()];
     let mut open = Vec::new();
     let mut any = false;
-    for (number, &at) in points.iter().enumerate() {
-        if is_taken[number] {
+    for (index, &at) in points.iter().enumerate() {
+        if is_taken[index] {
             continue;
         }
-        let (here, far) = (boxes[number].min, reach.0[at as usize]);
-        let area = boxes[number].expanded_by(DVec3::splat(far));
+        let (here, far) = (boxes[index].min, radii.0[at as usize]);
+        let area = boxes[index].expanded_by(DVec3::splat(far));
         tree.for_each_overlapping(&area, usize::MAX, &mut open, |item| {
             let other = points[item as usize];
-            let radius = far.min(reach.0[other as usize]);
+            let radius = far.min(radii.0[other as usize]);
             let is_near = (boxes[item as usize].min - here).length() <= radius;
-            if item as usize > number && !is_taken[item as usize] && is_near {
+            if item as usize > index && !is_taken[item as usize] && is_near {
                 is_taken[item as usize] = true;
                 same[other as usize] = at;
                 any = true;
@@ -84,20 +96,32 @@ pub(super) fn weld_near_borders(
         });
     }
     if any {
-        remap_vertices(shape, &same);
+        remap_vertices(mesh, &same);
     }
     any
 }
 
-/// Cuts borders at points of other borders that lie on them; and the triangles between each border and its parts, which have
-/// a width where the points lie on it but for rounding.
+/// Cuts boundary edges at the boundary vertices that lie on them, and returns the parts and the
+/// sliver triangles in between.
+///
+/// ```text
+///       a ●─────────────● b
+///          ╲───── ● ────╱
+///                 p
+/// ```
+///
+/// The edge a–b passes within the weld radius of p: its parts are a–p and p–b. The sliver a, p, b
+/// closes the gap, which is as wide as rounding made it; it hides and is cut by sections, but is
+/// never drawn.
+///
+/// Parts are sorted by their ends, so that coincident ones of both sides of a seam are neighbors.
 pub(super) fn split_at_t_junctions(
-    shape: &WorldMesh,
+    mesh: &WorldMesh,
     borders: &[BorderEdge],
-    reach: &WeldRadii,
+    radii: &WeldRadii,
 ) -> (Vec<BorderEdge>, Vec<Face>) {
     let points = border_vertices(borders);
-    let position = |at: u32| shape.points[at as usize];
+    let position = |at: u32| mesh.points[at as usize];
     let boxes: Vec<Aabb> = points.iter().map(|&at| Aabb::from_points([position(at)])).collect();
     let tree = Bvh::new(&boxes, half_surface_area);
     let (mut open, mut cuts) = (Vec::new(), Vec::new());
@@ -105,7 +129,7 @@ pub(super) fn split_at_t_junctions(
     let (mut parts, mut fillings) = (Vec::with_capacity(borders.len()), Vec::new());
     for &([a, b], side) in borders {
         let (from, along) = (position(a), position(b) - position(a));
-        let radius = reach.edge_radius([a, b]);
+        let radius = radii.edge_radius([a, b]);
         cuts.clear();
         let area = Aabb::from_points([position(a), position(b)]).expanded_by(DVec3::splat(radius));
         tree.for_each_overlapping(&area, most, &mut open, |item| {
@@ -119,7 +143,7 @@ pub(super) fn split_at_t_junctions(
         cuts.sort_unstable_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
         let neighbors =
             cuts.iter().map(|&(_, at)| at).zip(cuts.iter().skip(1).map(|&(_, at)| at).chain([b]));
-        let face = shape.faces[side.face as usize];
+        let face = mesh.faces[side.face as usize];
         let filling = |(from, to)| Face { vertices: [a, from, to], ..face };
         fillings.extend(neighbors.map(filling));
         let stops = cuts.iter().map(|&(_, at)| at).chain([b]);
@@ -131,7 +155,7 @@ pub(super) fn split_at_t_junctions(
     (parts, fillings)
 }
 
-/// A part of a rising edge as an edge of its own.
+/// A part of a boundary edge as an edge of its own, with the orientation of the original.
 fn border_part([from, to]: [u32; 2], side: HalfEdge) -> BorderEdge {
     let rises = side.is_forward == (from < to);
     (
@@ -140,6 +164,7 @@ fn border_part([from, to]: [u32; 2], side: HalfEdge) -> BorderEdge {
     )
 }
 
+/// The vertices of boundary edges, sorted, each once.
 fn border_vertices(borders: &[BorderEdge]) -> Vec<u32> {
     let mut points: Vec<u32> = borders.iter().flat_map(|(ends, _)| *ends).collect();
     points.sort_unstable();
@@ -147,7 +172,7 @@ fn border_vertices(borders: &[BorderEdge]) -> Vec<u32> {
     points
 }
 
-/// Half the surface of a box.
+/// Half the surface area of a box: the cost of a box in space for the BVH.
 pub(super) fn half_surface_area(size: DVec3) -> f64 {
     size.x * size.y + size.y * size.z + size.z * size.x
 }

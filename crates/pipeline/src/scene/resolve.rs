@@ -21,7 +21,7 @@ use drawing::Overlay;
 use homog::Bounds;
 use model::Model;
 use model::ModelInstance;
-use model::import::{ImportError, ImportErrorKind, ImportOptions, load, load_bytes};
+use model::import::{ImportError, ImportOptions, load, load_bytes};
 use model::world_points;
 use raster::Samples;
 use shade::{ToneMapper, ToneMapping};
@@ -224,7 +224,9 @@ impl ModelError {
             Self::File(error) => {
                 let at = [Field("models"), Index(number), Field("path")];
                 let help = suggest_model_file(&origin.folder.join(&entry.path));
-                origin.error_at(&at, format!("{}: {}", entry.path, error.diagnostic), help).into()
+                origin
+                    .error_at(&at, format!("{}: {}", entry.path, error.diagnostic.sentence()), help)
+                    .into()
             }
             Self::Scene(error) => error.into(),
         }
@@ -286,14 +288,14 @@ fn choice_error(
     entry: &ModelFile,
     error: ImportError,
 ) -> ModelError {
-    if origin.text.is_empty() || error.diagnostic.kind != ImportErrorKind::NotFound {
+    if origin.text.is_empty() || error.diagnostic.code != model::codes::NO_SUCH_ITEM {
         return ModelError::File(error);
     }
     let scene = entry.scene.is_some() && error.diagnostic.location == "/scenes";
     let field = if scene { "scene" } else { "variant" };
     let message = format!("{}: {}", entry.path, error.diagnostic.message);
     let at = [Field("models"), Index(number), Field(field)];
-    origin.error_at(&at, message, Some(error.diagnostic.help)).into()
+    origin.error_at(&at, message, error.diagnostic.help).into()
 }
 
 /// The number of the animation that is wanted, or the first.
