@@ -3,9 +3,10 @@
 use super::CliError;
 use super::format::OutputFormat;
 use super::load_options::LoadArgs;
+use super::messages::print_warnings;
 use super::model_state::ModelStateArgs;
 use super::progress::Progress;
-use super::render::{open_input, print_warnings, thread_count};
+use super::render::{open_input, thread_count};
 use super::section::SectionArgs;
 use clap::ValueEnum;
 use drawing::Page;

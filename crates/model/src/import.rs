@@ -12,7 +12,6 @@
 //! do. What makes the shape unreadable refuses the file; what only spoils the look is a [`Warning`](crate::Warning).
 //! A lenient reader has warnings of both, as long as something is left to load. [`check`] tells all that is wrong.
 
-mod check;
 mod error;
 pub(crate) mod gltf;
 pub(crate) mod image_decoder;
@@ -24,7 +23,7 @@ mod parallel_decoding;
 pub(crate) mod uri_resolver;
 mod warnings;
 
-pub use check::{CheckReport, check_bytes, check_file};
+pub use crate::check::{CheckReport, check_bytes, check_file};
 pub use error::ImportError;
 pub use gltf::{ExtensionUse, extension_use};
 pub use image_decoder::decode_bounded as decode_image;

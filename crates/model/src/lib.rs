@@ -5,6 +5,7 @@
 
 mod animation;
 mod camera;
+mod check;
 mod diagnostic;
 pub mod import;
 mod light;
@@ -22,6 +23,7 @@ pub use animation::{
     ObjectProperty,
 };
 pub use camera::{CameraProjection, ModelCamera};
+pub use check::{CheckReport, check_bytes, check_file};
 pub use diagnostic::{Diagnostic, Severity, codes};
 pub use import::{ImportError, ImportOptions, Limits, load, load_bytes};
 pub use light::{LightKind, PunctualLight};

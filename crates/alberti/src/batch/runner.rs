@@ -5,9 +5,7 @@ use super::report::{BatchReport, DONE, DONE_BEFORE, FAILED, JobRecord};
 use super::{BatchArgs, key::content_key};
 use crate::CliError;
 use crate::progress::ProgressCounter;
-use crate::render::open_input;
-use pipeline::scene::ResolveOptions;
-use pipeline::{Scene, Timings, render_reported};
+use pipeline::{Timings, render_reported};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -100,14 +98,7 @@ impl BatchRun<'_> {
 
     /// Renders one picture; returns the warnings of its models and of the drawing.
     fn render_picture(&self, input: &Path, output: &Path) -> Result<Vec<String>, CliError> {
-        let (origin, mut file) =
-            open_input(input, &self.args.overrides.import_options(&self.args.load_options))?;
-        self.args.overrides.apply_to(&mut file);
-        let scene = Scene::resolve(
-            &origin,
-            &file,
-            &ResolveOptions { import: self.args.overrides.import_options(&self.args.load_options) },
-        )?;
+        let (_, _, scene) = self.args.overrides.open_scene(input, &self.args.load_options)?;
         let (picture, drawing) = render_reported(&scene, 1, &Timings::default())?;
         let png = picture.to_png();
         if let Some(folder) = output.parent() {
@@ -118,7 +109,7 @@ impl BatchRun<'_> {
         }
         pipeline::write_file(output, &png)?;
         let warnings = scene.models.iter().flat_map(|placed| &placed.model.warnings);
-        let warnings = warnings.map(|warning| format!("{}: {}", warning.location, warning.message));
+        let warnings = warnings.map(model::Diagnostic::sentence);
         Ok(warnings.chain(drawing.iter().map(ToString::to_string)).collect())
     }
 }
