@@ -162,7 +162,7 @@ fn a_model_beside_the_picture_is_named() {
     bench.copy_model("crate.glb");
     bench.write_file(
         "scene.ron",
-        "Scene(\n  models: [(path: \"crate.glb\"), (path: \"crate.glb\", translate: (30, 0, -16))],\n  \
+        "Scene(\n  models: [(path: \"crate.glb\"), (path: \"crate.glb\", translation: (30, 0, -16))],\n  \
          camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0))),\n)",
     );
     let run = bench.run(&["scene", "check", "scene.ron"]);
@@ -195,13 +195,13 @@ fn included_files_are_joined_and_mistakes_point_into_the_right_one() {
     bench.write_file("lib/paper.ron", format!("Scene({image}, style: Flat)"));
     let main = |rest: &str| {
         format!(
-            "Scene(\n  include: [\"lib/studio.ron\"],\n  models: [(path: \"crate.glb\", translate: (1, 0, 0))],\n  {rest}\n)"
+            "Scene(\n  include: [\"lib/studio.ron\"],\n  models: [(path: \"crate.glb\", translation: (1, 0, 0))],\n  {rest}\n)"
         )
     };
     bench.write_file("scene.ron", main("style: Shaded"));
     let run = bench.run(&["render", "scene.ron", "-o", "out.png"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
-    let one = "models: [(path: \"lib/other.glb\"), (path: \"crate.glb\", translate: (1, 0, 0))]";
+    let one = "models: [(path: \"lib/other.glb\"), (path: \"crate.glb\", translation: (1, 0, 0))]";
     bench.write_file("one.ron", format!("Scene({one}, {view}, {image}, style: Shaded)"));
     assert_eq!(bench.run(&["render", "one.ron", "-o", "one.png"]).code, 0);
     assert!(bench.read_picture("out.png") == bench.read_picture("one.png"));

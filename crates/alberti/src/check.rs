@@ -75,7 +75,7 @@ fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, Cli
     };
     let (origin, file) = match Origin::read_scene_allowing(input, &options.allow_outside) {
         Err(ResolveError::Scene(mistake)) => {
-            return Ok(found(vec![mistake], Vec::new(), Vec::new()));
+            return Ok(found(mistake.into(), Vec::new(), Vec::new()));
         }
         read => read?,
     };
@@ -86,7 +86,7 @@ fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, Cli
         // What `render` would refuse is a mistake, also where the review has no eye for it.
         match Scene::resolve(&origin, &file, &resolve) {
             Ok(scene) => advice = lint_scene(&origin, &file, &scene),
-            Err(ResolveError::Scene(mistake)) => mistakes.push(mistake),
+            Err(ResolveError::Scene(mistake)) => mistakes.extend(Vec::from(mistake)),
             // The reports of the models tell it.
             Err(_) => {}
         }

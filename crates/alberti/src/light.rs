@@ -3,8 +3,8 @@
 use clap::ValueEnum;
 use pipeline::scene::file::{
     AmbientOcclusionFile, EnvironmentFile, Finite, GroundFile, LightFile, SceneFile, ShadowsFile,
-    ToneMappingFile,
 };
+use pipeline::shade::ToneMapping;
 use std::path::PathBuf;
 
 /// What goes before what the scene says of its light.
@@ -76,10 +76,10 @@ impl LightArgs {
         }
         if let Some(tone) = self.tone {
             file.image.tone_mapping = match tone {
-                ToneArg::None => ToneMappingFile::None,
-                ToneArg::Neutral => ToneMappingFile::Neutral,
-                ToneArg::Aces => ToneMappingFile::Aces,
-                ToneArg::Agx => ToneMappingFile::AgX,
+                ToneArg::None => ToneMapping::None,
+                ToneArg::Neutral => ToneMapping::Neutral,
+                ToneArg::Aces => ToneMapping::Aces,
+                ToneArg::Agx => ToneMapping::AgX,
             };
         }
         match self.ground {
@@ -114,7 +114,7 @@ fn switch_shadows(file: &mut SceneFile, switch: SwitchArg) {
     };
     file.shadows = switched_shadows(file.shadows);
     for light in file.lights.iter_mut().flatten() {
-        if let LightFile::Sun { shadows, .. } | LightFile::Spot { shadows, .. } = light {
+        if let LightFile::Directional { shadows, .. } | LightFile::Spot { shadows, .. } = light {
             *shadows = shadows.and_then(|own| switched_shadows(Some(own)));
         }
     }

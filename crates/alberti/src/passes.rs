@@ -4,7 +4,7 @@ use super::CliError;
 use clap::ValueEnum;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use pipeline::render::passes::{Pass, PassBuffer, PassEncoding};
-use pipeline::scene::file::{PassEncodingFile, PassFile, SceneFile};
+use pipeline::scene::file::SceneFile;
 use pipeline::{AtomicFile, OutputError};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ pub(crate) struct PassArgs {
     /// distance from the eye in scene units, normal (world) and view-normal, position (world), uv, barycentric weights, id of the triangle
     /// and numbers of model, node, mesh and material (from 1; 0 is nothing), overdraw (fragments), coverage (share of the samples)
     #[arg(long, value_name = "PASS,…", value_delimiter = ',', value_parser = pass())]
-    passes: Vec<PassFile>,
+    passes: Vec<Pass>,
     /// How passes are written
     #[arg(long, value_name = "FORMAT", requires = "passes")]
     passes_as: Option<EncodingArg>,
@@ -39,8 +39,8 @@ impl PassArgs {
         }
         if let Some(encoding) = self.passes_as {
             file.passes.encoding = match encoding {
-                EncodingArg::Png => PassEncodingFile::Png,
-                EncodingArg::Npy => PassEncodingFile::Npy,
+                EncodingArg::Png => PassEncoding::Png,
+                EncodingArg::Npy => PassEncoding::Npy,
             };
         }
     }
@@ -69,25 +69,9 @@ pub(super) fn sibling_path(output: &Path, what: &str, ending: &str) -> PathBuf {
     output.with_file_name(name)
 }
 
-fn pass() -> impl TypedValueParser<Value = PassFile> {
-    const ALL: [PassFile; 14] = [
-        PassFile::Depth,
-        PassFile::Distance,
-        PassFile::Normal,
-        PassFile::ViewNormal,
-        PassFile::Position,
-        PassFile::Uv,
-        PassFile::Barycentric,
-        PassFile::Id,
-        PassFile::Model,
-        PassFile::Node,
-        PassFile::Mesh,
-        PassFile::Material,
-        PassFile::Overdraw,
-        PassFile::Coverage,
-    ];
-    PossibleValuesParser::new(ALL.map(|file| Pass::from(file).name())).try_map(|name| {
-        let found = ALL.into_iter().find(|file| Pass::from(*file).name() == name);
+fn pass() -> impl TypedValueParser<Value = Pass> {
+    PossibleValuesParser::new(Pass::ALL.map(Pass::name)).try_map(|name| {
+        let found = Pass::ALL.into_iter().find(|pass| pass.name() == name);
         found.ok_or_else(|| format!("there is no pass `{name}`"))
     })
 }

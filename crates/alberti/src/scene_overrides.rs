@@ -6,10 +6,11 @@ use super::load_options::LoadArgs;
 use super::model_state::ModelStateArgs;
 use super::section::SectionArgs;
 use camera::NamedView;
+use projection::PrincipalView;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use model::import::ImportOptions;
 use pipeline::scene::file::{
-    BackgroundFile, CameraChoice, CameraFile, DEFAULT_PADDING, OverlayFile, PrincipalFile,
+    BackgroundFile, CameraChoice, CameraFile, Color, DEFAULT_PADDING, OverlayFile,
     ProjectionFile, SceneFile, StyleFile, ViewFile,
 };
 
@@ -43,7 +44,7 @@ pub(crate) struct SceneOverrideArgs {
     pub(crate) section: SectionArgs,
     /// What is seen where no model is: transparent, or a colour such as #f4f1ea
     #[arg(long, value_name = "COLOR", value_parser = parse_background)]
-    pub(crate) background: Option<String>,
+    pub(crate) background: Option<BackgroundFile>,
     /// Coverage samples per pixel: 1, 4, 8 or 16
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     pub(crate) samples: Option<u32>,
@@ -69,12 +70,10 @@ impl SceneOverrideArgs {
             file.image.samples = samples;
         }
         if let Some(anisotropy) = self.anisotropy {
-            file.image.anisotropy = anisotropy;
+            file.image.max_anisotropy = anisotropy;
         }
-        if let Some(text) = &self.background {
-            let transparent = text.eq_ignore_ascii_case("transparent");
-            let color = BackgroundFile::Color(text.clone());
-            file.image.background = if transparent { BackgroundFile::Transparent } else { color };
+        if let Some(background) = &self.background {
+            file.image.background.clone_from(background);
         }
         if let Some(style) = self.style {
             file.style = style.into();
@@ -141,7 +140,7 @@ impl From<ProjectionArg> for ProjectionFile {
         match projection {
             ProjectionArg::Perspective => Self::PERSPECTIVE,
             ProjectionArg::Orthographic => Self::ORTHOGRAPHIC,
-            ProjectionArg::Multiview => Self::Multiview(PrincipalFile::Front),
+            ProjectionArg::Multiview => Self::Multiview(PrincipalView::Front),
             ProjectionArg::Isometric => Self::Isometric,
             ProjectionArg::Dimetric => Self::Dimetric,
             ProjectionArg::Trimetric => Self::Trimetric,
@@ -182,13 +181,12 @@ fn parse_factor(text: &str) -> Result<f64, String> {
 }
 
 /// `transparent`, or a colour.
-fn parse_background(text: &str) -> Result<String, String> {
-    let digits = text.strip_prefix('#').unwrap_or("");
-    let is_color = matches!(digits.len(), 3 | 6) && digits.chars().all(|c| c.is_ascii_hexdigit());
-    if is_color || text.eq_ignore_ascii_case("transparent") {
-        return Ok(text.to_owned());
+fn parse_background(text: &str) -> Result<BackgroundFile, String> {
+    if text.eq_ignore_ascii_case("transparent") {
+        return Ok(BackgroundFile::Transparent);
     }
-    Err("expected transparent, or a colour such as #fff or #f4f1ea".to_owned())
+    let color = Color::parse(text).map(BackgroundFile::Color);
+    color.ok_or_else(|| "expected transparent, or a color such as #f4f1ea or white".to_owned())
 }
 
 fn parse_samples(text: &str) -> Result<u32, String> {

@@ -8,10 +8,12 @@ use super::progress::Progress;
 use super::render::{open_input, print_warnings, thread_count};
 use super::section::SectionArgs;
 use clap::ValueEnum;
+use drawing::HiddenLines;
+use projection::SheetAngle;
 use drawing::Page;
 use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::{
-    AngleFile, AxonometricFile, HiddenFile, OrientationFile, PaperFile, SheetFile, UnitFile,
+    AxonometricView, ModelUnit, PageOrientation, PaperSize, SheetFile,
 };
 use pipeline::{Picture, Scene};
 use std::path::PathBuf;
@@ -173,9 +175,9 @@ pub(super) fn rasterize_page(page: &Page) -> Result<Picture, CliError> {
 fn apply_overrides(sheet: &mut SheetFile, args: &SheetArgs) {
     args.paper.into_iter().for_each(|paper| sheet.paper = paper.into());
     args.orientation.into_iter().for_each(|way| sheet.orientation = Some(way.into()));
-    args.angle.into_iter().for_each(|angle| sheet.angle = angle.into());
+    args.angle.into_iter().for_each(|angle| sheet.projection_angle = angle.into());
     args.unit.into_iter().for_each(|unit| sheet.unit = unit.into());
-    args.axonometric.into_iter().for_each(|view| sheet.axonometric = view.into());
+    args.axonometric.into_iter().for_each(|view| sheet.axonometric_view = view.into());
     args.hidden.into_iter().for_each(|hidden| sheet.hidden = hidden.into());
     sheet.scale = args.scale.or(sheet.scale);
     sheet.dimensions &= !args.no_dimensions;
@@ -197,7 +199,7 @@ fn parse_scale(text: &str) -> Result<(u32, u32), String> {
     Ok((number(paper)?, number(thing)?))
 }
 
-impl From<PaperArg> for PaperFile {
+impl From<PaperArg> for PaperSize {
     fn from(arg: PaperArg) -> Self {
         match arg {
             PaperArg::A0 => Self::A0,
@@ -212,7 +214,7 @@ impl From<PaperArg> for PaperFile {
     }
 }
 
-impl From<OrientationArg> for OrientationFile {
+impl From<OrientationArg> for PageOrientation {
     fn from(arg: OrientationArg) -> Self {
         match arg {
             OrientationArg::Portrait => Self::Portrait,
@@ -221,7 +223,7 @@ impl From<OrientationArg> for OrientationFile {
     }
 }
 
-impl From<AngleArg> for AngleFile {
+impl From<AngleArg> for SheetAngle {
     fn from(arg: AngleArg) -> Self {
         match arg {
             AngleArg::First => Self::First,
@@ -230,19 +232,19 @@ impl From<AngleArg> for AngleFile {
     }
 }
 
-impl From<UnitArg> for UnitFile {
+impl From<UnitArg> for ModelUnit {
     fn from(arg: UnitArg) -> Self {
         match arg {
-            UnitArg::M => Self::Metre,
-            UnitArg::Cm => Self::Centimetre,
-            UnitArg::Mm => Self::Millimetre,
+            UnitArg::M => Self::Meter,
+            UnitArg::Cm => Self::Centimeter,
+            UnitArg::Mm => Self::Millimeter,
             UnitArg::In => Self::Inch,
             UnitArg::Ft => Self::Foot,
         }
     }
 }
 
-impl From<AxonometricArg> for AxonometricFile {
+impl From<AxonometricArg> for AxonometricView {
     fn from(arg: AxonometricArg) -> Self {
         match arg {
             AxonometricArg::None => Self::None,
@@ -254,7 +256,7 @@ impl From<AxonometricArg> for AxonometricFile {
     }
 }
 
-impl From<HiddenArg> for HiddenFile {
+impl From<HiddenArg> for HiddenLines {
     fn from(arg: HiddenArg) -> Self {
         match arg {
             HiddenArg::Removed => Self::Removed,
