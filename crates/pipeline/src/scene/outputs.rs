@@ -36,14 +36,14 @@ impl Outputs {
 
 #[cfg(test)]
 mod tests {
-    use super::super::parse_scene;
+    use super::super::{SceneErrors, parse_scene};
     use super::*;
 
-    fn outputs(text: &str) -> Result<Outputs, SceneError> {
+    fn outputs(text: &str) -> Result<Outputs, SceneErrors> {
         let text = format!("Scene(models: [(path: \"a.glb\")],\n  {text})");
         let file = parse_scene("scene.ron", &text)?;
         let origin = Origin::from_text("scene.ron", text, ".".into());
-        Outputs::from_scene_file(&origin, &file)
+        Ok(Outputs::from_scene_file(&origin, &file)?)
     }
 
     #[test]
@@ -58,9 +58,9 @@ mod tests {
     #[test]
     fn mistakes_are_pointed_at() {
         let error = outputs("image: Image(bits: 10)").expect_err("ten bits");
-        assert_eq!(error.line_and_column(), (2, 22));
-        assert_eq!(error.message, "a channel cannot have 10 bits");
+        assert_eq!(error.first().line_and_column(), (2, 22));
+        assert_eq!(error.first().message, "a channel cannot have 10 bits");
         let error = outputs("passes: (write: [Depht])").expect_err("no such pass");
-        assert_eq!(error.help.as_deref(), Some("did you mean `Depth`?"));
+        assert_eq!(error.first().help.as_deref(), Some("did you mean `Depth`?"));
     }
 }

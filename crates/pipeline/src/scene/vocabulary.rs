@@ -60,9 +60,13 @@ pub(super) fn suggest_field(
     let similar = same_spelling.or_else(|| closest_name(word, siblings));
     let is_very_similar = similar.is_some_and(|name| strsim::jaro_winkler(word, name) > 0.9);
     if !is_very_similar && same_spelling.is_none() {
-        // A field of this very name goes before what the word means in other programs, unless that is nearer.
-        let meant = example_elsewhere(&targets, top_level);
-        let is_near = meant.as_ref().is_some_and(|example| is_in_field(example, top_level));
+        // A field of this very name goes before what the word means in other programs, unless that is nearer or in the tables.
+        let same_name = targets.iter().filter(|(_, name)| normalize(name) == normalize(word));
+        let same_name: Vec<Target> = same_name.copied().collect();
+        let meant = example_elsewhere(&same_name, top_level)
+            .or_else(|| example_elsewhere(&targets, top_level));
+        let is_near = !same_name.is_empty()
+            || meant.as_ref().is_some_and(|example| is_in_field(example, top_level));
         let declared = || nearest_example(&declared_elsewhere(word), top_level);
         let elsewhere = if is_near { meant } else { declared().or(meant) };
         if let Some(example) = elsewhere {
