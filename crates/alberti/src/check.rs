@@ -89,7 +89,7 @@ fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, Cli
     };
     let (origin, file) = match Origin::read_scene_allowing(input, &options.allow_outside) {
         Err(ResolveError::Scene(mistake)) => {
-            return Ok(found(vec![mistake], Vec::new(), Vec::new()));
+            return Ok(found(mistake.into(), Vec::new(), Vec::new()));
         }
         read => read?,
     };
@@ -100,7 +100,7 @@ fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, Cli
         // Whatever `render` would reject is an error, even if the review does not look for it.
         match Scene::resolve(&origin, &file, &resolve) {
             Ok(scene) => advice = lint_scene(&origin, &file, &scene),
-            Err(ResolveError::Scene(mistake)) => mistakes.push(mistake),
+            Err(ResolveError::Scene(mistake)) => mistakes.extend(Vec::from(mistake)),
             // Errors of models are in the reports of the models.
             Err(_) => {}
         }

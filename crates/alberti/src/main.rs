@@ -22,6 +22,7 @@ mod manual;
 mod matrix;
 mod messages;
 mod model_state;
+mod options;
 mod page_output;
 mod panel_subject;
 mod passes;

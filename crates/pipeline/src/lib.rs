@@ -46,7 +46,8 @@ pub use render::{
     BandedRenderer, MAX_IMAGE_SIDE, RenderError, Renderer, Textures, WritePngError, draw_lines,
     render, render_reported, render_timed,
 };
-pub use scene::{Origin, ResolveError, Scene, SceneError, SceneFile};
+pub use scene::options;
+pub use scene::{Origin, ResolveError, Scene, SceneError, SceneErrors, SceneFile};
 pub use shade::{self, AtomicFile, Channel, OutputError, Picture, PngRows, encode_png, write_file};
 
 #[cfg(test)]
