@@ -269,7 +269,7 @@ fn a_sheet_is_described_by_the_scene_and_flags_go_before_it() {
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     sandbox.write_file(
         "scene.ron",
-        "Scene(models: [(path: \"box.gltf\")], sheet: (paper: A4, orientation: Landscape, angle: Third,
+        "Scene(models: [(path: \"box.gltf\")], sheet: (paper: A4, orientation: Landscape, projection_angle: Third,
          scale: (1, 2), title: \"A <box> & more\", author: \"Zoë\"))",
     );
     assert_succeeds(&sandbox, &["sheet", "scene.ron", "-o", "out.svg"]);

@@ -3,13 +3,14 @@
 //! A raster image is rendered and encoded band by band, so that its size is not bounded by memory.
 //! Every file is written under a temporary name and renamed once all are complete.
 
+use super::CliError;
 use super::args::RenderArgs;
 use super::compare::PictureComparison;
 use super::format::OutputFormat;
+use super::messages::{print_note, print_stdout};
 use super::passes::create_pass_files;
 use super::progress::Progress;
 use super::render::tasks::RenderTask;
-use super::{CliError, print_stdout};
 use drawing::Warning;
 use homog::PixelRect;
 use pipeline::render::{render_passes, rows_per_band};
@@ -57,8 +58,7 @@ impl RenderOutput {
     pub(super) fn matches_reference(&self, silent: bool) -> bool {
         let Some(comparison) = &self.comparison else { return true };
         if !silent {
-            // A closed stream is not an error.
-            let _ = writeln!(std::io::stderr(), "{comparison}");
+            print_note(&comparison.to_string());
         }
         comparison.agrees()
     }

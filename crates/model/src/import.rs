@@ -10,7 +10,6 @@
 //!
 //! The modules here serve every format; `gltf` reads glTF 2.0.
 
-mod check;
 mod error;
 pub(crate) mod gltf;
 pub(crate) mod image_decoder;
@@ -22,7 +21,7 @@ mod parallel_decoding;
 pub(crate) mod uri_resolver;
 mod warnings;
 
-pub use check::{CheckReport, check_bytes, check_file};
+pub use crate::check::{CheckReport, check_bytes, check_file};
 pub use error::ImportError;
 pub use gltf::{ExtensionUse, extension_use};
 pub use image_decoder::decode_bounded as decode_image;

@@ -6,6 +6,7 @@
 
 mod animation;
 mod camera;
+mod check;
 mod diagnostic;
 pub mod import;
 mod light;
@@ -23,6 +24,7 @@ pub use animation::{
     ObjectProperty,
 };
 pub use camera::{CameraProjection, ModelCamera};
+pub use check::{CheckReport, check_bytes, check_file};
 pub use diagnostic::{Diagnostic, Severity, codes};
 pub use import::{ImportError, ImportOptions, Limits, load, load_bytes};
 pub use light::{LightKind, PunctualLight};

@@ -6,6 +6,7 @@
 mod backdrop;
 mod camera_path;
 mod classical;
+mod color;
 pub(crate) mod depth_span;
 mod error;
 pub mod file;
@@ -18,27 +19,31 @@ mod instances;
 mod lights;
 mod lints;
 mod material_overrides;
-mod messages;
+mod mistake;
 #[cfg(test)]
 mod mistakes;
 mod number;
+pub mod options;
 mod origin;
 mod outputs;
 mod parse;
 pub mod reference;
 mod resolve;
+mod schema;
 mod section;
 mod shadows;
 mod sheet;
-mod source_span;
 mod style;
+mod suggest;
 mod surrounding_light;
+mod syntax;
 mod validate;
 mod view_projection;
+mod vocabulary;
 
 pub use camera_path::CameraPath;
 pub(crate) use depth_span::DepthSpan;
-pub use error::SceneError;
+pub use error::{SceneError, SceneErrors};
 pub use file::SceneFile;
 pub use format::format_source;
 pub use ground::Ground;
@@ -199,7 +204,7 @@ impl ImageSpec {
 pub enum ResolveError {
     /// The scene file says something that makes no sense.
     #[error(transparent)]
-    Scene(#[from] SceneError),
+    Scene(#[from] SceneErrors),
     /// A model cannot be loaded.
     #[error(transparent)]
     Model(#[from] ImportError),
@@ -211,4 +216,20 @@ pub enum ResolveError {
         /// Why it could not be read.
         cause: std::io::Error,
     },
+}
+
+impl From<SceneError> for ResolveError {
+    fn from(error: SceneError) -> Self {
+        Self::Scene(error.into())
+    }
+}
+
+impl ResolveError {
+    /// For a mistake of the scene, all mistakes that `find` finds instead of the first one alone.
+    fn or_all(self, find: impl FnOnce() -> Vec<SceneError>) -> Self {
+        match self {
+            Self::Scene(first) => Self::Scene(SceneErrors::from_list(find()).unwrap_or(first)),
+            other => other,
+        }
+    }
 }

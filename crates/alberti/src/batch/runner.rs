@@ -5,9 +5,7 @@ use super::report::{BatchReport, DONE, DONE_BEFORE, FAILED, JobRecord};
 use super::{BatchArgs, key::content_key};
 use crate::CliError;
 use crate::progress::ProgressCounter;
-use crate::render::open_input;
-use pipeline::scene::ResolveOptions;
-use pipeline::{Picture, RenderContext, Renderer, Scene, Textures};
+use pipeline::{Picture, RenderContext, Renderer, Textures};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -114,14 +112,7 @@ impl BatchRun<'_> {
         output: &Path,
         renderer: &mut Renderer,
     ) -> Result<Vec<String>, CliError> {
-        let (origin, mut file) =
-            open_input(input, &self.args.overrides.import_options(&self.args.load_options))?;
-        self.args.overrides.apply_to(&mut file);
-        let scene = Scene::resolve(
-            &origin,
-            &file,
-            &ResolveOptions { import: self.args.overrides.import_options(&self.args.load_options) },
-        )?;
+        let (_, _, scene) = self.args.overrides.open_scene(input, &self.args.load_options)?;
         let textures = Textures::for_scene(&scene);
         let mut picture = Picture::<u8>::default();
         let drawing = renderer.render(&RenderContext::new(&scene, &textures, 1), &mut picture)?;
@@ -134,7 +125,7 @@ impl BatchRun<'_> {
         }
         pipeline::write_file(output, &png)?;
         let warnings = scene.models.iter().flat_map(|placed| &placed.model.warnings);
-        let warnings = warnings.map(|warning| format!("{}: {}", warning.location, warning.message));
+        let warnings = warnings.map(model::Diagnostic::sentence);
         Ok(warnings.chain(drawing.iter().map(ToString::to_string)).collect())
     }
 }

@@ -4,7 +4,7 @@ use super::file::{
     CameraFile, CameraKeyFile, CurveFile, FieldOfView, ProjectionFile, SceneFile, ViewFile,
 };
 use super::number::Triple;
-use super::source_span::PathStep::{self, Field, Index};
+use super::syntax::PathStep::{self, Field, Index};
 use super::view_projection::resolve_view_projection;
 use super::{ImageSpec, Origin, SceneError};
 use camera::ViewProjection;
@@ -53,7 +53,7 @@ impl CameraPath {
             }
         }
         let usual = match &file.camera.projection {
-            None => Some(FieldOfView::USUAL),
+            None => Some(FieldOfView::DEFAULT),
             Some(ProjectionFile::Perspective { fov_y_degrees, .. }) => Some(*fov_y_degrees),
             Some(_) => None,
         };

@@ -4,9 +4,9 @@
 //! the box's depths the near and far planes. Those that are given by vanishing points on the picture fix how the eye looks and where
 //! the window is beside its line of sight; framing finds where the eye stands.
 
-use super::SceneError;
-use super::file::{Finite, FromFile, PrincipalFile, ProjectionFile};
-use super::view_projection::CameraResolver;
+use super::file::{Finite, FromFile, ProjectionFile};
+use super::view_projection::{CameraResolver, PROJECTION_PATH, VIEW_PATH};
+use super::{Origin, SceneError};
 use camera::ViewProjection;
 use camera::{Basis, Camera, Slopes, frame_perspective};
 use glam::DVec3;
@@ -48,9 +48,7 @@ impl CameraResolver<'_> {
         projection: &ProjectionFile,
     ) -> Result<ViewProjection, SceneError> {
         if vanishing_point_construction(projection).is_some() {
-            let help = "take Frame(from: …), or leave the view out".to_owned();
-            let message = "a perspective by vanishing points finds its own eye";
-            return Err(self.view_error(message, Some(help)));
+            return Err(own_eye_error(self.origin));
         }
         self.frame_on_picture_plane(camera, projection, 0.05)
     }
@@ -115,6 +113,32 @@ impl CameraResolver<'_> {
     }
 }
 
+/// The mistake in the numbers of a classical projection, if there is one. Those by vanishing points find their own eye: they need a
+/// view that is framed.
+pub(super) fn check_classical_projection(
+    origin: &Origin,
+    projection: Option<&ProjectionFile>,
+    is_framed: bool,
+) -> Option<SceneError> {
+    let projection = projection.filter(|projection| projection.is_classical())?;
+    let construction = vanishing_point_construction(projection);
+    if construction.is_some() && !is_framed {
+        return Some(own_eye_error(origin));
+    }
+    let error = match construction {
+        Some(construction) => construction.err()?,
+        None => picture_plane_projection(projection, 1.0).err()?,
+    };
+    Some(origin.error_at(&PROJECTION_PATH, error.to_string(), None))
+}
+
+/// A perspective by vanishing points before a camera whose position is given.
+fn own_eye_error(origin: &Origin) -> SceneError {
+    let help = "take Frame(from: …), or leave the view out".to_owned();
+    let message = "a perspective by vanishing points finds its own eye";
+    origin.error_at(&VIEW_PATH, message, Some(help))
+}
+
 /// The construction, for the projections that are given by vanishing points.
 fn vanishing_point_construction(
     projection: &ProjectionFile,
@@ -153,14 +177,14 @@ fn picture_plane_projection(
         ProjectionFile::Oblique { length, angle_degrees } => {
             Oblique::new(length.value(), phi(angle_degrees))?.into()
         }
-        ProjectionFile::Military { turn_degrees, height } => {
-            Planometric::new(turn_degrees.value().to_radians(), height.value())?.into()
+        ProjectionFile::Military { rotation_degrees, height } => {
+            Planometric::new(rotation_degrees.value().to_radians(), height.value())?.into()
         }
         ProjectionFile::NPoint { p, q, r } => {
             let [p, q, r] = [p, q, r].map(|entry| entry.value() / radius);
             NPoint::new(p, q, r)?.into()
         }
-        ProjectionFile::Multiview(view) => principal_view(view).into(),
+        ProjectionFile::Multiview(view) => view.into(),
         _ => PrincipalView::Front.into(),
     })
 }
@@ -168,17 +192,6 @@ fn picture_plane_projection(
 /// From (2, 3, 6), as the camera of that name sees.
 fn default_trimetric() -> Result<Axonometric, ProjectionError> {
     Axonometric::by_normal(homog::Normal::new(2.0, 3.0, 6.0))
-}
-
-fn principal_view(file: PrincipalFile) -> PrincipalView {
-    match file {
-        PrincipalFile::Front => PrincipalView::Front,
-        PrincipalFile::Back => PrincipalView::Back,
-        PrincipalFile::Left => PrincipalView::Left,
-        PrincipalFile::Right => PrincipalView::Right,
-        PrincipalFile::Top => PrincipalView::Top,
-        PrincipalFile::Bottom => PrincipalView::Bottom,
-    }
 }
 
 /// The greatest distance of a point from the camera; 1 if there is none.

@@ -9,7 +9,7 @@
 
 use super::file::{ImageFile, SceneFile, StereoFile, ViewportFile};
 use super::number::Positive;
-use super::source_span::PathStep::{Field, Index};
+use super::syntax::PathStep::{Field, Index};
 use super::{Origin, ResolveError, Scene, SceneError};
 use camera::ViewProjection;
 use drawing::Ink;
@@ -18,7 +18,6 @@ use homog::PixelRect;
 use homog::{Bounds, Point, Projective};
 use model::ModelInstance;
 use model::world_points;
-use shade::color::parse_hex_srgb;
 use std::path::PathBuf;
 
 /// More viewports than this are a slip.
@@ -85,7 +84,8 @@ fn scene_in_viewport(file: &SceneFile, viewport: &ViewportFile, size: (u32, u32)
     }
 }
 
-fn resolve_viewport_rect(
+/// The pixels of a viewport.
+pub(super) fn resolve_viewport_rect(
     origin: &Origin,
     number: usize,
     viewport: &ViewportFile,
@@ -94,7 +94,7 @@ fn resolve_viewport_rect(
     let place = |field: &'static str| [Field("viewports"), Index(number), Field(field)];
     let (region, field) = match (viewport.at, viewport.pixels) {
         (Some((x, y, w, h)), None) => {
-            let [x, y, w, h] = [x, y, w, h].map(super::number::Share::value);
+            let [x, y, w, h] = [x, y, w, h].map(super::number::Fraction::value);
             // Rounded border by border, so that neighbours meet.
             let run = |from: f64, length: f64, side: u32| {
                 let end = libm::round((from + length) * f64::from(side));
@@ -131,7 +131,8 @@ fn resolve_viewport_rect(
     Err(origin.error_at(&place(field), message, Some(help).filter(|_| field == "at")))
 }
 
-fn resolve_border(
+/// The color and the width of a viewport's border.
+pub(super) fn resolve_border(
     origin: &Origin,
     number: usize,
     viewport: &ViewportFile,
@@ -143,11 +144,7 @@ fn resolve_border(
         let help = Some(format!("from 1 to {MAX_BORDER_WIDTH} are possible"));
         return Err(origin.error_at(&place("width"), message, help));
     }
-    let ink = parse_hex_srgb(&border.color).ok_or_else(|| {
-        let help = Some("write #rgb or #rrggbb, such as #1a1f26".to_owned());
-        origin.error_at(&place("color"), format!("`{}` is no colour", border.color), help)
-    })?;
-    Ok(Some((ink, border.width)))
+    Ok(Some((border.color.0, border.width)))
 }
 
 /// What the left and the right eye see.

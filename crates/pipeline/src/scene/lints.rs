@@ -7,7 +7,7 @@ mod depth;
 mod visibility_survey;
 
 use super::file::{ProjectionFile, ViewFile};
-use super::source_span::PathStep::{Field, Index};
+use super::syntax::PathStep::{Field, Index};
 use super::view_projection::select_lens;
 use super::{Origin, Scene, SceneError, SceneFile, Style};
 use clip::PlaneIndex;
@@ -144,7 +144,7 @@ impl Linter<'_> {
             return None;
         }
         let message = "there is no light: surfaces will be black";
-        let help = "leave `lights` out, or add one: lights: [Sun(direction: (-1, -2, -1), lux: 3), Ambient(lux: 1)]";
+        let help = "leave `lights` out, or add one: lights: [Directional(direction: (-1, -2, -1), intensity: 3), Ambient(intensity: 1)]";
         let fault = self.origin.error_at(&[Field("lights")], message, Some(help.to_owned()));
         Some(Lint { code: "no-light", error: fault })
     }

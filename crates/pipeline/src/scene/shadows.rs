@@ -1,7 +1,7 @@
 //! What the shadows of a scene file mean.
 
 use super::file::ShadowsFile;
-use super::source_span::PathStep::{self, Field};
+use super::syntax::PathStep::{self, Field};
 use super::{Origin, SceneError};
 use shade::Shadow;
 

@@ -2,7 +2,7 @@
 
 use super::file::{EnvironmentFile, Finite, SceneFile};
 use super::hdr::Panorama;
-use super::source_span::PathStep::{self, Field};
+use super::syntax::PathStep::{self, Field};
 use super::{Origin, SceneError};
 use model::ModelInstance;
 use shade::{Environment, PreethamSky, studio_radiance};
@@ -60,8 +60,8 @@ pub(super) fn resolve_environment(
     let degrees = |angle: Option<Finite>| angle.map_or(0.0, Finite::value);
     Ok(Some(match &environment {
         EnvironmentFile::Dark => return Ok(None),
-        EnvironmentFile::Studio { strength, rotate_degrees } => {
-            let turn = EnvironmentRotation::new(strength.value(), degrees(*rotate_degrees));
+        EnvironmentFile::Studio { strength, rotation_degrees } => {
+            let turn = EnvironmentRotation::new(strength.value(), degrees(*rotation_degrees));
             cached_environment(turn.cache_key(0, 0), || {
                 Environment::from_radiance(|way| turn.rotated_radiance(way, studio_radiance))
             })
@@ -87,12 +87,12 @@ pub(super) fn resolve_environment(
                 Environment::from_radiance(|_| light)
             })
         }
-        EnvironmentFile::File { path, strength, rotate_degrees } => {
+        EnvironmentFile::File { path, strength, rotation_degrees } => {
             let at = [Field("environment"), Field("path")];
             let bytes = read_image_bytes(origin, &at, path, allowed)?;
             let panorama = Panorama::decode_hdr(&bytes)
                 .map_err(|problem| environment_error(origin, format!("{path}: {problem}"), None))?;
-            let turn = EnvironmentRotation::new(strength.value(), degrees(*rotate_degrees));
+            let turn = EnvironmentRotation::new(strength.value(), degrees(*rotation_degrees));
             cached_environment(turn.cache_key(3, fnv1a_hash(&bytes)), || {
                 Environment::from_radiance(|way| {
                     turn.rotated_radiance(way, |way| panorama.sample_direction(way))

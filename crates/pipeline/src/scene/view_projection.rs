@@ -1,9 +1,10 @@
 //! Camera and projection of a scene: given, framed, or taken from the model.
 
+use super::classical::check_classical_projection;
 use super::depth_span::DepthSpan;
 use super::file::{CameraChoice, CameraFile, FromFile, ProjectionFile, ViewFile};
-use super::messages::suggest_name;
-use super::source_span::PathStep::{self, Field};
+use super::suggest::suggest_name;
+use super::syntax::PathStep::{self, Field};
 use super::{ImageSpec, Origin, SceneError};
 use camera::ViewProjection;
 use camera::{Basis, Camera, NamedView, Slopes, frame_parallel, frame_perspective};
@@ -13,13 +14,12 @@ use model::world_points;
 use model::{CameraProjection, MeshInstance, ModelCamera};
 use projection::{Convention, Fov, Frustum, Orthographic, Perspective, ProjectionError};
 
-const VIEW_FIELD: PathStep<'static> = Field("view");
-const CAMERA_FIELD: PathStep<'static> = Field("camera");
-const PROJECTION_PATH: [PathStep<'static>; 2] = [CAMERA_FIELD, Field("projection")];
+pub(super) const VIEW_PATH: [PathStep<'static>; 2] = [Field("camera"), Field("view")];
+pub(super) const PROJECTION_PATH: [PathStep<'static>; 2] = [Field("camera"), Field("projection")];
 
 /// Everything that camera and projection are resolved from.
 pub(super) struct CameraResolver<'a> {
-    origin: &'a Origin,
+    pub(super) origin: &'a Origin,
     models: &'a [ModelInstance],
     pub(super) points: Vec<Point<World>>,
     pub(super) aspect: f64,
@@ -55,6 +55,45 @@ pub(super) fn resolve_view_projection(
     }
 }
 
+/// The mistakes of a camera that can be found without the models: a direction that is none, planes in the wrong order.
+pub(super) fn check_camera(origin: &Origin, file: &CameraFile) -> Vec<SceneError> {
+    let camera = match &file.view {
+        ViewFile::LookAt { eye, target, up } => {
+            Camera::look_at(eye.0.into(), target.0.into(), up.0.into()).map(drop)
+        }
+        ViewFile::LookTo { eye, gaze, up } => {
+            Camera::look_to(eye.0.into(), gaze.0.into(), up.0.into()).map(drop)
+        }
+        ViewFile::Frame { .. } | ViewFile::FromModel(_) => Ok(()),
+    };
+    let view_error = camera.err().map(|error| origin.error_at(&VIEW_PATH, error.to_string(), None));
+    let is_framed = matches!(file.view, ViewFile::Frame { .. });
+    let projection_error = match file.projection.as_ref().and_then(check_planes) {
+        Some(error) => Some(origin.error_at(&PROJECTION_PATH, error.to_string(), None)),
+        None => check_classical_projection(origin, file.projection.as_ref(), is_framed),
+    };
+    view_error.into_iter().chain(projection_error).collect()
+}
+
+/// What is wrong with the planes of a projection that gives them all.
+fn check_planes(projection: &ProjectionFile) -> Option<ProjectionError> {
+    match *projection {
+        ProjectionFile::Perspective { fov_y_degrees, near: Some(near), far: Some(far) } => {
+            let fov = Fov::Vertical(fov_y_degrees.value().to_radians());
+            Perspective::new(fov, 1.0, near.value(), far.value()).err()
+        }
+        ProjectionFile::Orthographic { near: Some(near), far: Some(far), .. } => {
+            Orthographic::new(-1.0, 1.0, -1.0, 1.0, near.value(), far.value()).err()
+        }
+        ProjectionFile::Frustum { left, right, bottom, top, near, far } => {
+            let far = far.map_or(2.0 * near.value(), super::number::Positive::value);
+            let [l, r, b, t] = [left, right, bottom, top].map(super::number::Finite::value);
+            Frustum::new(l, r, b, t, near.value(), far).err()
+        }
+        _ => None,
+    }
+}
+
 /// The lens of the camera that is chosen; `None` if there is no such camera.
 pub(super) fn select_lens<'a>(
     origin: &'a Origin,
@@ -75,7 +114,7 @@ impl<'a> CameraResolver<'a> {
         message: impl Into<String>,
         help: Option<String>,
     ) -> SceneError {
-        self.origin.error_at(&[CAMERA_FIELD, VIEW_FIELD], message, help)
+        self.origin.error_at(&VIEW_PATH, message, help)
     }
 
     pub(super) fn projection_error(&self, error: &ProjectionError) -> SceneError {
@@ -304,6 +343,6 @@ impl<'a> CameraResolver<'a> {
         } else {
             (format!("the models have no camera `{wanted}`"), suggest_name(&wanted, names))
         };
-        self.origin.error_at(&[CAMERA_FIELD, VIEW_FIELD], message, help)
+        self.origin.error_at(&VIEW_PATH, message, help)
     }
 }

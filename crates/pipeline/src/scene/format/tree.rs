@@ -1,6 +1,6 @@
 //! Tokens put together: brackets with their items, each with its comment.
 
-use super::tokens::{Token, TokenKind};
+use crate::scene::syntax::{Token, TokenKind};
 
 /// An element, a comment, or an element with a comment behind it on its line.
 #[derive(Debug, Default)]
@@ -61,11 +61,11 @@ impl<'a> ItemReader<'a> {
             match token.kind {
                 TokenKind::Close => return items,
                 TokenKind::Comma => self.at += 1,
-                TokenKind::Line => {
+                TokenKind::LineComment => {
                     self.at += 1;
                     self.attach_comment(&mut items, token);
                 }
-                TokenKind::Block if self.ends_its_line() => {
+                TokenKind::BlockComment if self.ends_its_line() => {
                     self.at += 1;
                     self.attach_comment(&mut items, token);
                 }
@@ -114,10 +114,10 @@ impl<'a> ItemReader<'a> {
             match token.kind {
                 TokenKind::Comma | TokenKind::Close => break,
                 // Behind the element, before its comma or instead of it.
-                TokenKind::Line if self.is_element_end() => break,
-                TokenKind::Line => comments.push(token.text),
+                TokenKind::LineComment if self.is_element_end() => break,
+                TokenKind::LineComment => comments.push(token.text),
                 TokenKind::Colon => text.push_str(": "),
-                TokenKind::Word | TokenKind::Block => {
+                TokenKind::Word | TokenKind::BlockComment => {
                     let glued = text.is_empty() || text.ends_with(' ');
                     text.push_str(if glued { "" } else { " " });
                     text.push_str(token.text);
@@ -139,7 +139,7 @@ impl<'a> ItemReader<'a> {
 
     /// Whether the line comments from here on are followed by the end of the element.
     fn is_element_end(&self) -> bool {
-        let rest = self.tokens[self.at..].iter().find(|token| token.kind != TokenKind::Line);
+        let rest = self.tokens[self.at..].iter().find(|token| token.kind != TokenKind::LineComment);
         rest.is_none_or(|token| matches!(token.kind, TokenKind::Comma | TokenKind::Close))
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Lint, Linter};
 use crate::scene::file::{ProjectionFile, ViewFile};
-use crate::scene::source_span::PathStep::{Field, Index};
+use crate::scene::syntax::PathStep::{Field, Index};
 
 /// A near plane is wasteful if what is nearest is so many times farther away.
 const WASTEFUL_DEPTH_RATIO: f64 = 100.0;
@@ -60,10 +60,7 @@ fn near_distance(adviser: &Linter<'_>) -> Option<f64> {
 }
 
 /// Where the plane is written, or the camera that brings it.
-fn plane_path<'a>(
-    adviser: &Linter<'_>,
-    plane: &'a str,
-) -> Vec<crate::scene::source_span::PathStep<'a>> {
+fn plane_path<'a>(adviser: &Linter<'_>, plane: &'a str) -> Vec<crate::scene::syntax::PathStep<'a>> {
     let given = matches!(
         adviser.file.camera.projection,
         Some(

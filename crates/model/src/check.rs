@@ -11,7 +11,7 @@
 //!
 //! It works on the raw JSON, in which members may be missing or of any type. The rules are those of
 //! glTF 2.0, under the codes and severities of the Khronos glTF validator. The
-//! [limits](super::Limits) hold as for loading: time and memory are bounded by the size of the
+//! [limits](crate::Limits) hold as for loading: time and memory are bounded by the size of the
 //! files, not by the sizes they declare.
 
 mod accessors;
@@ -40,11 +40,11 @@ mod usage;
 
 pub use report::CheckReport;
 
-use super::ImportOptions;
-use super::gltf::document::check_json_limits;
-use super::gltf::import_gltf;
-use super::uri_resolver::{self, UriResolver};
 use crate::diagnostic::Diagnostic;
+use crate::import::ImportOptions;
+use crate::import::gltf::document::check_json_limits;
+use crate::import::gltf::import_gltf;
+use crate::import::uri_resolver::{self, UriResolver};
 use data::ElementRules;
 use diagnostics::Diagnostics;
 use document::CheckedDocument;
@@ -58,7 +58,7 @@ use usage::UsageMap;
 /// There is always a report: a file that cannot be read is an error in it.
 ///
 /// ```no_run
-/// use model::import::{ImportOptions, check_file};
+/// use model::{ImportOptions, check_file};
 /// let report = check_file("chair.glb".as_ref(), &ImportOptions::default());
 /// for diagnostic in &report.diagnostics {
 ///     println!("{diagnostic}");
@@ -80,7 +80,7 @@ pub fn check_file(path: &Path, options: &ImportOptions) -> CheckReport {
 
 /// Validates a file in memory; `name` stands for its path in the report.
 ///
-/// As for [`load_bytes`](super::load_bytes), other files are read only with a
+/// As for [`load_bytes`](crate::load_bytes), other files are read only with a
 /// [root](ImportOptions::root).
 #[must_use]
 pub fn check_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> CheckReport {
