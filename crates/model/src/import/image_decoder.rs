@@ -279,8 +279,8 @@ mod tests {
         bytes
     }
 
-    /// A baseline JPEG of 8 x 8 texels, all of middle grey: every coefficient is 0, and each of the two Huffman tables has
-    /// the single code `0`, for "no difference" and for "end of block".
+    /// A baseline JPEG of 8 x 8 texels, all of middle gray: every coefficient is 0, and each of the
+    /// two Huffman tables has the single code `0`, for "no difference" and for "end of block".
     fn jpeg(components: u8) -> Vec<u8> {
         let numbers = || 1..=components;
         let mut bytes = vec![0xFF, 0xD8, 0xFF, 0xDB, 0, 67, 0];

@@ -4,10 +4,13 @@
 //! ```text
 //!  stream:  version │ block │ … │ padding │ element before the first │ channel modes (version 1)
 //!  block:   controls (version 1) │ all bytes 0 of its elements │ all bytes 1 │ …
-//!  bytes n: two bits a group │ group of 16 │ group of 16 │ …    a group has 0, 1, 2, 4 or 8 bits a
-//!                                                               difference; one of all ones is stored
-//!                                                               in a byte after the group
+//!  bytes n: two bits a group │ group of 16 │ group of 16 │ …
 //! ```
+//!
+//! A group stores its differences with 0, 1, 2, 4 or 8 bits each; one of all ones is an escape: the
+//! difference follows in a byte after the group. Version 1 adds channels of four bytes whose deltas
+//! are bytes, 16-bit words or 32-bit exclusive ors, and controls that store bytes uncompressed or
+//! not at all.
 
 use super::byte_stream::{ByteStream, StreamError};
 
@@ -232,11 +235,12 @@ mod tests {
             assert_eq!(element, [first, 21 + at as u8, 30, 40], "element {at}");
         }
         for end in 0..stream.len() {
-            assert!(decode_vertices(&stream[..end], 17, 4).is_err(), "cut at {end}");
+            let cut = decode_vertices(&stream[..end], 17, 4);
+            assert_eq!(cut, Err(StreamError::Short), "cut at {end}");
         }
-        assert!(decode_vertices(&stream, 16, 4).is_err());
+        assert_eq!(decode_vertices(&stream, 16, 4), Err(StreamError::Long(4)));
         stream.insert(20, 0);
-        assert!(decode_vertices(&stream, 17, 4).is_err());
+        assert_eq!(decode_vertices(&stream, 17, 4), Err(StreamError::Long(1)));
     }
 
     #[test]
@@ -263,7 +267,10 @@ mod tests {
         assert_eq!(elements[12..20], [103, 101, 7, 8, 0x00, 0x0F, 1, 2]);
         assert_eq!(elements[20..], two);
         for end in 0..stream.len() {
-            assert!(decode_vertices(&stream[..end], 2, 12).is_err(), "cut at {end}");
+            // The channel modes are at the end: cut elsewhere, other bytes take their part.
+            let cut = decode_vertices(&stream[..end], 2, 12).unwrap_err();
+            let is_expected = matches!(cut, StreamError::Short | StreamError::Channel(_));
+            assert!(is_expected, "cut at {end}: {cut}");
         }
         for mode in [0x03, 0x10, 0x11, 0x0F] {
             *stream.last_mut().unwrap() = mode;
