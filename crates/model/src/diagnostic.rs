@@ -2,12 +2,15 @@
 //!
 //! ```text
 //!  severity code        location                        message                   help
-//!  error[ACCESSOR_INDEX_OOB] /meshes/0/primitives/0/indices: 3 indices have no vertex; export again
+//!  error[ACCESSOR_INDEX_OOB] /meshes/0/primitives/0/indices: 3 indices lack a vertex; export again
 //! ```
 //!
 //! The importer's warnings ([`Model::warnings`](crate::Model::warnings)), the reason that a file
 //! could not be loaded ([`ImportError`](crate::ImportError)) and the list of a check are made of
 //! these. Severities and, where it has one, codes are those of the Khronos glTF validator.
+//!
+//! Locations are JSON pointers (RFC 6901): the path of keys and indices from the root of the
+//! document, with `~1` for `/` and `~0` for `~` inside of a key.
 
 use std::fmt;
 

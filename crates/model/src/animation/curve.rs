@@ -111,7 +111,8 @@ fn slerp(from: &[f64], to: &[f64], t: f64) -> Vec<f64> {
     let sign = if cosine < 0.0 { -1.0 } else { 1.0 };
     let angle = libm::acos(cosine.abs().min(1.0));
     let sine = libm::sin(angle);
-    // Where both are nearly the same the straight way is as good, and there is no division by nearly nothing.
+    // Where both are nearly the same the straight way is as good, and there is no division by
+    // nearly nothing.
     let (first, second) = if sine < 1e-6 {
         (1.0 - t, t)
     } else {

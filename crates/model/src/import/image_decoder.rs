@@ -35,6 +35,9 @@ pub(crate) struct EncodedImage<'a> {
 /// Width and height from the header alone.
 ///
 /// Refuses decompression bombs: sizes that so few bytes cannot hold.
+///
+/// # Errors
+/// A message for people: the format is not known, the header is broken, or the size is implausible.
 pub(crate) fn image_size(bytes: &[u8]) -> Result<(u32, u32), String> {
     catch_decoder_panic(|| match ImageFormat::from_magic(bytes)? {
         ImageFormat::Png => {
@@ -78,6 +81,11 @@ pub(crate) fn format_name(bytes: &[u8]) -> &'static str {
 }
 
 /// Decodes an image with at most `most` texels; the header is checked before anything is allocated.
+///
+/// ```
+/// let message = model::import::decode_image(b"GIF89a", 1 << 20).unwrap_err();
+/// assert_eq!(message, "this is a GIF image; only PNG, JPEG and WebP are read");
+/// ```
 ///
 /// # Errors
 /// A message for people: the format is not known, the data is broken, or the image is too large.

@@ -56,7 +56,8 @@ mod tests {
         // The level: place, length, length before compression, 64 bits each.
         let offset = (HEADER + DESCRIPTOR).next_multiple_of(16);
         words(&[offset, 0, 16, 0, 16, 0]);
-        // One block of descriptor: ASTC, BT.709, sRGB, straight alpha, 4 x 4 texels in 16 bytes, one sample.
+        // One block of descriptor: ASTC, BT.709, sRGB, straight alpha, 4 x 4 texels in 16 bytes,
+        // one sample.
         words(&[DESCRIPTOR, 0, 2 | 40 << 16, 162 | 1 << 8 | 2 << 16, 3 | 3 << 8, 16, 0]);
         words(&[127 << 16, 0, 0, u32::MAX]);
         bytes.resize(offset as usize, 0);

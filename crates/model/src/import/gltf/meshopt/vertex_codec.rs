@@ -42,7 +42,8 @@ pub(super) fn decode_vertices(
     };
     let block_elements =
         (8192 / stride / BYTE_GROUP_SIZE * BYTE_GROUP_SIZE).min(VERTEX_BLOCK_MAX_SIZE);
-    // Each block has a byte for each channel at least: what is far too short is known before there is an array.
+    // Each block has a byte for each channel at least: what is far too short is known before there
+    // is an array.
     if stream.len() < count.div_ceil(block_elements).saturating_mul(stride / 4) {
         return Err(StreamError::Short);
     }
@@ -222,7 +223,8 @@ mod tests {
 
     #[test]
     fn version_0_adds_up_the_deltas_of_each_byte() {
-        // Byte 0 of 17 elements is the example and one more group of zeros; byte 1 rises by 1; bytes 2 and 3 stay.
+        // Byte 0 of 17 elements is the example and one more group of zeros; byte 1 rises by 1;
+        // bytes 2 and 3 stay.
         let mut stream = vec![0xA0, 0b0010];
         stream.extend(NIBBLES);
         stream.extend([0b0101, 0xAA, 0xAA, 0xAA, 0xAA, 0x80, 0, 0, 0, 0, 0]);
@@ -247,7 +249,8 @@ mod tests {
     fn version_1_has_controls_and_three_kinds_of_delta() {
         let bits = 0x3F80_0000u32 ^ 0x4000_0000;
         let rotated = bits.rotate_left(4).to_le_bytes();
-        // Three channels of two elements: bytes by groups of one bit and literally; words; bits turned by 4.
+        // Three channels of two elements: bytes by groups of one bit and literally; words; bits
+        // turned by 4.
         let mut stream = vec![0xA1, 0b10_10_11_01, 0b10_10_11_11, 0xFF];
         stream.extend([0, 0b01, 0, 6]); // byte 0: one group of one bit: 6 → +3, then 0
         stream.extend([1, 4]); // byte 1: −1, +2
