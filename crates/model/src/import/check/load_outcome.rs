@@ -1,36 +1,38 @@
-//! What loading says of a file, without what the check has said already.
+//! Diagnostics of the loader, without those that the validation has reported already.
 
 use super::codes;
 use super::diagnostics::Diagnostics;
 use crate::Model;
 use crate::diagnostic::{Diagnostic, Severity, codes as load};
 
-/// Adds the outcome of loading to the findings; gives the reason if the file was refused.
+/// Adds the warnings or the error of the loader; returns the error.
 pub(super) fn add_load_outcome(
     loaded: Result<Model, Diagnostic>,
-    findings: &Diagnostics,
+    diagnostics: &Diagnostics,
 ) -> Option<Diagnostic> {
     let model = match loaded {
         Ok(model) => model,
         Err(fault) => {
-            add_refusal(&fault, findings);
+            add_refusal(&fault, diagnostics);
             return Some(fault);
         }
     };
     for warning in &model.warnings {
-        if findings.has_at_or_below(Severity::Warning, &warning.location) {
+        if diagnostics.has_at_or_below(Severity::Warning, &warning.location) {
             continue;
         }
         let is_extension = warning.location.starts_with("/extensions");
         let code = if is_extension { &codes::NOT_SHOWN } else { &codes::LEFT_OUT };
-        findings.add(code, &warning.location, &warning.message);
+        diagnostics.add(code, &warning.location, &warning.message);
     }
     None
 }
 
-fn add_refusal(fault: &Diagnostic, findings: &Diagnostics) {
-    let is_known = findings.has_at_or_below(Severity::Error, &fault.location);
-    let has_errors = findings.has_errors();
+/// Adds the loader's error by the validator's codes, unless an error at or below the same location
+/// explains it already.
+fn add_refusal(fault: &Diagnostic, diagnostics: &Diagnostics) {
+    let is_known = diagnostics.has_at_or_below(Severity::Error, &fault.location);
+    let has_errors = diagnostics.has_errors();
     let code = match fault.code {
         load::UNSUPPORTED_REQUIRED_EXTENSION => &codes::UNSUPPORTED_REQUIRED_EXTENSION,
         load::LIMIT_EXCEEDED => &codes::LIMIT_EXCEEDED,
@@ -41,7 +43,7 @@ fn add_refusal(fault: &Diagnostic, findings: &Diagnostics) {
         load::UNSUPPORTED_VERSION => &codes::UNSUPPORTED_VERSION,
         _ => &codes::NOT_LOADED,
     };
-    findings.add_with_help(
+    diagnostics.add_with_help(
         code,
         &fault.location,
         &fault.message,
