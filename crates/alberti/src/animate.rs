@@ -83,6 +83,10 @@ pub(crate) fn run(args: &AnimateArgs) -> Result<(), CliError> {
 }
 
 impl AnimateArgs {
+    /// The sequence that the flags and the scene describe.
+    ///
+    /// A turntable rotates the models; otherwise their animations play, and the camera follows its
+    /// keyframes, if it has any. Start, end and number of frames default to those of the animation.
     fn build_sequence(
         &self,
         origin: &Origin,

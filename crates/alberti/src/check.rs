@@ -16,6 +16,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+/// Arguments of `alberti scene check`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct CheckScenesArgs {
     /// Scenes (.ron)
@@ -28,11 +29,15 @@ pub(crate) struct CheckScenesArgs {
     load_options: LoadArgs,
 }
 
-/// What was found in a scene, and in each model.
+/// The results for one input: a scene with its models, or a bare model.
 struct CheckResult {
+    /// The path of the input.
     file: PathBuf,
+    /// The errors of a scene; `None` if the input is a model.
     scene: Option<Vec<SceneError>>,
+    /// Lints: values of the scene that are valid but probably unintended.
     advice: Vec<Lint>,
+    /// The reports of the models.
     models: Vec<CheckReport>,
 }
 
@@ -70,6 +75,10 @@ fn exit_code(errors: usize) -> ExitCode {
     if errors == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
+/// Validates a scene and its models.
+///
+/// A file that cannot be parsed has its syntax errors only. Lints need a resolved scene, so they
+/// are looked for only where there is no error.
 fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, CliError> {
     let found = |scene, advice, models| CheckResult {
         file: input.to_owned(),
@@ -112,6 +121,7 @@ fn check_models(origin: &Origin, file: &SceneFile, options: &ImportOptions) -> V
 }
 
 impl CheckResult {
+    /// The number of errors of the scene and of its models.
     fn error_count(&self) -> usize {
         let mistakes = self.scene.as_ref().map_or(0, Vec::len);
         mistakes + self.models.iter().map(|report| report.errors).sum::<usize>()
@@ -159,6 +169,7 @@ impl CheckResult {
     }
 }
 
+/// A count with its noun: `no errors`, `1 error`, `2 errors`.
 fn count_phrase(count: usize, what: &str) -> String {
     match count {
         0 => format!("no {what}s"),

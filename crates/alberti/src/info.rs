@@ -16,6 +16,7 @@ use pipeline::scene::select_animation;
 use std::fmt::Write as _;
 use std::io::Write as _;
 
+/// Prints the contents of a model as text or JSON.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
     let model = load_model(args)?;
     let text = if args.json { json::info_document(args, &model) } else { describe_model(&model) };
@@ -77,6 +78,7 @@ fn describe_model(model: &Model) -> String {
     text
 }
 
+/// The number of meshes, primitives and vertices in the file.
 fn meshes_line(model: &Model) -> String {
     let primitives: usize = model.meshes.iter().map(|mesh| mesh.primitives.len()).sum();
     let vertices: usize =
@@ -98,6 +100,7 @@ fn shown_line(model: &Model) -> String {
     format!("triangles {}, lines {}, points {}", counts[0], counts[1], counts[2])
 }
 
+/// The axis-aligned bounds of the drawn scene.
 fn bounds_line(model: &Model) -> String {
     let Some(bounds) = model.bounds() else { return "none: nothing is shown".to_owned() };
     let triple = |p: [f64; 3]| format!("({:.6}, {:.6}, {:.6})", p[0], p[1], p[2]);
@@ -105,6 +108,7 @@ fn bounds_line(model: &Model) -> String {
     format!("{} to {}", triple(min), triple(max))
 }
 
+/// The number of materials, and of those that need special treatment.
 fn materials_line(model: &Model) -> String {
     let count = |wanted: fn(&AlphaMode) -> bool| {
         model.materials.iter().filter(|material| wanted(&material.alpha_mode)).count()
@@ -116,6 +120,7 @@ fn materials_line(model: &Model) -> String {
     format!("{all}, masked {masked}, blended {blended}, double-sided {double}")
 }
 
+/// The cameras by index and name, with their projections.
 fn cameras_line(model: &Model) -> String {
     let describe = |(number, lens): (usize, &model::ModelCamera)| {
         let name = lens.name.as_deref().unwrap_or("unnamed");
@@ -133,6 +138,7 @@ fn cameras_line(model: &Model) -> String {
     list_or_none(&model.cameras.iter().enumerate().map(describe).collect::<Vec<_>>())
 }
 
+/// The animations by name, with their channels and duration.
 fn animations_line(model: &Model) -> String {
     let describe = |animation: &model::Animation| {
         let name = animation.name.as_deref().unwrap_or("unnamed");
@@ -151,6 +157,7 @@ fn scenes_line(model: &Model) -> String {
     list_or_none(&model.scenes.iter().enumerate().map(describe).collect::<Vec<_>>())
 }
 
+/// The punctual lights by name, with their intensity and its unit.
 fn lights_line(model: &Model) -> String {
     let describe = |light: &PunctualLight| {
         let unit = if light.kind == LightKind::Directional { "lx" } else { "cd" };
@@ -171,6 +178,7 @@ fn extensions_line(model: &Model) -> String {
     list_or_none(&model.extensions_used.iter().map(describe).collect::<Vec<_>>())
 }
 
+/// A list on one line, or `none`.
 fn list_or_none(items: &[String]) -> String {
     if items.is_empty() { "none".to_owned() } else { items.join("; ") }
 }

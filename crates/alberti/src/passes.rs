@@ -27,6 +27,7 @@ pub(crate) struct PassArgs {
     pass_format: Option<EncodingArg>,
 }
 
+/// The value of `--pass-format`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum EncodingArg {
     /// 16-bit PNG; its text chunk Description has the scale of the values

@@ -20,6 +20,7 @@ const REFRESH_INTERVAL: Duration = Duration::from_millis(100);
 /// channel ends it.
 #[derive(Debug)]
 pub(crate) struct Progress {
+    /// The channel to the thread that draws the line, and its handle; `None` without a terminal.
     stages: Option<(Sender<&'static str>, JoinHandle<()>)>,
 }
 
@@ -70,9 +71,13 @@ impl Drop for Progress {
 /// A terminal line with the number of finished jobs and an estimate of the time left.
 #[derive(Debug)]
 pub(crate) struct ProgressCounter {
+    /// The number of jobs.
     total: usize,
+    /// The number of finished jobs.
     done: AtomicUsize,
+    /// When the first job started.
     begin: Instant,
+    /// Whether the line is shown.
     is_visible: bool,
 }
 

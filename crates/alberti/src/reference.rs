@@ -15,6 +15,7 @@ mod text;
 use super::{CliError, print_stdout};
 use clap::{Command, ValueEnum};
 
+/// Arguments of `alberti reference` and `alberti scene doc`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ReferenceArgs {
     /// Flag, command, type, field or path of fields to look up [default: everything]
@@ -27,6 +28,7 @@ pub(crate) struct ReferenceArgs {
     format: ReferenceFormat,
 }
 
+/// The value of `--format`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
 enum ReferenceFormat {
     /// Plain text, wrapped at 100 columns
@@ -40,8 +42,11 @@ enum ReferenceFormat {
 /// A section of the reference: a command, or a type of scene files.
 #[derive(Clone, Debug, Default)]
 struct ReferenceSection {
+    /// The command, or the name of the type.
     title: String,
+    /// The description, in paragraphs separated by empty lines.
     about: String,
+    /// The flags, fields or variants.
     entries: Vec<ReferenceEntry>,
 }
 
@@ -54,6 +59,7 @@ struct ReferenceEntry {
     value: String,
     /// A short remark, such as `required`.
     note: String,
+    /// The description.
     about: String,
     /// The fields of a variant, or the possible values of a flag.
     inner: Vec<Self>,
@@ -74,6 +80,7 @@ pub(crate) fn run_fields(args: &ReferenceArgs) -> Result<(), CliError> {
     print_reference(args, "Reference of scene files", fields::type_sections())
 }
 
+/// Prints some sections, or what a search finds in them.
 fn print_reference(
     args: &ReferenceArgs,
     title: &str,

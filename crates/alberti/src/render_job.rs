@@ -15,18 +15,25 @@ use homog::PixelRect;
 use pipeline::render::{render_passes, rows_per_band};
 use pipeline::scene::Outputs;
 use pipeline::{
-    AtomicFile, BandedRenderer, Channel, OutputError, Picture, Scene, Timings, draw_lines,
+    AtomicFile, Channel, OutputError, Picture, RenderContext, Renderer, Scene, Textures, Timings,
+    draw_lines,
 };
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// A resolved scene with everything else that its files depend on.
 pub(super) struct RenderJob<'a> {
+    /// The flags of the command.
     pub(super) args: &'a RenderArgs,
+    /// The input, format and output of this picture.
     pub(super) task: &'a RenderTask,
+    /// The resolved scene.
     pub(super) scene: &'a Scene,
+    /// The bit depth and the passes.
     pub(super) outputs: Outputs,
+    /// The number of threads.
     pub(super) threads: usize,
+    /// The stopwatch of the stages.
     pub(super) timings: &'a Timings,
 }
 
@@ -59,8 +66,11 @@ impl RenderOutput {
 
 /// An encoded picture that has not been published yet, with its pixels if they are needed.
 struct EncodedPicture {
+    /// The encoded bytes.
     sink: PictureSink,
+    /// The pixels, if they are compared or shown.
     picture: Option<Picture>,
+    /// Warnings of the line drawing.
     warnings: Vec<Warning>,
 }
 
@@ -126,6 +136,7 @@ impl RenderJob<'_> {
         Ok(RenderOutput { region, files, picture, warnings, comparison })
     }
 
+    /// Whether the pixels are needed beside the file.
     fn needs_picture(&self) -> bool {
         self.args.show || self.args.compare.is_requested()
     }
@@ -146,6 +157,7 @@ impl RenderJob<'_> {
         Err(CliError::Usage(wrong.to_owned()))
     }
 
+    /// Opens the destination of the picture.
     fn open_sink(&self) -> Result<PictureSink, CliError> {
         Ok(match &self.task.output {
             Some(path) => {
@@ -155,6 +167,7 @@ impl RenderJob<'_> {
         })
     }
 
+    /// An input/output error as an error about the destination.
     fn output_error(&self, cause: std::io::Error) -> CliError {
         match &self.task.output {
             Some(path) => OutputError { path: path.clone(), cause }.into(),
@@ -164,11 +177,14 @@ impl RenderJob<'_> {
 
     /// Renders and encodes the region as a PNG of `C` bits per channel, band by band.
     fn encode_picture<C: Channel>(&self, region: PixelRect) -> Result<EncodedPicture, CliError> {
-        let mut paint = BandedRenderer::new(self.scene, self.threads, self.timings)?;
+        let textures = self.timings.measure("mip chains", || Textures::for_scene(self.scene));
+        let context = RenderContext::new(self.scene, &textures, self.threads);
+        let mut renderer = Renderer::default();
+        let mut prepared = renderer.prepare(&context.with_timings(self.timings))?;
         let mut sink = self.open_sink()?;
         let mut picture = self.needs_picture().then(Picture::default);
         let rows = rows_per_band(region.width);
-        let written = paint.write_png(&mut sink, region, rows, |band: &Picture<C>| {
+        let written = prepared.write_png(&mut sink, region, rows, |band: &Picture<C>| {
             if let Some(retained) = &mut picture {
                 let bytes = |pixel: &[C; 4]| pixel.map(C::to_byte);
                 retained.pixels.extend(band.pixels.iter().map(bytes));
@@ -179,7 +195,7 @@ impl RenderJob<'_> {
             pipeline::WritePngError::Render(error) => CliError::Render(error),
             pipeline::WritePngError::Output(cause) => self.output_error(cause),
         })?;
-        Ok(EncodedPicture { sink, picture, warnings: paint.into_warnings() })
+        Ok(EncodedPicture { sink, picture, warnings: prepared.into_warnings() })
     }
 
     /// Draws the scene as lines and encodes it as SVG or PDF.
@@ -192,6 +208,7 @@ impl RenderJob<'_> {
         Ok(EncodedPicture { sink, picture: None, warnings })
     }
 
+    /// Renders the passes and writes them to temporary files beside the picture.
     fn create_pass_files(
         &self,
         output: &Path,

@@ -15,6 +15,7 @@ use std::path::Path;
 /// The version of the JSON schema.
 const VERSION: u32 = 1;
 
+/// Prints the report of one picture.
 pub(super) fn print_report(job: &RenderJob<'_>, output: &RenderOutput) -> Result<(), CliError> {
     let PixelRect { x, y, width, height } = output.region;
     let scene = job.scene;
@@ -67,6 +68,7 @@ fn camera_json(job: &RenderJob<'_>) -> Value {
     })
 }
 
+/// The model instances, with their numbers of primitives and their warnings.
 fn models_json(job: &RenderJob<'_>) -> Vec<Value> {
     let model = |placed: &model::ModelInstance| {
         let model = &placed.model;

@@ -8,12 +8,14 @@ use super::{CliError, check};
 use clap::Subcommand;
 use std::process::ExitCode;
 
+/// Arguments of `alberti scene`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct SceneArgs {
     #[command(subcommand)]
     command: SceneCommand,
 }
 
+/// The subcommands of `alberti scene`.
 #[derive(Debug, Subcommand)]
 enum SceneCommand {
     /// Validate scenes and their models, with warnings about values that are probably unintended
@@ -26,6 +28,7 @@ enum SceneCommand {
     Doc(ReferenceArgs),
 }
 
+/// Runs a subcommand.
 pub(crate) fn run(args: &SceneArgs) -> Result<ExitCode, CliError> {
     match &args.command {
         SceneCommand::Check(args) => return check::run_scenes(args),

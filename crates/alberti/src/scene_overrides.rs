@@ -98,6 +98,9 @@ impl SceneOverrideArgs {
         options
     }
 
+    /// Replaces view and projection of the scene by the flags that were given.
+    ///
+    /// `--view` keeps the padding of a scene that frames its models.
     fn apply_to_camera(&self, file: &mut CameraFile) {
         if let Some(camera) = &self.camera {
             let by_name = || CameraChoice::Name(camera.clone());

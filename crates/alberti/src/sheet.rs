@@ -125,6 +125,7 @@ enum HiddenArg {
     Drawn,
 }
 
+/// Draws the sheet and writes it.
 pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     let output = args.output.clone().map_or_else(|| default_output(args), Ok)?;
     let format = OutputFormat::from_path(&output)?;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 /// A name with fields in braces; `{{` and `}}` are literal braces.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct NameTemplate {
+    /// The pieces of the name, in order; literal text is never empty and never adjacent.
     parts: Vec<TemplatePart>,
 }
 
@@ -58,8 +59,8 @@ impl NameTemplate {
 
     /// The name, with every field replaced by its value.
     ///
-    /// Characters of words that are no part of a file name become `_`, so that a value cannot lead to
-    /// another folder.
+    /// Characters of words that are no part of a file name become `_`, so that a value cannot lead
+    /// to another folder.
     pub(super) fn expand_fields(
         &self,
         word: impl Fn(&str) -> String,

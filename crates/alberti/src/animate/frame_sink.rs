@@ -22,6 +22,11 @@ pub(super) enum FrameSink {
 }
 
 impl FrameSink {
+    /// Opens the output that a name stands for; nothing appears under the name yet.
+    ///
+    /// # Errors
+    ///
+    /// If the name has no supported extension, or the file cannot be created.
     pub(super) fn open(
         input: &Path,
         output: &Path,
@@ -53,6 +58,9 @@ impl FrameSink {
         }
     }
 
+    /// Opens an animated PNG: RGB if every frame is opaque, else RGBA.
+    ///
+    /// The delay of a frame is a fraction of 16-bit numbers, 1000 / (1000 fps).
     fn open_png(output: &Path, film: &Sequence, fps: f64) -> Result<Self, CliError> {
         let ((width, height), opaque) = (film.image_size(), film.is_opaque());
         let file = SharedFile::create(output)?;
@@ -70,6 +78,7 @@ impl FrameSink {
         Ok(Self::Png { writer, file, opaque, path: output.to_owned() })
     }
 
+    /// Opens an animated GIF that repeats forever.
     fn open_gif(output: &Path, film: &Sequence, fps: f64) -> Result<Self, CliError> {
         let (width, height) = film.image_size();
         let (Ok(width), Ok(height)) = (u16::try_from(width), u16::try_from(height)) else {
@@ -85,6 +94,7 @@ impl FrameSink {
         Ok(Self::Gif { encoder: Box::new(encoder), fps, path: output.to_owned() })
     }
 
+    /// Appends one frame, or writes it to a file of its own.
     pub(super) fn write_frame(&mut self, frame: usize, picture: &Picture) -> Result<(), CliError> {
         match self {
             Self::Files(template, stem) => {
@@ -131,6 +141,7 @@ impl FrameSink {
 pub(super) struct SharedFile(Rc<RefCell<BufWriter<AtomicFile>>>);
 
 impl SharedFile {
+    /// Creates the temporary file of an output.
     fn create(output: &Path) -> Result<Self, CliError> {
         Ok(Self(Rc::new(RefCell::new(BufWriter::new(AtomicFile::create(output)?)))))
     }
@@ -176,6 +187,7 @@ fn gif_frame(picture: &Picture, delay: u16) -> gif::Frame<'static> {
     frame
 }
 
+/// An error of the PNG encoder as an error about the output.
 fn png_error(path: &Path, error: png::EncodingError) -> CliError {
     let cause = match error {
         png::EncodingError::IoError(cause) => cause,
@@ -184,6 +196,7 @@ fn png_error(path: &Path, error: png::EncodingError) -> CliError {
     OutputError { path: path.to_owned(), cause }.into()
 }
 
+/// An error of the GIF encoder as an error about the output.
 fn gif_error(path: &Path, error: gif::EncodingError) -> CliError {
     let cause = match error {
         gif::EncodingError::Io(cause) => cause,

@@ -30,6 +30,7 @@ pub(super) fn contact_sheet_html(records: &[JobRecord]) -> String {
     page + "</html>\n"
 }
 
+/// The head of the page, with its style sheet.
 const PAGE_HEAD: &str = "<!DOCTYPE html>
 <html lang=\"en\">
 <meta charset=\"utf-8\">

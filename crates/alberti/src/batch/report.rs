@@ -30,11 +30,15 @@ pub(super) struct JobRecord {
     pub(super) message: String,
 }
 
+/// The status of a picture that was rendered by this run.
 pub(super) const DONE: &str = "done";
+/// The status of a picture that was up to date.
 pub(super) const DONE_BEFORE: &str = "done before";
+/// The status of a job that failed.
 pub(super) const FAILED: &str = "failed";
 
 impl JobRecord {
+    /// The record as one line of JSON.
     fn to_line(&self) -> String {
         let Self { input, output, status, key, seconds, warnings, message } = self;
         let json = json!({"input": input, "output": output, "status": status, "key": key,
@@ -60,7 +64,9 @@ impl JobRecord {
 
 /// A report that is being written, shared by the worker threads.
 pub(super) struct BatchReport {
+    /// The path of the report, to which it is rewritten at the end.
     path: PathBuf,
+    /// The open report; a lock keeps the lines of several threads apart.
     file: Mutex<File>,
 }
 

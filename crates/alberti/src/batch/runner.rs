@@ -7,7 +7,7 @@ use crate::CliError;
 use crate::progress::ProgressCounter;
 use crate::render::open_input;
 use pipeline::scene::ResolveOptions;
-use pipeline::{Scene, Timings, render_reported};
+use pipeline::{Picture, RenderContext, Renderer, Scene, Textures};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -17,10 +17,13 @@ use std::time::Instant;
 
 /// The settings of a run, and the records of earlier ones.
 pub(super) struct BatchRun<'a> {
+    /// The flags of the command.
     pub(super) args: &'a BatchArgs,
+    /// Everything in the flags that changes a picture, as text for the content keys.
     pub(super) settings: &'a str,
     /// The records of earlier runs in the same folder.
     pub(super) earlier: &'a [JobRecord],
+    /// The number of jobs that run at a time.
     pub(super) threads: usize,
 }
 
@@ -39,10 +42,12 @@ impl BatchRun<'_> {
         let counter = ProgressCounter::start(jobs.len());
         let (next, results) = (AtomicUsize::new(0), Mutex::new(BTreeMap::new()));
         let work = || {
+            let mut renderer = Renderer::default();
             loop {
                 let at = next.fetch_add(1, Ordering::Relaxed);
                 let Some(job) = jobs.get(at) else { break };
-                let record = self.run_job(job, before.get(job.output.as_str()).copied());
+                let before = before.get(job.output.as_str()).copied();
+                let record = self.run_job(job, before, &mut renderer);
                 report.append_record(&record);
                 counter.increment();
                 if let Ok(mut results) = results.lock() {
@@ -59,7 +64,16 @@ impl BatchRun<'_> {
         results.into_inner().map(|all| all.into_values().collect()).unwrap_or_default()
     }
 
-    fn run_job(&self, job: &BatchJob, before: Option<&JobRecord>) -> JobRecord {
+    /// Runs one job, unless its picture is up to date.
+    ///
+    /// A panic is caught and recorded like any other failure: one broken model must not end a run
+    /// of thousands.
+    fn run_job(
+        &self,
+        job: &BatchJob,
+        before: Option<&JobRecord>,
+        renderer: &mut Renderer,
+    ) -> JobRecord {
         let key = content_key(
             &job.input,
             self.settings,
@@ -70,8 +84,10 @@ impl BatchRun<'_> {
             return JobRecord { status: DONE_BEFORE.to_owned(), ..before.clone() };
         }
         let begin = Instant::now();
-        let work = AssertUnwindSafe(|| self.render_picture(&job.input, &output));
+        let work = AssertUnwindSafe(|| self.render_picture(&job.input, &output, renderer));
         let result = catch_unwind(work).unwrap_or_else(|_| {
+            // Its buffers may be in any state.
+            *renderer = Renderer::default();
             Err(CliError::Usage(
                 "internal error: the renderer panicked; please report this as a bug".to_owned(),
             ))
@@ -92,7 +108,12 @@ impl BatchRun<'_> {
     }
 
     /// Renders one picture; returns the warnings of its models and of the drawing.
-    fn render_picture(&self, input: &Path, output: &Path) -> Result<Vec<String>, CliError> {
+    fn render_picture(
+        &self,
+        input: &Path,
+        output: &Path,
+        renderer: &mut Renderer,
+    ) -> Result<Vec<String>, CliError> {
         let (origin, mut file) =
             open_input(input, &self.args.overrides.import_options(&self.args.load_options))?;
         self.args.overrides.apply_to(&mut file);
@@ -101,7 +122,9 @@ impl BatchRun<'_> {
             &file,
             &ResolveOptions { import: self.args.overrides.import_options(&self.args.load_options) },
         )?;
-        let (picture, drawing) = render_reported(&scene, 1, &Timings::default())?;
+        let textures = Textures::for_scene(&scene);
+        let mut picture = Picture::<u8>::default();
+        let drawing = renderer.render(&RenderContext::new(&scene, &textures, 1), &mut picture)?;
         let png = picture.to_png();
         if let Some(folder) = output.parent() {
             let fault = |cause| {

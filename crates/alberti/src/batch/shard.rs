@@ -2,23 +2,26 @@
 
 use std::str::FromStr as _;
 
-/// Part `part` of `parts`, counted from 0.
+/// One of `count` shards.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Shard {
+    /// The index of the shard, from 0.
     index: usize,
+    /// The number of shards.
     count: usize,
 }
 
 impl Shard {
-    /// All jobs.
+    /// The only shard of a run on one machine.
     pub(super) const ALL_JOBS: Self = Self { index: 0, count: 1 };
 
+    /// Whether there is only one shard.
     pub(super) fn has_all_jobs(self) -> bool {
         self.count == 1
     }
 
-    /// Whether a job is in the shard. Jobs are dealt out round-robin, because large models are often
-    /// neighbors in a folder.
+    /// Whether a job is in the shard. Jobs are dealt out round-robin, because large models are
+    /// often neighbors in a folder.
     pub(super) fn has_job(self, job: usize) -> bool {
         job % self.count == self.index
     }
@@ -32,6 +35,7 @@ impl Shard {
         }
     }
 
+    /// A shard, if its index is valid.
     fn new(part: usize, parts: usize) -> Option<Self> {
         (part < parts).then_some(Self { index: part, count: parts })
     }
@@ -49,6 +53,7 @@ pub(super) fn parse_shard(text: &str) -> Result<Shard, String> {
     part.checked_sub(1).and_then(|part| Shard::new(part, parts)).ok_or_else(fault)
 }
 
+/// Parses a non-negative integer.
 fn parse_count(digits: &str) -> Option<usize> {
     usize::from_str(digits.trim()).ok()
 }

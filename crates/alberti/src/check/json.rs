@@ -29,6 +29,7 @@ pub(super) fn scenes_report(all: &[CheckResult]) -> String {
     format!("{document:#}\n")
 }
 
+/// The result for one input.
 fn result_json(findings: &CheckResult) -> Value {
     let scene = findings.scene.as_ref();
     json!({
@@ -40,6 +41,7 @@ fn result_json(findings: &CheckResult) -> Value {
     })
 }
 
+/// An error of a scene, with line and column from 1.
 fn scene_error_json(mistake: &SceneError) -> Value {
     let (line, column) = mistake.line_and_column();
     json!({
@@ -51,12 +53,14 @@ fn scene_error_json(mistake: &SceneError) -> Value {
     })
 }
 
+/// A lint: a scene error with a code.
 fn lint_json(advice: &Lint) -> Value {
     let mut value = scene_error_json(&advice.error);
     value["code"] = json!(advice.code);
     value
 }
 
+/// The report of a model.
 fn report_json(report: &CheckReport) -> Value {
     let refusal = report.load_error.as_ref().map(
         |fault| json!({"pointer": fault.location, "message": fault.message, "remedy": fault.help}),
@@ -72,6 +76,7 @@ fn report_json(report: &CheckReport) -> Value {
     })
 }
 
+/// A diagnostic of a model.
 fn diagnostic_json(diagnostic: &Diagnostic) -> Value {
     json!({
         "severity": diagnostic.severity.name(),

@@ -66,10 +66,12 @@ pub(super) fn shortest_number(x: f32) -> Value {
     x.to_string().parse::<f64>().map_or(Value::Null, Value::from)
 }
 
+/// Several numbers as [`shortest_number`] writes them.
 pub(super) fn shortest_numbers(numbers: &[f32]) -> Vec<Value> {
     numbers.iter().copied().map(shortest_number).collect()
 }
 
+/// Bounds as two points, or `null`.
 pub(super) fn bounds_json<S: homog::Space>(of: Option<Bounds<S>>) -> Value {
     of.map_or(Value::Null, |bounds| {
         let [min, max] = [bounds.min(), bounds.max()].map(<[f64; 3]>::from);
@@ -95,6 +97,7 @@ pub(super) fn counts_json<'a>(primitives: impl Iterator<Item = &'a Primitive>) -
     })
 }
 
+/// The name of a topology, in the plural.
 pub(super) fn topology_name(of: Topology) -> &'static str {
     match of {
         Topology::Points => "points",
@@ -103,10 +106,12 @@ pub(super) fn topology_name(of: Topology) -> &'static str {
     }
 }
 
+/// A skin: its joints.
 fn skin_json(skin: &Skin) -> Value {
     json!({"joints": skin.joints})
 }
 
+/// An animation: its name, duration and channels.
 fn animation_json(model: &Model, animation: &Animation) -> Value {
     json!({
         "name": animation.name,
@@ -115,6 +120,7 @@ fn animation_json(model: &Model, animation: &Animation) -> Value {
     })
 }
 
+/// A channel: its target, interpolation, number of keyframes, start and end time.
 fn channel_json(model: &Model, AnimationChannel { target, curve }: &AnimationChannel) -> Value {
     json!({
         "target": target_pointer(model, *target),
@@ -164,6 +170,7 @@ fn target_pointer(model: &Model, target: AnimationTarget) -> String {
     }
 }
 
+/// The extensions of the file, sorted, with the way in which each is supported.
 fn extensions_json(model: &Model) -> Value {
     let mut names: Vec<&String> =
         model.extensions_used.iter().chain(&model.extensions_required).collect();
@@ -184,6 +191,7 @@ fn extensions_json(model: &Model) -> Value {
     names.iter().map(describe).collect()
 }
 
+/// The warnings of the importer.
 fn warnings_json(model: &Model) -> Value {
     let describe = |warning: &model::Diagnostic| json!({"pointer": warning.location, "message": warning.message});
     model.warnings.iter().map(describe).collect()

@@ -7,10 +7,12 @@ use model::{
 };
 use serde_json::{Value, json};
 
+/// All materials of the file.
 pub(super) fn materials_json(model: &Model) -> Vec<Value> {
     model.materials.iter().map(material_json).collect()
 }
 
+/// A material: the factors and textures of core glTF, and its extensions.
 fn material_json(material: &Material) -> Value {
     let (mode, cutoff) = match material.alpha_mode {
         AlphaMode::Opaque => ("OPAQUE", None),
@@ -32,6 +34,7 @@ fn material_json(material: &Material) -> Value {
     })
 }
 
+/// A texture slot of a material.
 fn texture_use_json((slot, used): (TextureSlot, TextureInfo)) -> Value {
     json!({
         "slot": slot.json_path(),
@@ -107,6 +110,7 @@ fn material_extensions_json(material: &Material) -> Value {
     Value::Object(all)
 }
 
+/// All textures of the file, with their samplers.
 pub(super) fn textures_json(model: &Model) -> Vec<Value> {
     let describe = |texture: &model::Texture| {
         let sampler = texture.sampler;
@@ -125,6 +129,7 @@ pub(super) fn textures_json(model: &Model) -> Vec<Value> {
     model.textures.iter().map(describe).collect()
 }
 
+/// The name of a wrap mode.
 fn wrap_name(wrap: WrapMode) -> &'static str {
     match wrap {
         WrapMode::Repeat => "repeat",
@@ -133,6 +138,7 @@ fn wrap_name(wrap: WrapMode) -> &'static str {
     }
 }
 
+/// The name of a filter.
 fn filter_name(filter: TextureFilter) -> &'static str {
     match filter {
         TextureFilter::Nearest => "nearest",
@@ -140,6 +146,7 @@ fn filter_name(filter: TextureFilter) -> &'static str {
     }
 }
 
+/// All images of the file; `file` has the header of those that can be read.
 pub(super) fn images_json(model: &Model) -> Vec<Value> {
     let describe = |file: &model::ImageInfo| {
         let header = file.header.map(|header: ImageHeader| {

@@ -7,6 +7,7 @@ use model::{
 };
 use serde_json::{Value, json};
 
+/// All scenes of the file, with their root nodes and bounds.
 pub(super) fn scenes_json(model: &Model) -> Vec<Value> {
     let describe = |scene: &SceneRoots| {
         let bounds = bounds_json(model.scene_bounds(scene));
@@ -15,10 +16,15 @@ pub(super) fn scenes_json(model: &Model) -> Vec<Value> {
     model.scenes.iter().map(describe).collect()
 }
 
+/// All nodes of the file.
 pub(super) fn nodes_json(model: &Model) -> Vec<Value> {
     model.nodes.iter().map(node_json).collect()
 }
 
+/// A node: its place in the hierarchy, its transforms, and what hangs on it.
+///
+/// `transform` is the local one, `null` for a node with a matrix; `to_model` is the matrix from the
+/// node to the model, column by column, in the current pose.
 fn node_json(node: &Node) -> Value {
     let parts = node.trs.map(|parts| {
         json!({
@@ -42,6 +48,7 @@ fn node_json(node: &Node) -> Value {
     })
 }
 
+/// All meshes of the file; `shown` is the number of instances in the drawn scene.
 pub(super) fn meshes_json(model: &Model) -> Vec<Value> {
     let mut shown = vec![0_usize; model.meshes.len()];
     for instance in model.mesh_instances() {
@@ -63,6 +70,7 @@ pub(super) fn meshes_json(model: &Model) -> Vec<Value> {
         .collect()
 }
 
+/// A primitive: its topology, its counts, and which attributes it has.
 fn primitive_json(primitive: &Primitive) -> Value {
     let variant = |of: &VariantMaterial| json!({"variant": of.variant, "material": of.material});
     json!({
@@ -81,6 +89,7 @@ fn primitive_json(primitive: &Primitive) -> Value {
     })
 }
 
+/// The edges that the file declares visible (EXT_mesh_primitive_edge_visibility).
 fn edges_json(edges: &PrimitiveEdges) -> Value {
     let of_triangles = edges.visibility.iter().flat_map(|all| all.as_flattened());
     let count = |wanted: EdgeVisibility| of_triangles.clone().filter(|v| **v == wanted).count();
@@ -92,6 +101,7 @@ fn edges_json(edges: &PrimitiveEdges) -> Value {
     })
 }
 
+/// All cameras of the file, with the nodes that carry them.
 pub(super) fn cameras_json(model: &Model) -> Vec<Value> {
     let describe = |(number, lens): (usize, &model::ModelCamera)| {
         let mut value = match lens.projection {
@@ -117,6 +127,7 @@ pub(super) fn cameras_json(model: &Model) -> Vec<Value> {
     model.cameras.iter().enumerate().map(describe).collect()
 }
 
+/// All punctual lights of the file, with the nodes that carry them.
 pub(super) fn lights_json(model: &Model) -> Vec<Value> {
     let describe = |(number, light): (usize, &model::PunctualLight)| {
         let unit = if light.kind == LightKind::Directional { "lux" } else { "candela" };

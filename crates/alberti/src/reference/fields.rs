@@ -3,10 +3,12 @@
 use super::{ReferenceEntry, ReferenceSection};
 use pipeline::scene::reference::{FieldEntry, Shape, TYPES, TypeEntry, VariantEntry};
 
+/// A section for each type, in the order of the scene language.
 pub(super) fn type_sections() -> Vec<ReferenceSection> {
     TYPES.iter().map(type_section).collect()
 }
 
+/// The section of one type.
 fn type_section(entry: &TypeEntry) -> ReferenceSection {
     let entries = match entry.shape {
         Shape::Number => Vec::new(),
@@ -16,6 +18,7 @@ fn type_section(entry: &TypeEntry) -> ReferenceSection {
     ReferenceSection { title: entry.name.to_owned(), about: entry.about.to_owned(), entries }
 }
 
+/// The entry of one field.
 fn field_entry(field: &FieldEntry) -> ReferenceEntry {
     ReferenceEntry {
         term: field.name.to_owned(),

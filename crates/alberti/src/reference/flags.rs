@@ -12,6 +12,7 @@ pub(super) fn command_sections(program: Command) -> Vec<ReferenceSection> {
     sections
 }
 
+/// Appends the section of a command, then those of its subcommands.
 fn collect_sections(command: &Command, sections: &mut Vec<ReferenceSection>) {
     let about = command.get_long_about().or(command.get_about());
     let arguments = command.get_arguments().filter(|arg| !arg.is_hide_set());
@@ -25,6 +26,8 @@ fn collect_sections(command: &Command, sections: &mut Vec<ReferenceSection>) {
     }
 }
 
+/// The entry of a flag or a positional argument, as clap parses it: names, value, default and
+/// possible values.
 fn argument_entry(arg: &Arg) -> ReferenceEntry {
     let takes_value = arg.get_action().takes_values();
     let names = arg.get_value_names().filter(|_| takes_value).unwrap_or_default();

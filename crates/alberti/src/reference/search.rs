@@ -53,6 +53,7 @@ fn prune_entry(entry: &ReferenceEntry, word: &str) -> Option<ReferenceEntry> {
     (!inner.is_empty()).then(|| ReferenceEntry { inner, ..entry.clone() })
 }
 
+/// Whether an entry has this name; the dashes of a flag may be omitted.
 fn is_named(entry: &ReferenceEntry, word: &str) -> bool {
     entry_names(entry).any(|name| name == word || name.trim_start_matches('-') == word)
 }
@@ -101,6 +102,7 @@ fn open_entries(
     entries.iter().flat_map(open).collect()
 }
 
+/// The message for a word that nothing matches, with the most similar name as a hint.
 fn unknown_word(sections: &[ReferenceSection], word: &str) -> String {
     fn collect_names<'a>(entry: &'a ReferenceEntry, found: &mut Vec<&'a str>) {
         found.extend(entry_names(entry));

@@ -5,6 +5,7 @@ use super::{ReferenceEntry, ReferenceSection};
 /// The width of a line in characters.
 const LINE_WIDTH: usize = 100;
 
+/// The text, a block for each section.
 pub(super) fn format_text(sections: &[ReferenceSection]) -> String {
     let mut page = String::new();
     for (number, section) in sections.iter().enumerate() {
@@ -19,6 +20,7 @@ pub(super) fn format_text(sections: &[ReferenceSection]) -> String {
     page
 }
 
+/// Appends an entry and, indented, its description and the entries inside.
 fn write_entry(page: &mut String, entry: &ReferenceEntry, indent: usize) {
     page.push_str(&" ".repeat(indent));
     page.push_str(&entry.term);

@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 
 /// The text and number fields of an output name template.
 const WORD_FIELDS: [&str; 6] = ["stem", "camera", "view", "style", "projection", "variant"];
+/// The number fields of an output name template.
 const NUMBER_FIELDS: [&str; 2] = ["frame", "index"];
 
 /// One picture to render.
@@ -21,7 +22,9 @@ const NUMBER_FIELDS: [&str; 2] = ["frame", "index"];
 pub(crate) struct RenderTask {
     /// The scene or the model; `-` for the standard input.
     pub(crate) input: PathBuf,
+    /// The scene overrides of this picture.
     pub(crate) overrides: SceneOverrideArgs,
+    /// The format of the file.
     pub(crate) format: OutputFormat,
     /// The file; `None` for the standard output.
     pub(crate) output: Option<PathBuf>,

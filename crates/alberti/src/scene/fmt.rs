@@ -6,6 +6,7 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+/// Arguments of `alberti scene fmt`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct FmtArgs {
     /// Scenes (.ron); `-` reads one from the standard input and writes it to the standard output
@@ -16,6 +17,7 @@ pub(crate) struct FmtArgs {
     check: bool,
 }
 
+/// Formats the files, or with `--check` lists those that are not formatted.
 pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, CliError> {
     let mut differ = Vec::new();
     for path in &args.files {
@@ -41,6 +43,7 @@ pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, CliError> {
     Ok(ExitCode::FAILURE)
 }
 
+/// Reads a file, or the standard input for `-`.
 fn read_source(path: &Path) -> Result<String, CliError> {
     let mut text = String::new();
     let read = if path.as_os_str() == "-" {

@@ -8,6 +8,7 @@ use pipeline::{Origin, ResolveError, Scene};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+/// Arguments of `alberti scene init`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct InitArgs {
     /// Model (.gltf, .glb)
@@ -22,6 +23,7 @@ pub(crate) struct InitArgs {
     load_options: LoadArgs,
 }
 
+/// Writes the scene file, and warns if it cannot be read without further permission.
 pub(crate) fn run(args: &InitArgs) -> Result<(), CliError> {
     let output = args.output.clone().unwrap_or_else(|| args.model.with_extension("ron"));
     let to_stdout = output.as_os_str() == "-";

@@ -1,4 +1,4 @@
-//! The list of problems, kept short even if a file has millions, and without doubles.
+//! The collection of diagnostics: deduplicated, and bounded even if a file has millions.
 
 use super::codes::DiagnosticCode;
 use crate::diagnostic::{Diagnostic, Severity};
@@ -6,32 +6,39 @@ use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::fmt::Display;
 
-/// So many problems of each severity are kept; a reader has lost patience long before.
+/// The number of diagnostics of each severity that are listed; further ones are only counted.
 const MAX_PER_SEVERITY: usize = 400;
-/// No message and no pointer is longer than this: what a file has for names may have megabytes.
+/// The maximum length of a message or pointer in bytes: names in a file may have megabytes.
 const MAX_TEXT_LENGTH: usize = 500;
 
-/// Collects problems while a file is checked.
+/// Collects diagnostics while a file is validated.
+///
+/// Interior mutability lets every check hold the document and report through it.
 #[derive(Default, Debug)]
 pub(super) struct Diagnostics {
+    /// One list for each severity, in the order of [`Severity::ALL`].
     lists: RefCell<[SeverityList; Severity::ALL.len()]>,
 }
 
-/// The problems of one severity.
+/// The diagnostics of one severity.
 #[derive(Default, Debug)]
 struct SeverityList {
+    /// The diagnostics that are listed, in the order in which they were added.
     retained: Vec<Diagnostic>,
+    /// Code and pointer of each, to drop duplicates.
     known_keys: BTreeSet<(&'static str, String)>,
+    /// The number of all diagnostics, listed or not.
     count: usize,
 }
 
 impl Diagnostics {
-    /// Adds a problem, with the remedy that goes with its code. Nothing is formatted if the list is full.
+    /// Adds a diagnostic with the help of its code. Nothing is formatted if the list is full.
     pub(super) fn add(&self, code: &DiagnosticCode, pointer: impl Display, message: impl Display) {
         self.add_with_help(code, pointer, message, code.remedy);
     }
 
-    /// Adds a problem with a remedy of its own.
+    /// Adds a diagnostic with a help of its own. A second one of the same code and pointer is
+    /// dropped.
     pub(super) fn add_with_help(
         &self,
         code: &DiagnosticCode,
@@ -57,7 +64,7 @@ impl Diagnostics {
         }
     }
 
-    /// Whether something at least so bad is known of this very place, or of a place in it.
+    /// Whether there is a diagnostic of severity `worst` or worse at this pointer or below it.
     pub(super) fn has_at_or_below(&self, worst: Severity, pointer: &str) -> bool {
         let lists = self.lists.borrow();
         let concerns = |problem: &Diagnostic| {
@@ -73,13 +80,13 @@ impl Diagnostics {
         self.lists.borrow()[Severity::Error as usize].count > 0
     }
 
-    /// Whether a problem of this kind is known.
+    /// Whether there is a diagnostic of this code.
     pub(super) fn has_code(&self, code: &DiagnosticCode) -> bool {
         let list = &self.lists.borrow()[code.severity as usize];
         list.retained.iter().any(|problem| problem.code == code.name)
     }
 
-    /// All that is kept, the worst first, and how many there are of each severity.
+    /// The listed diagnostics, the worst first, and the numbers of errors, warnings and notes.
     pub(super) fn into_parts(self) -> (Vec<Diagnostic>, [usize; 3]) {
         let lists = self.lists.into_inner();
         let [errors, warnings, info, hints] = Severity::ALL.map(|s| lists[s as usize].count);
@@ -88,6 +95,7 @@ impl Diagnostics {
     }
 }
 
+/// Truncates a text at a character boundary.
 fn truncate_text(mut text: String) -> String {
     if text.len() > MAX_TEXT_LENGTH {
         let end = (0..=MAX_TEXT_LENGTH).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);

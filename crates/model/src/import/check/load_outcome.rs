@@ -1,11 +1,11 @@
-//! What loading says of a file, without what the check has said already.
+//! Diagnostics of the loader, without those that the validation has reported already.
 
 use super::codes;
 use super::diagnostics::Diagnostics;
 use crate::Model;
 use crate::diagnostic::{Diagnostic, Severity, codes as load};
 
-/// Adds the outcome of loading to the diagnostics; gives the reason if the file was refused.
+/// Adds the warnings or the error of the loader; returns the error.
 pub(super) fn add_load_outcome(
     loaded: Result<Model, Diagnostic>,
     diagnostics: &Diagnostics,
@@ -28,6 +28,8 @@ pub(super) fn add_load_outcome(
     None
 }
 
+/// Adds the loader's error by the validator's codes, unless an error at or below the same location
+/// explains it already.
 fn add_refusal(fault: &Diagnostic, diagnostics: &Diagnostics) {
     let is_known = diagnostics.has_at_or_below(Severity::Error, &fault.location);
     let has_errors = diagnostics.has_errors();

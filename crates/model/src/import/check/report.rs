@@ -1,35 +1,36 @@
-//! What a check has found, for people and for programs.
+//! The report of a validation.
 
 use crate::diagnostic::{Diagnostic, Severity};
 use std::path::PathBuf;
 
-/// What is wrong with a file, and whether it can be drawn all the same.
+/// The diagnostics of a file, and whether it can be drawn in spite of them.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub struct CheckReport {
     /// The file that was checked.
     pub file: PathBuf,
-    /// The problems, the worst first, and those of one severity in the order of the subjects. Of each severity only the
-    /// first few hundred are kept; the counts below count all.
+    /// The diagnostics, the worst severity first, and those of one severity in the order of the
+    /// checks. Of each severity only the first few hundred are listed; the counts below include
+    /// all.
     pub diagnostics: Vec<Diagnostic>,
-    /// How many errors there are: rules of the specification that are broken, or data that is not there.
+    /// The number of errors: broken rules of the specification, or missing data.
     pub errors: usize,
-    /// How many warnings there are: what may look different elsewhere, and what is left out here.
+    /// The number of warnings: other viewers may show it differently, or something is omitted here.
     pub warnings: usize,
-    /// How many notes there are: nothing is wrong, but something could be better.
+    /// The number of notes: nothing is wrong, but something could be improved.
     pub notes: usize,
-    /// Why the file cannot be drawn; `None` if it can, with whatever is left out. Many a file with errors can.
+    /// Why the file cannot be loaded; `None` if it can, as many files with errors can.
     pub load_error: Option<Diagnostic>,
 }
 
 impl CheckReport {
-    /// How many problems are counted but not listed.
+    /// The number of diagnostics that are counted but not listed.
     #[must_use]
     pub fn omitted_count(&self) -> usize {
         (self.errors + self.warnings + self.notes).saturating_sub(self.diagnostics.len())
     }
 
-    /// The counts in words: `2 errors, 1 warning, no notes; it can be drawn`.
+    /// The counts as a phrase: `2 errors, 1 warning, no notes; it can be drawn`.
     #[must_use]
     pub fn summary(&self) -> String {
         let count = |number: usize, severity: Severity| match number {

@@ -1,4 +1,4 @@
-//! The objects of glTF 2.0 itself (§5, in the order of their names there).
+//! The objects of core glTF 2.0 (§5, in the order of the specification).
 
 use super::Collection::{
     Accessors, AnimationSamplers, BufferViews, Buffers, Cameras, Images, Materials, Meshes, Nodes,
@@ -13,9 +13,11 @@ use super::{
     required, requires,
 };
 
+/// An integer without maximum.
 const MAX_INTEGER: u64 = u64::MAX;
 const NAME: super::MemberSchema = optional("name", Text);
 
+/// The schema of an object.
 const fn object_schema(
     name: &'static str,
     members: &'static [super::MemberSchema],
@@ -23,10 +25,14 @@ const fn object_schema(
     ObjectSchema { name, members }
 }
 
+/// The kind of a member that is an object.
 const fn object_kind(object: &'static ObjectSchema) -> super::ValueKind {
     super::ValueKind::Object(object)
 }
 
+/// The root object (§5.17): the arrays of all objects, and the extension lists.
+///
+/// `extensionsRequired` requires `extensionsUsed`, and `scene` requires `scenes`.
 pub(in super::super) static ROOT: ObjectSchema = object_schema(
     "glTF",
     &[
@@ -50,6 +56,7 @@ pub(in super::super) static ROOT: ObjectSchema = object_schema(
     ],
 );
 
+/// `accessor` (§5.1): a typed view into a buffer view, which `byteOffset` requires.
 static ACCESSOR: ObjectSchema = object_schema(
     "accessor",
     &[
@@ -59,7 +66,7 @@ static ACCESSOR: ObjectSchema = object_schema(
         optional("normalized", Boolean),
         required("count", Integer(1, MAX_INTEGER)),
         required("type", EnumString(&["SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"])),
-        // How many there must be depends on the type: see the check of accessors.
+        // Their number depends on the type, which is validated with the accessors.
         optional("max", Numbers(0, ANY)),
         optional("min", Numbers(0, ANY)),
         optional("sparse", object_kind(&SPARSE)),
@@ -67,6 +74,7 @@ static ACCESSOR: ObjectSchema = object_schema(
     ],
 );
 
+/// `accessor.sparse` (§5.2): elements that differ from the buffer view.
 static SPARSE: ObjectSchema = object_schema(
     "sparse",
     &[
@@ -76,6 +84,7 @@ static SPARSE: ObjectSchema = object_schema(
     ],
 );
 
+/// `accessor.sparse.indices` (§5.3): which elements are replaced.
 static SPARSE_INDICES: ObjectSchema = object_schema(
     "sparseIndices",
     &[
@@ -85,11 +94,13 @@ static SPARSE_INDICES: ObjectSchema = object_schema(
     ],
 );
 
+/// `accessor.sparse.values` (§5.4): the replacements.
 static SPARSE_VALUES: ObjectSchema = object_schema(
     "sparseValues",
     &[required("bufferView", Index(BufferViews)), optional("byteOffset", Integer(0, MAX_INTEGER))],
 );
 
+/// `animation` (§5.5): channels, and the samplers they refer to.
 static ANIMATION: ObjectSchema = object_schema(
     "animation",
     &[
@@ -99,11 +110,14 @@ static ANIMATION: ObjectSchema = object_schema(
     ],
 );
 
+/// `animation.channel` (§5.6): a sampler applied to a target.
 static CHANNEL: ObjectSchema = object_schema(
     "channel",
     &[required("sampler", Index(AnimationSamplers)), required("target", object_kind(&TARGET))],
 );
 
+/// `animation.channel.target` (§5.7): a node and a path; the node is absent with
+/// KHR_animation_pointer.
 static TARGET: ObjectSchema = object_schema(
     "target",
     &[
@@ -112,6 +126,7 @@ static TARGET: ObjectSchema = object_schema(
     ],
 );
 
+/// `animation.sampler` (§5.8): keyframe times, values and interpolation.
 static ANIMATION_SAMPLER: ObjectSchema = object_schema(
     "animationSampler",
     &[
@@ -121,6 +136,7 @@ static ANIMATION_SAMPLER: ObjectSchema = object_schema(
     ],
 );
 
+/// `asset` (§5.9): the version of glTF, and the generator of the file.
 static ASSET: ObjectSchema = object_schema(
     "asset",
     &[
@@ -131,11 +147,13 @@ static ASSET: ObjectSchema = object_schema(
     ],
 );
 
+/// `buffer` (§5.10): bytes in a file, a data URI or the binary chunk.
 static BUFFER: ObjectSchema = object_schema(
     "buffer",
     &[optional("uri", Text), required("byteLength", Integer(1, MAX_INTEGER)), NAME],
 );
 
+/// `bufferView` (§5.11): a range of a buffer, with an optional stride of 4 to 252 bytes.
 static BUFFER_VIEW: ObjectSchema = object_schema(
     "bufferView",
     &[
@@ -148,10 +166,11 @@ static BUFFER_VIEW: ObjectSchema = object_schema(
     ],
 );
 
+/// `camera` (§5.12): perspective or orthographic, not both.
 static CAMERA: ObjectSchema = object_schema(
     "camera",
     &[
-        // The one that the type names must be there: see the check of cameras.
+        // The one that the type names is required, which is validated with the cameras.
         excludes("orthographic", "perspective", object_kind(&ORTHOGRAPHIC)),
         optional("perspective", object_kind(&PERSPECTIVE)),
         required("type", EnumString(&["perspective", "orthographic"])),
@@ -159,6 +178,7 @@ static CAMERA: ObjectSchema = object_schema(
     ],
 );
 
+/// `camera.orthographic` (§5.13): half width and height of the view, near and far plane.
 static ORTHOGRAPHIC: ObjectSchema = object_schema(
     "orthographic",
     &[
@@ -169,6 +189,7 @@ static ORTHOGRAPHIC: ObjectSchema = object_schema(
     ],
 );
 
+/// `camera.perspective` (§5.14): vertical field of view, aspect ratio, near and far plane.
 static PERSPECTIVE: ObjectSchema = object_schema(
     "perspective",
     &[
@@ -179,6 +200,7 @@ static PERSPECTIVE: ObjectSchema = object_schema(
     ],
 );
 
+/// `image` (§5.18): exactly one of a URI and a buffer view.
 static IMAGE: ObjectSchema = object_schema(
     "image",
     &[
@@ -189,6 +211,7 @@ static IMAGE: ObjectSchema = object_schema(
     ],
 );
 
+/// `material` (§5.19): textures and factors of the metallic-roughness model, alpha and sides.
 static MATERIAL: ObjectSchema = object_schema(
     "material",
     &[
@@ -204,6 +227,7 @@ static MATERIAL: ObjectSchema = object_schema(
     ],
 );
 
+/// `material.pbrMetallicRoughness` (§5.22): base color, metalness and roughness.
 static METALLIC_ROUGHNESS: ObjectSchema = object_schema(
     "pbrMetallicRoughness",
     &[
@@ -215,11 +239,13 @@ static METALLIC_ROUGHNESS: ObjectSchema = object_schema(
     ],
 );
 
+/// `textureInfo` (§5.30): a texture, and the set of texture coordinates it uses.
 pub(super) static TEXTURE_INFO: ObjectSchema = object_schema(
     "textureInfo",
     &[required("index", Index(Textures)), optional("texCoord", Integer(0, MAX_INTEGER))],
 );
 
+/// `material.normalTextureInfo` (§5.20): a normal map with the scale of its x and y.
 pub(super) static NORMAL_TEXTURE: ObjectSchema = object_schema(
     "textureInfo",
     &[
@@ -229,6 +255,7 @@ pub(super) static NORMAL_TEXTURE: ObjectSchema = object_schema(
     ],
 );
 
+/// `material.occlusionTextureInfo` (§5.21): an occlusion map with its strength.
 static OCCLUSION_TEXTURE: ObjectSchema = object_schema(
     "textureInfo",
     &[
@@ -238,11 +265,13 @@ static OCCLUSION_TEXTURE: ObjectSchema = object_schema(
     ],
 );
 
+/// `mesh` (§5.23): primitives, and default weights of their morph targets.
 static MESH: ObjectSchema = object_schema(
     "mesh",
     &[required("primitives", Objects(&PRIMITIVE)), optional("weights", Numbers(0, ANY)), NAME],
 );
 
+/// `mesh.primitive` (§5.24): attributes, indices, material, mode and morph targets.
 static PRIMITIVE: ObjectSchema = object_schema(
     "primitive",
     &[
@@ -254,6 +283,7 @@ static PRIMITIVE: ObjectSchema = object_schema(
     ],
 );
 
+/// `node` (§5.25): a transform with children, and what hangs on it; a skin requires a mesh.
 static NODE: ObjectSchema = object_schema(
     "node",
     &[
@@ -270,6 +300,7 @@ static NODE: ObjectSchema = object_schema(
     ],
 );
 
+/// `sampler` (§5.26): filters and wrap modes, by their OpenGL constants.
 static SAMPLER: ObjectSchema = object_schema(
     "sampler",
     &[
@@ -281,8 +312,10 @@ static SAMPLER: ObjectSchema = object_schema(
     ],
 );
 
+/// `scene` (§5.27): the root nodes.
 static SCENE: ObjectSchema = object_schema("scene", &[optional("nodes", Indices(Nodes)), NAME]);
 
+/// `skin` (§5.28): joints, inverse bind matrices, and a common root.
 static SKIN: ObjectSchema = object_schema(
     "skin",
     &[
@@ -293,10 +326,11 @@ static SKIN: ObjectSchema = object_schema(
     ],
 );
 
+/// `texture` (§5.29): an image and a sampler.
 static TEXTURE: ObjectSchema = object_schema(
     "texture",
     &[optional("sampler", Index(Samplers)), optional("source", Index(Images)), NAME],
 );
 
-/// What is not described further.
+/// An object whose members are not validated.
 pub(super) const UNKNOWN: super::ValueKind = Any;

@@ -1,7 +1,7 @@
-//! The objects of extensions, each with the object it may be in.
+//! The objects of extensions, each with the core object that may contain it.
 //!
-//! What is here is checked; other extensions may say what they like. An extension that has no object in the file at all,
-//! such as KHR_mesh_quantization, has none here either and may be in nothing.
+//! Other extensions are not validated. An extension without any object, such as
+//! KHR_mesh_quantization, has the parent "nothing": it is known, but may not appear anywhere.
 
 use super::Collection::{Accessors, BufferViews, Buffers, Images, Lights, Materials, Variants};
 use super::ValueKind::{
@@ -11,18 +11,26 @@ use super::ValueKind::{
 use super::core::{NORMAL_TEXTURE, TEXTURE_INFO, UNKNOWN};
 use super::{ANY, NOT_NEGATIVE, NumberRange, ObjectSchema, POSITIVE, UNIT, optional, required};
 
+/// An integer without maximum.
 const MAX_INTEGER: u64 = u64::MAX;
+/// Indices of refraction: at least 1.
 const ABOVE_ONE: NumberRange = NumberRange { min: 1.0, ..ANY };
+/// Cone angles of spot lights, in radians.
 const QUARTER_TURN: NumberRange =
     NumberRange { min: 0.0, max: std::f64::consts::FRAC_PI_2, exclusive_min: false };
 
-/// An extension's object: the extension's name, the object it is in, and its members.
+/// The object of an extension: the extension's name, its parent object, and its members.
 pub(in super::super) struct ExtensionObject {
+    /// The name of the extension.
     pub(in super::super) name: &'static str,
+    /// The name of the object that may contain it.
     pub(in super::super) parent: &'static str,
+    /// The members of the extension's object.
     pub(in super::super) object: ObjectSchema,
 }
 
+/// Declares the table: extension, parent object, members. An extension with objects in several
+/// parents has a row for each.
 macro_rules! extension_objects {
     ($($name:ident in $parent:literal: [$($member:expr),* $(,)?];)*) => {
         pub(in super::super) static EXTENSION_OBJECTS: &[ExtensionObject] = &[$(ExtensionObject {
@@ -143,9 +151,11 @@ extension_objects! {
     MSFT_texture_dds in "texture": [required("source", Index(Images))];
 }
 
-/// An index of refraction is 0, for "as for metals", or at least 1; what is between is found with the materials.
+/// The index of refraction is 0, for metals, or at least 1; values between are rejected with the
+/// materials.
 const IOR: NumberRange = NOT_NEGATIVE;
 
+/// A light of KHR_lights_punctual.
 static LIGHT: ObjectSchema = ObjectSchema {
     name: "light",
     members: &[
@@ -158,6 +168,7 @@ static LIGHT: ObjectSchema = ObjectSchema {
     ],
 };
 
+/// The cone of a spot light of KHR_lights_punctual.
 static SPOT: ObjectSchema = ObjectSchema {
     name: "spot",
     members: &[
@@ -166,8 +177,10 @@ static SPOT: ObjectSchema = ObjectSchema {
     ],
 };
 
+/// A variant of KHR_materials_variants.
 static VARIANT: ObjectSchema = ObjectSchema { name: "variant", members: &[required("name", Text)] };
 
+/// The material that a primitive has in some variants (KHR_materials_variants).
 static MAPPING: ObjectSchema = ObjectSchema {
     name: "mapping",
     members: &[
