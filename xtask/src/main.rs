@@ -10,7 +10,6 @@ mod conformance;
 mod determinism;
 mod fuzz;
 mod gallery;
-mod glb;
 mod golden;
 mod models;
 mod program;

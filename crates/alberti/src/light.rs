@@ -1,4 +1,4 @@
-//! Flags that change the light of a scene: shadows, the ground, surroundings, exposure and the tone curve.
+//! Flags about light: environment, exposure, tone mapping, shadows, ground, ambient occlusion.
 
 use clap::ValueEnum;
 use pipeline::scene::file::{
@@ -7,31 +7,34 @@ use pipeline::scene::file::{
 use pipeline::shade::ToneMapping;
 use std::path::PathBuf;
 
-/// What goes before what the scene says of its light.
+/// Flags that replace the light of the scene.
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = "Light")]
 pub(crate) struct LightArgs {
-    /// Light from all around: studio (of strength 0.6, as bare models have it), sky, none, or a .hdr file with a picture of all
-    /// directions
+    /// Environment light: studio, sky, none, or a .hdr file
+    ///
+    /// `studio` has strength 0.6, as bare models do. A .hdr file is an equirectangular Radiance
+    /// map.
     #[arg(long, value_name = "studio|sky|none|FILE", value_parser = parse_environment)]
     environment: Option<EnvironmentArg>,
-    /// The exposure in stops, such as 1 or -0.5: each doubles all light
-    #[arg(long, value_name = "EV", allow_negative_numbers = true, value_parser = parse_exposure)]
+    /// Exposure in stops, such as 1 or -0.5; each stop doubles the light
+    #[arg(long, value_name = "EV", allow_hyphen_values = true, value_parser = parse_exposure)]
     exposure: Option<Finite>,
-    /// The curve that brings bright light into the range of a picture
+    /// Tone mapping: the curve that compresses bright light into the range of a picture
     #[arg(long, value_name = "CURVE")]
-    tone: Option<ToneArg>,
-    /// Whether all suns and spots cast shadows; points cast none
+    tone_mapping: Option<ToneArg>,
+    /// Enable or disable the shadows of all directional and spot lights
     #[arg(long, value_name = "on|off")]
     shadows: Option<SwitchArg>,
-    /// A level plane below the models on which only shadows are seen, or none
+    /// Ground plane below the models
     #[arg(long)]
     ground: Option<GroundArg>,
-    /// Darken corners, by what the picture shows in the way of light from all around
+    /// Enable screen-space ambient occlusion
     #[arg(long)]
     ambient_occlusion: bool,
 }
 
+/// The value of `--environment`.
 #[derive(Clone, Debug)]
 enum EnvironmentArg {
     Studio,
@@ -40,33 +43,37 @@ enum EnvironmentArg {
     File(PathBuf),
 }
 
+/// The value of `--tone-mapping`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum ToneArg {
-    /// Light beyond 1 is cut off
+    /// Clamp light above 1
     None,
-    /// Khronos PBR Neutral: keeps colours but for highlights
+    /// Khronos PBR Neutral: keeps base colors, compresses highlights
     Neutral,
-    /// ACES as films have it
+    /// ACES filmic curve
     Aces,
     /// AgX
     Agx,
 }
 
+/// The value of `--shadows`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum SwitchArg {
     On,
     Off,
 }
 
+/// The value of `--ground`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum GroundArg {
-    /// Nothing but shadows
+    /// Shadow catcher: invisible except for the shadows on it
     Shadow,
     /// No ground
     None,
 }
 
 impl LightArgs {
+    /// Replaces the light of a scene by the flags that were given.
     pub(super) fn apply_to(&self, file: &mut SceneFile) {
         if let Some(environment) = &self.environment {
             file.environment = Some(environment.to_environment_file());
@@ -74,7 +81,7 @@ impl LightArgs {
         if let Some(exposure) = self.exposure {
             file.image.exposure_ev = Some(exposure);
         }
-        if let Some(tone) = self.tone {
+        if let Some(tone) = self.tone_mapping {
             file.image.tone_mapping = match tone {
                 ToneArg::None => ToneMapping::None,
                 ToneArg::Neutral => ToneMapping::Neutral,
@@ -96,7 +103,7 @@ impl LightArgs {
         }
     }
 
-    /// The file of the surroundings, if it was named here: a person may read what they have named.
+    /// The environment map, if a file was given: it may be read wherever it is.
     pub(super) fn environment_file(&self) -> Option<PathBuf> {
         match &self.environment {
             Some(EnvironmentArg::File(path)) => Some(path.clone()),
@@ -105,7 +112,7 @@ impl LightArgs {
     }
 }
 
-/// Switches the shadows of all lights; those that the scene has settings for keep them.
+/// Enables or disables the shadows of all lights; settings of the scene are kept.
 fn switch_shadows(file: &mut SceneFile, switch: SwitchArg) {
     let switched_shadows = |known: Option<ShadowsFile>| match (switch, known) {
         (SwitchArg::Off, _) => Some(ShadowsFile::Off),
@@ -121,6 +128,7 @@ fn switch_shadows(file: &mut SceneFile, switch: SwitchArg) {
 }
 
 impl EnvironmentArg {
+    /// The environment as a field of a scene.
     fn to_environment_file(&self) -> EnvironmentFile {
         match self {
             Self::Studio => EnvironmentFile::STUDIO,
@@ -131,7 +139,7 @@ impl EnvironmentArg {
     }
 }
 
-/// Files are told from names by their ending; they are looked for in the current folder.
+/// Parses a preset, or the path of a `.hdr` file relative to the current folder.
 fn parse_environment(text: &str) -> Result<EnvironmentArg, String> {
     let path = PathBuf::from(text);
     match text {
@@ -142,10 +150,11 @@ fn parse_environment(text: &str) -> Result<EnvironmentArg, String> {
             let full = std::path::absolute(&path).map_err(|error| error.to_string())?;
             Ok(EnvironmentArg::File(full))
         }
-        _ => Err("possible are studio, sky, none and a .hdr file".to_owned()),
+        _ => Err("expected studio, sky, none or a .hdr file".to_owned()),
     }
 }
 
+/// Parses a number of stops from −30 to 30.
 fn parse_exposure(text: &str) -> Result<Finite, String> {
     let fault = || "expected a number of stops from -30 to 30, such as 1.5".to_owned();
     let stops: f64 = text.parse().map_err(|_| fault())?;

@@ -1,4 +1,7 @@
-//! Flags that change what a scene says of its picture: the size, the camera, the style, the state of the models.
+//! Flags that override fields of a scene: size, camera, style, overlays, state of the models.
+//!
+//! They are applied to the parsed scene file before it is resolved, so that a flag and a field have
+//! the same meaning and the same errors. A bare model is a scene in which every field is default.
 
 use super::args::{OverlayArg, ProjectionArg, StyleArg};
 use super::light::LightArgs;
@@ -6,57 +9,59 @@ use super::load_options::LoadArgs;
 use super::model_state::ModelStateArgs;
 use super::section::SectionArgs;
 use camera::NamedView;
-use projection::PrincipalView;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use model::import::ImportOptions;
 use pipeline::scene::file::{
-    BackgroundFile, CameraChoice, CameraFile, Color, DEFAULT_PADDING, OverlayFile,
-    ProjectionFile, SceneFile, StyleFile, ViewFile,
+    BackgroundFile, CameraChoice, CameraFile, Color, DEFAULT_PADDING, OverlayFile, ProjectionFile,
+    SceneFile, StyleFile, ViewFile,
 };
+use projection::PrincipalView;
 
-/// What goes before what the scene says; a bare model is a scene that says nothing.
+/// Flags that replace fields of the scene.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct SceneOverrideArgs {
-    /// Width and height in pixels, such as 1920x1080
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    /// Width and height of the picture in pixels, such as 1920x1080
+    #[arg(long, value_name = "WxH", value_parser = parse_image_size)]
     pub(crate) size: Option<(u32, u32)>,
-    /// Multiply width and height, those of the scene or of --size, by a number up to 64
-    #[arg(long, value_name = "N", value_parser = parse_factor)]
+    /// Multiply width and height by this factor, up to 64
+    #[arg(long, value_name = "N", value_parser = parse_scale_factor)]
     pub(crate) scale: Option<f64>,
-    /// How surfaces are drawn
+    /// Render style
     #[arg(long)]
     pub(crate) style: Option<StyleArg>,
-    /// A camera of the model, by name or by number from 0
+    /// Camera of the model, by name or index
     #[arg(long, value_name = "NAME|INDEX", conflicts_with = "view")]
     pub(crate) camera: Option<String>,
     #[command(flatten)]
     pub(crate) model_state: ModelStateArgs,
-    /// Frame everything from this side
-    #[arg(long, value_parser = named_view())]
+    /// Frame all models from this direction
+    #[arg(long, value_parser = named_view_parser())]
     pub(crate) view: Option<NamedView>,
-    /// The projection
+    /// Projection of the camera
     #[arg(long)]
     pub(crate) projection: Option<ProjectionArg>,
-    /// What is drawn over the picture to explain it; may be given several times
+    /// Guides drawn over the picture; can be repeated
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     pub(crate) overlay: Vec<OverlayArg>,
     #[command(flatten)]
     pub(crate) section: SectionArgs,
-    /// What is seen where no model is: transparent, or a colour such as #f4f1ea
+    /// Background: transparent, or a color such as #f4f1ea
     #[arg(long, value_name = "COLOR", value_parser = parse_background)]
     pub(crate) background: Option<BackgroundFile>,
-    /// Coverage samples per pixel: 1, 4, 8 or 16
+    /// Samples per pixel for anti-aliasing: 1, 4, 8 or 16
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     pub(crate) samples: Option<u32>,
-    /// Places that textures are read at along the longer side of what a pixel covers of them: 1 to 8
+    /// Maximum anisotropy of texture filtering, 1 to 8
+    ///
+    /// Up to this many trilinear samples are taken along the longer axis of a pixel's footprint.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8))]
-    pub(crate) anisotropy: Option<u32>,
+    pub(crate) max_anisotropy: Option<u32>,
     #[command(flatten)]
     pub(crate) light: LightArgs,
 }
 
 impl SceneOverrideArgs {
-    /// What the flags say goes before what the scene says.
+    /// Replaces the fields of a scene by the flags that were given.
     pub(crate) fn apply_to(&self, file: &mut SceneFile) {
         if let Some(size) = self.size {
             file.image.size = size;
@@ -69,7 +74,7 @@ impl SceneOverrideArgs {
         if let Some(samples) = self.samples {
             file.image.samples = samples;
         }
-        if let Some(anisotropy) = self.anisotropy {
+        if let Some(anisotropy) = self.max_anisotropy {
             file.image.max_anisotropy = anisotropy;
         }
         if let Some(background) = &self.background {
@@ -85,13 +90,16 @@ impl SceneOverrideArgs {
         self.apply_to_camera(&mut file.camera);
     }
 
-    /// How models are loaded by these flags too: a file that they name may be read wherever it is.
+    /// The import options, with permission to read the files that these flags name.
     pub(crate) fn import_options(&self, load: &LoadArgs) -> ImportOptions {
         let mut options = load.import_options();
         options.allow_outside.extend(self.light.environment_file());
         options
     }
 
+    /// Replaces view and projection of the scene by the flags that were given.
+    ///
+    /// `--view` keeps the padding of a scene that frames its models.
     fn apply_to_camera(&self, file: &mut CameraFile) {
         if let Some(camera) = &self.camera {
             let by_name = || CameraChoice::Name(camera.clone());
@@ -166,8 +174,8 @@ impl From<OverlayArg> for OverlayFile {
     }
 }
 
-/// The views of the `camera` crate by their names.
-pub(super) fn named_view() -> impl TypedValueParser<Value = NamedView> {
+/// Parses a view by its name in the `camera` crate; `iso` is short for `isometric`.
+pub(super) fn named_view_parser() -> impl TypedValueParser<Value = NamedView> {
     let value = |view: NamedView| match view {
         NamedView::Isometric => PossibleValue::new(view.name()).alias("iso"),
         _ => PossibleValue::new(view.name()),
@@ -175,12 +183,13 @@ pub(super) fn named_view() -> impl TypedValueParser<Value = NamedView> {
     PossibleValuesParser::new(NamedView::ALL.map(value)).try_map(|name| name.parse::<NamedView>())
 }
 
-fn parse_factor(text: &str) -> Result<f64, String> {
+/// Parses a factor above 0, up to 64.
+fn parse_scale_factor(text: &str) -> Result<f64, String> {
     let factor = text.parse().ok().filter(|factor: &f64| *factor > 0.0 && *factor <= 64.0);
     factor.ok_or_else(|| "expected a number greater than 0, up to 64, such as 2 or 0.5".to_owned())
 }
 
-/// `transparent`, or a colour.
+/// Parses `transparent`, `#rgb`, `#rrggbb` or the name of a color of CSS.
 fn parse_background(text: &str) -> Result<BackgroundFile, String> {
     if text.eq_ignore_ascii_case("transparent") {
         return Ok(BackgroundFile::Transparent);
@@ -189,12 +198,14 @@ fn parse_background(text: &str) -> Result<BackgroundFile, String> {
     color.ok_or_else(|| "expected transparent, or a color such as #f4f1ea or white".to_owned())
 }
 
+/// Parses a number of samples that the rasterizer has a pattern for.
 fn parse_samples(text: &str) -> Result<u32, String> {
     let samples = text.parse().ok().filter(|samples| [1, 4, 8, 16].contains(samples));
-    samples.ok_or_else(|| "possible are 1, 4, 8 and 16".to_owned())
+    samples.ok_or_else(|| "expected 1, 4, 8 or 16".to_owned())
 }
 
-pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
+/// Parses `WIDTHxHEIGHT`, each from 1 to [`pipeline::MAX_SIDE`].
+pub(super) fn parse_image_size(text: &str) -> Result<(u32, u32), String> {
     let fault = || {
         format!(
             "expected WIDTHxHEIGHT, such as 1920x1080, each from 1 to {}",

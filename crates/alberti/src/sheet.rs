@@ -1,4 +1,4 @@
-//! `alberti sheet`: the views of a scene or a bare model on paper, to scale.
+//! `alberti sheet`: orthographic views of a scene or a model on paper, to scale.
 
 use super::CliError;
 use super::format::OutputFormat;
@@ -9,67 +9,67 @@ use super::render::{open_input, print_warnings, thread_count};
 use super::section::SectionArgs;
 use clap::ValueEnum;
 use drawing::HiddenLines;
-use projection::SheetAngle;
 use drawing::Page;
 use pipeline::scene::ResolveOptions;
-use pipeline::scene::file::{
-    AxonometricView, ModelUnit, PageOrientation, PaperSize, SheetFile,
-};
+use pipeline::scene::file::{AxonometricView, ModelUnit, PageOrientation, PaperSize, SheetFile};
 use pipeline::{Picture, Scene};
+use projection::SheetAngle;
 use std::path::PathBuf;
 use viewport::{Paper, Resolution};
 
-/// The resolution of sheets as PNG.
+/// The resolution of a sheet written as PNG.
 const DOTS_PER_INCH: f64 = 150.0;
 
+/// Arguments of `alberti sheet`; each flag replaces the field of the scene's `sheet`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct SheetArgs {
-    /// A scene (.ron) or a model (.gltf, .glb)
+    /// Scene (.ron) or model (.gltf, .glb)
     input: PathBuf,
-    /// Where the sheet goes: .pdf, .svg or .png [default: the input's name with .pdf, in the current folder]
+    /// Output file: .pdf, .svg or .png [default: the input's name with .pdf, in the current folder]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// The paper [default: a3]
+    /// Paper size [default: a3]
     #[arg(long, value_name = "SIZE")]
     paper: Option<PaperArg>,
-    /// How the paper lies [default: a4, a5 and letter upright, all others on their long side]
+    /// Page orientation [default: portrait for a4, a5 and letter, landscape for larger paper]
     #[arg(long)]
     orientation: Option<OrientationArg>,
-    /// Where views lie: first angle, usual in Europe and China, or third, usual in America [default: first]
+    /// Arrangement of the views: first-angle or third-angle projection (ISO 5456-2)
+    /// [default: first]
     #[arg(long)]
-    angle: Option<AngleArg>,
-    /// The scale, paper to thing, such as 1:50 [default: the largest of the standard series that fits]
+    projection_angle: Option<AngleArg>,
+    /// Scale, paper to model, such as 1:50 [default: the largest standard scale that fits]
     #[arg(long, value_name = "N:M", value_parser = parse_scale)]
     scale: Option<(u32, u32)>,
-    /// What a unit of the model is [default: m]
+    /// Length unit of the model [default: m]
     #[arg(long)]
     unit: Option<UnitArg>,
-    /// The fourth view [default: isometric]
+    /// Axonometric view beside the three principal views [default: isometric]
     #[arg(long, value_name = "VIEW")]
     axonometric: Option<AxonometricArg>,
-    /// What becomes of hidden lines in the first three views [default: dashed]
+    /// Hidden lines of the three principal views [default: dashed]
     #[arg(long)]
-    hidden: Option<HiddenArg>,
-    /// Leave out the overall dimensions
+    hidden_lines: Option<HiddenArg>,
+    /// Omit the overall dimensions
     #[arg(long)]
     no_dimensions: bool,
-    /// What the sheet shows [default: the names of the models]
+    /// Title in the title block [default: the names of the models]
     #[arg(long)]
     title: Option<String>,
-    /// Who made it
+    /// Author in the title block
     #[arg(long)]
     author: Option<String>,
-    /// When, as it is to be written
+    /// Date in the title block, as it is to be printed
     #[arg(long)]
     date: Option<String>,
-    /// The number of the drawing
+    /// Drawing number in the title block
     #[arg(long)]
     number: Option<String>,
     #[command(flatten)]
     section: SectionArgs,
     #[command(flatten)]
     model_state: ModelStateArgs,
-    /// Threads to use; the sheet does not depend on it [default: as many as there are cores]
+    /// Number of threads; the sheet does not depend on it [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
     #[command(flatten)]
@@ -125,6 +125,7 @@ enum HiddenArg {
     Drawn,
 }
 
+/// Draws the sheet and writes it.
 pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     let output = args.output.clone().map_or_else(|| default_output(args), Ok)?;
     let format = OutputFormat::from_path(&output)?;
@@ -132,7 +133,7 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     let (origin, mut file) = open_input(&args.input, &args.load_options.import_options())?;
     file.models.iter_mut().for_each(|model| args.model_state.apply_to(model));
     args.section.append_to(&mut file);
-    // The views are the sheet's; what the scene says of its camera does not matter.
+    // The sheet has views of its own: the scene's camera must not matter, not even if it is wrong.
     file.camera = pipeline::scene::file::CameraFile::default();
     let mut sheet_file = file.sheet.take().unwrap_or_default();
     apply_overrides(&mut sheet_file, args);
@@ -154,14 +155,14 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     Ok(())
 }
 
-/// The name of the input with another ending, in the current folder.
+/// The input's name with the extension `.pdf`, in the current folder.
 fn default_output(args: &SheetArgs) -> Result<PathBuf, CliError> {
     let stem = args.input.file_stem();
     let stem = stem.ok_or_else(|| CliError::Usage("name the output with -o FILE".to_owned()))?;
     Ok(PathBuf::from(stem).with_extension("pdf"))
 }
 
-/// A page as pixels, at 150 dots to the inch.
+/// Rasterizes a page at [`DOTS_PER_INCH`].
 pub(super) fn rasterize_page(page: &Page) -> Result<Picture, CliError> {
     let size = || {
         let paper = Paper::new(page.size.x, page.size.y).ok()?;
@@ -171,14 +172,14 @@ pub(super) fn rasterize_page(page: &Page) -> Result<Picture, CliError> {
     size().ok_or_else(|| CliError::Usage("the paper is too large for a picture".to_owned()))
 }
 
-/// What the flags say goes before what the scene says.
+/// Replaces the fields of the scene's sheet by the flags that were given.
 fn apply_overrides(sheet: &mut SheetFile, args: &SheetArgs) {
     args.paper.into_iter().for_each(|paper| sheet.paper = paper.into());
     args.orientation.into_iter().for_each(|way| sheet.orientation = Some(way.into()));
-    args.angle.into_iter().for_each(|angle| sheet.projection_angle = angle.into());
+    args.projection_angle.into_iter().for_each(|angle| sheet.projection_angle = angle.into());
     args.unit.into_iter().for_each(|unit| sheet.unit = unit.into());
     args.axonometric.into_iter().for_each(|view| sheet.axonometric_view = view.into());
-    args.hidden.into_iter().for_each(|hidden| sheet.hidden = hidden.into());
+    args.hidden_lines.into_iter().for_each(|hidden| sheet.hidden = hidden.into());
     sheet.scale = args.scale.or(sheet.scale);
     sheet.dimensions &= !args.no_dimensions;
     let texts = [
@@ -192,11 +193,12 @@ fn apply_overrides(sheet: &mut SheetFile, args: &SheetArgs) {
     }
 }
 
+/// Parses `PAPER:MODEL`, two whole numbers above 0.
 fn parse_scale(text: &str) -> Result<(u32, u32), String> {
-    let fault = || "expected paper:thing, such as 1:50 or 2:1".to_owned();
-    let (paper, thing) = text.split_once(':').ok_or_else(fault)?;
+    let fault = || "expected PAPER:MODEL, such as 1:50 or 2:1".to_owned();
+    let (paper, model) = text.split_once(':').ok_or_else(fault)?;
     let number = |digits: &str| digits.trim().parse().ok().filter(|n| *n > 0).ok_or_else(fault);
-    Ok((number(paper)?, number(thing)?))
+    Ok((number(paper)?, number(model)?))
 }
 
 impl From<PaperArg> for PaperSize {

@@ -1,4 +1,5 @@
-//! The title block (ISO 7200): what the sheet shows, who made it, and at what scale, in the lower right corner.
+//! Title block (ISO 7200): title, author, scale and other fields in the lower right corner of a
+//! sheet.
 //!
 //! ```text
 //!   ┌──────────────────┬────────────┬───────────────────────┐
@@ -17,18 +18,20 @@ use crate::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline};
 use glam::DVec2;
 use viewport::{DrawingScale, Rectangle};
 
-/// The width of the block where the paper is wide enough, and its height, in millimetres.
+/// Width of the block where the paper is wide enough, and its height, in millimeters.
 const BLOCK_SIZE: [f64; 2] = [180.0, 32.0];
 
-/// The heights of letters: of names of fields, of what is in them, of the title.
+/// The height of letters of field names, in millimeters.
 const NAME_HEIGHT: f64 = 1.8;
+/// The height of letters of field values, in millimeters.
 const VALUE_HEIGHT: f64 = 3.5;
+/// The height of letters of the title, in millimeters.
 const TITLE_HEIGHT: f64 = 5.0;
 
-/// From the border of a field to its text.
+/// The distance from the border of a field to its text, in millimeters.
 const FIELD_INSET: f64 = 1.5;
 
-/// A field: where it begins and ends, as parts of the block; its name; and what is in it.
+/// A field: its extent as fractions of the block, its name, and its value.
 struct TitleBlockField<'a> {
     x: [f64; 2],
     y: [f64; 2],
@@ -37,7 +40,7 @@ struct TitleBlockField<'a> {
     height: f64,
 }
 
-/// Where the block is within the frame.
+/// The area of the block within the frame.
 pub(super) fn title_block_area(frame: Rectangle) -> Rectangle {
     let width = BLOCK_SIZE[0].min(frame.width());
     let height = BLOCK_SIZE[1].min(frame.height() * 0.3);
@@ -45,7 +48,10 @@ pub(super) fn title_block_area(frame: Rectangle) -> Rectangle {
     rectangle_from_size(right - width, bottom - height, width, height)
 }
 
-/// The borders, the lettering in its three widths, and the symbol.
+/// The borders, the lettering in its three widths, and the projection symbol.
+///
+/// Text that is too wide for its field is reduced in height. On small paper the block shrinks, and
+/// letters with it.
 pub(super) fn title_block_layers(
     sheet: &Sheet,
     title: &str,
@@ -85,8 +91,12 @@ pub(super) fn title_block_layers(
     vec![borders, names, heading, values]
 }
 
+/// The name of the field with the projection symbol.
 const PROJECTION_FIELD: &str = "Projection";
 
+/// The fields in reading order.
+///
+/// Columns and rows are fractions of the block, so that it scales with narrow paper.
 fn title_block_fields<'a>(
     sheet: &Sheet,
     title: &str,
@@ -114,6 +124,7 @@ fn title_block_fields<'a>(
     ]
 }
 
+/// The projection symbol in its field.
 fn symbol_group(sheet: &Sheet, cell: Rectangle) -> Group {
     let height = (cell.height() * 0.62).min(cell.width() * 0.2);
     let middle = DVec2::new(cell.x() + cell.width() * 0.6, cell.y() + cell.height() - height * 0.8);
@@ -121,6 +132,7 @@ fn symbol_group(sheet: &Sheet, cell: Rectangle) -> Group {
     Group { strokes, ..Group::default() }
 }
 
+/// A label as a group.
 fn label_group(label: &Label<'_>) -> Group {
     Group { strokes: label.strokes(), ..Group::default() }
 }

@@ -1,17 +1,18 @@
-//! Everything that is wrong with a file, and not only what stops it from being drawn.
+//! glTF validation: every violation of the specification in a file, not only the first fatal one.
 //!
-//! Loading asks "can this be drawn?" and stops at the first thing that forbids it. A check asks "is this as the
-//! specification demands?" and goes on: it compares the JSON with the schema, follows every reference, reads every
-//! number, and at the end has the file loaded as well, so that its answer includes what loading says.
+//! Loading stops at the first error that prevents drawing. Validation goes on: it compares the JSON
+//! with the schema, resolves every reference, reads every accessor element, and finally loads the
+//! file, so that its report includes the diagnostics of the loader.
 //!
 //! ```text
-//!  bytes ─glb─► JSON ─walk, by the tables of schema─► references ─nodes, meshes, skins, …─► demands ─data─► numbers
-//!                                                                                 └─loading─► what is left out
+//!  bytes ─glb─► JSON ─schema_walk, by the tables of schema─► references
+//!        ─nodes, meshes, skins, animations─► rules for elements ─data─► diagnostics ◄─load_outcome─ loader
 //! ```
 //!
-//! It works on the JSON as it stands in the file and takes nothing for granted: members may be missing or of any type. The
-//! rules are those of glTF 2.0, and they have the names and severities that the Khronos validator has for them. The
-//! [limits](super::Limits) hold here as for loading: time and memory follow what is in the files, not what they claim.
+//! It works on the raw JSON, in which members may be missing or of any type. The rules are those of
+//! glTF 2.0, under the codes and severities of the Khronos glTF validator. The
+//! [limits](super::Limits) hold as for loading: time and memory are bounded by the size of the
+//! files, not by the sizes they declare.
 
 mod accessors;
 mod animations;
@@ -37,12 +38,13 @@ mod store;
 mod uris;
 mod usage;
 
-pub use report::{CheckReport, Problem, Severity};
+pub use report::CheckReport;
 
-use super::document::check_json_limits;
-use super::error::Diagnostic;
+use super::ImportOptions;
+use super::gltf::document::check_json_limits;
+use super::gltf::import_gltf;
 use super::uri_resolver::{self, UriResolver};
-use super::{ImportOptions, import_gltf};
+use crate::diagnostic::Diagnostic;
 use data::ElementRules;
 use diagnostics::Diagnostics;
 use document::CheckedDocument;
@@ -51,15 +53,15 @@ use std::path::Path;
 use store::BufferStore;
 use usage::UsageMap;
 
-/// Checks a `.gltf` or `.glb` file and all that belongs to it.
+/// Validates a `.gltf` or `.glb` file with its buffers and images.
 ///
-/// A file that cannot be read is a report with that error: there is always a report.
+/// There is always a report: a file that cannot be read is an error in it.
 ///
 /// ```no_run
-/// use model::{ImportOptions, check};
-/// let report = check("chair.glb".as_ref(), &ImportOptions::default());
-/// for problem in &report.problems {
-///     println!("{problem}");
+/// use model::import::{ImportOptions, check_file};
+/// let report = check_file("chair.glb".as_ref(), &ImportOptions::default());
+/// for diagnostic in &report.diagnostics {
+///     println!("{diagnostic}");
 /// }
 /// println!("{}", report.summary());
 /// ```
@@ -69,14 +71,17 @@ pub fn check_file(path: &Path, options: &ImportOptions) -> CheckReport {
     let resolver = |length| UriResolver::new(path, length, options);
     let result = uri_resolver::read_file(path, &options.limits, "").and_then(|bytes| {
         check_content(&bytes, &resolver(bytes.len())?, &findings);
-        // A resolver of its own: what the check has read does not count against the loader's limits.
+        // A resolver of its own: the bytes read by the validation do not count against the
+        // loader's limits.
         import_gltf(path, &bytes, &resolver(bytes.len())?, options)
     });
     build_report(path, result, findings)
 }
 
-/// Checks a file that is in memory; `name` stands for its path. As for [`load_bytes`](super::load_bytes), only with a
-/// [root](ImportOptions::root) are other files read.
+/// Validates a file in memory; `name` stands for its path in the report.
+///
+/// As for [`load_bytes`](super::load_bytes), other files are read only with a
+/// [root](ImportOptions::root).
 #[must_use]
 pub fn check_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> CheckReport {
     let path = Path::new(name);
@@ -89,6 +94,7 @@ pub fn check_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> CheckRe
     build_report(path, result, findings)
 }
 
+/// Adds the diagnostics of the loader, and counts.
 fn build_report(
     path: &Path,
     result: Result<crate::Model, Diagnostic>,
@@ -106,10 +112,11 @@ fn build_report(
     }
 }
 
+/// Validates the container and its JSON, as far as it can be parsed.
 fn check_content(bytes: &[u8], resolver: &UriResolver<'_>, findings: &Diagnostics) {
     let parts = glb::check_container(bytes, findings);
     let Some(text) = parts.json.map(|range| &bytes[range]) else { return };
-    // What is too deep or has too many values, the loader refuses and tells.
+    // JSON that is too deep or too large is rejected and reported by the loader.
     if check_json_limits(text, resolver.limits).is_err() {
         return;
     }
@@ -120,13 +127,17 @@ fn check_content(bytes: &[u8], resolver: &UriResolver<'_>, findings: &Diagnostic
             check_document(&document, resolver, chunk, parts.is_binary);
         }
         Err(error) if parts.is_binary || text.starts_with(b"{") => {
-            let message = format_args!("the JSON is not well formed: {error}");
+            let message = format_args!("invalid JSON: {error}");
             findings.add(&codes::INVALID_JSON, "", message);
         }
         Err(_) => {}
     }
 }
 
+/// Runs all checks on a parsed document.
+///
+/// The order matters: the schema walk first, because it reports missing and mistyped members that
+/// later checks skip; the element data after all rules for it are known; unused objects last.
 fn check_document(
     document: &CheckedDocument<'_>,
     resolver: &UriResolver<'_>,

@@ -1,9 +1,10 @@
 //! Whose conventions an explanation speaks in: the canonical volume, the side that view space looks to, and how pixels are
 //! counted. The picture does not depend on them.
 
+use homog::PixelConvention;
 use projection::{Convention, Handedness, NdcY};
 use std::str::FromStr;
-use viewport::{DepthRange, PixelConvention, Rectangle, Viewport, ViewportError};
+use viewport::{DepthRange, Rectangle, Viewport, ViewportError};
 
 /// The conventions of a book or of a graphics interface.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]

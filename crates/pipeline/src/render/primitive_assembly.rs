@@ -15,7 +15,7 @@ use model::ModelInstance;
 use model::{
     Material, MeshInstance, Primitive, SkinnedPrimitive, TextureInfo, TextureSlot, Topology,
 };
-use raster::{CullMode, Frame, Opacity, signed_area};
+use raster::{CullMode, Frame, MeshTriangles, Opacity, signed_area};
 use shade::{Draw, DrawKind, MaterialTextures, MipChain};
 use std::ops::Range;
 
@@ -171,7 +171,9 @@ impl<'a> PrimitiveAssembler<'a> {
         let triangles = draw.primitive.indices.as_chunks::<3>().0;
         for (whole, cut) in images.triangle_runs() {
             let (screen, first_id) = (&images.screen_vertices, draw.first_id);
-            self.memory.frame.add_mesh_runs(screen, triangles, whole, first_id, cover, cull);
+            let mesh =
+                MeshTriangles { vertices: screen, triangles, first_id, opacity: cover, cull };
+            self.memory.frame.add_mesh_runs(mesh, whole);
             self.clip_and_submit(draw, &images, cut, cover, cull);
         }
         self.memory.mesh = images;

@@ -9,7 +9,7 @@ use clip::Outcode;
 use core::ops::Range;
 use homog::{Clip, HPoint, Model, Projective};
 use model::{Primitive, SkinnedPrimitive, Topology};
-use raster::{MeshSelection, ScreenVertex, SimdLevel};
+use raster::{MeshSelection, ScreenVertex, SimdLevel, VertexProjection};
 use std::borrow::Cow;
 
 /// The images of one primitive's vertices; the memory is used again for the next.
@@ -80,16 +80,12 @@ impl ProjectedMesh {
         positions: &[[f32; 3]],
         threads: usize,
     ) {
-        let instructions = SimdLevel::best();
-        ScreenVertex::project_selected_positions(
-            positions,
-            &self.unclipped,
-            model_to_clip,
-            stage.ndc_to_screen,
-            instructions,
-            threads,
-            &mut self.screen_vertices,
-        );
+        let simd_level = SimdLevel::best();
+        let ndc_to_screen = stage.ndc_to_screen;
+        let projection =
+            VertexProjection { to_clip: model_to_clip, ndc_to_screen, simd_level, threads };
+        let screen_vertices = &mut self.screen_vertices;
+        projection.project_selected_positions(positions, &self.unclipped, screen_vertices);
         if self.to_clip.is_empty() {
             return;
         }
@@ -105,7 +101,7 @@ impl ProjectedMesh {
                 outcodes,
             );
             let screen = &mut self.screen_vertices[run];
-            ScreenVertex::divide_and_snap_points(clip, stage.ndc_to_screen, instructions, screen);
+            ScreenVertex::divide_and_snap_points(clip, ndc_to_screen, simd_level, screen);
             for (vertex, code) in screen.iter_mut().zip(outcodes) {
                 *vertex = vertex.filter(|_| code.is_inside());
             }

@@ -197,7 +197,7 @@ impl Renderer {
                 frame.reset(width, height, samples)?;
                 frame
             }
-            _ => Frame::for_region([x, y], [width, height], samples)?,
+            _ => Frame::for_region(PixelRect { x, y, width, height }, samples)?,
         };
         let draws = DrawList { draws: recycle_draws(std::mem::take(&mut self.draws)) };
         let images = std::mem::take(&mut self.mesh);

@@ -1,8 +1,8 @@
 //! Resolution of the background: a color, or a backdrop of a gradient or an image.
 
 use super::file::{BackgroundFile, Color, EnvironmentFile, SceneFile};
-use super::syntax::PathStep::{self, Field};
 use super::surrounding_light::read_image_bytes;
+use super::syntax::PathStep::{self, Field};
 use super::{Origin, SceneError};
 use model::import::decode_image;
 use shade::Backdrop;

@@ -4,9 +4,9 @@
 //! the box's depths the near and far planes. Those that are given by vanishing points on the picture fix how the eye looks and where
 //! the window is beside its line of sight; framing finds where the eye stands.
 
-use super::{Origin, SceneError};
 use super::file::{Finite, FromFile, ProjectionFile};
 use super::view_projection::{CameraResolver, PROJECTION_PATH, VIEW_PATH};
+use super::{Origin, SceneError};
 use camera::ViewProjection;
 use camera::{Basis, Camera, Slopes, frame_perspective};
 use glam::DVec3;

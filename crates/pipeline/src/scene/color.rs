@@ -98,7 +98,9 @@ fn hex_help() -> String {
 fn color_of_numbers(node: &Node<'_>) -> Option<[u8; 3]> {
     let items = &unnamed_group(node)?.items;
     let number = |index: usize| match items.get(index)?.value.kind {
-        NodeKind::Number(word) => super::syntax::parse_number(word).filter(|x| (0.0..=1.0).contains(x)),
+        NodeKind::Number(word) => {
+            super::syntax::parse_number(word).filter(|x| (0.0..=1.0).contains(x))
+        }
         _ => None,
     };
     let code = |index: usize| Some(libm::round(number(index)? * 255.0) as u8);

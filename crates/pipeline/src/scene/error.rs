@@ -116,7 +116,9 @@ impl SceneErrors {
         let count = 1 + self.others.len();
         if let Some(more) = count.checked_sub(Self::SHOWN).filter(|more| *more > 0) {
             let mistakes = if more == 1 { "mistake" } else { "mistakes" };
-            text.push_str(&format!("\n\n… and {more} more {mistakes}; `alberti scene check` lists all"));
+            text.push_str(&format!(
+                "\n\n… and {more} more {mistakes}; `alberti scene check` lists all"
+            ));
         }
         text
     }

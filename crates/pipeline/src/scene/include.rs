@@ -95,12 +95,8 @@ pub(super) struct GatheredScene {
 
 /// Parses the text of a scene and the files that it includes.
 pub(super) fn gather_includes(origin: &Origin, allowed: &[PathBuf]) -> GatheredScene {
-    let mut resolver = IncludeResolver {
-        origin,
-        allowed,
-        includes: IncludeMap::default(),
-        mistakes: Vec::new(),
-    };
+    let mut resolver =
+        IncludeResolver { origin, allowed, includes: IncludeMap::default(), mistakes: Vec::new() };
     let source =
         SourceFile { file: None, name: &origin.file, text: &origin.text, folder: Path::new("") };
     let own_path = origin.folder.join(Path::new(&origin.file).file_name().unwrap_or_default());
@@ -170,8 +166,10 @@ impl IncludeResolver<'_> {
         let fields = top_level_fields(source.text);
         let fields = REPLACED_FIELDS.into_iter().filter(|field| fields.contains(field));
         let fields = fields.map(|field| (field, source.file)).collect();
-        let of_source = |indices: Vec<usize>| indices.into_iter().map(|at| (source.file, at)).collect();
-        let lists = retained.into_iter().map(|(list, indices)| (list, of_source(indices))).collect();
+        let of_source =
+            |indices: Vec<usize>| indices.into_iter().map(|at| (source.file, at)).collect();
+        let lists =
+            retained.into_iter().map(|(list, indices)| (list, of_source(indices))).collect();
         merge_scenes(below, MergedScene { file, fields, lists })
     }
 
@@ -183,7 +181,8 @@ impl IncludeResolver<'_> {
     ) -> Result<MergedScene, (String, Option<&'static str>)> {
         if !self.origin.allows_path(path, self.allowed) {
             let help = "keep included files below the scene's folder, or allow another with --allow-outside DIR";
-            let message = format!("the path \"{}\" leads out of the scene's folder", path.display());
+            let message =
+                format!("the path \"{}\" leads out of the scene's folder", path.display());
             return Err((message, Some(help)));
         }
         if self.includes.files.len() == MAX_INCLUDED_FILES {
@@ -215,7 +214,8 @@ impl IncludeResolver<'_> {
 fn top_level_fields(text: &str) -> Vec<&str> {
     let root = parse_tree(text).root;
     let group = root.as_ref().and_then(|root| root.group());
-    let keys = group.into_iter().flat_map(|group| &group.items).filter_map(|item| item.key.as_ref());
+    let keys =
+        group.into_iter().flat_map(|group| &group.items).filter_map(|item| item.key.as_ref());
     keys.map(|key| key.name).collect()
 }
 

@@ -226,7 +226,7 @@ pub(super) fn is_viewport_field(field: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use camera::{Camera, StereoRig, Window};
+    use camera::{Camera, StereoRig, ViewWindow};
     use homog::Vector;
     use projection::{Convention, Frustum};
 
@@ -235,9 +235,9 @@ mod tests {
         let camera =
             Camera::look_at(Point::new(4.0, 3.0, 6.0), Point::new(0.0, 1.0, 0.0), Vector::Y)
                 .expect("a camera");
-        let window = Window { left: -0.8, right: 1.0, bottom: -0.5, top: 0.5, distance: 1.0 };
-        let of = |window: Window| {
-            let Window { left, right, bottom, top, distance } = window;
+        let window = ViewWindow { left: -0.8, right: 1.0, bottom: -0.5, top: 0.5, distance: 1.0 };
+        let of = |window: ViewWindow| {
+            let ViewWindow { left, right, bottom, top, distance } = window;
             let frustum =
                 Frustum::new(left, right, bottom, top, distance, 50.0).expect("a frustum");
             frustum.view_to_clip(Convention::CHAPTER)

@@ -136,7 +136,14 @@ fn instance_transforms(
             };
             Ok(list.iter().map(way).collect())
         }
-        InstancesFile::Circle { count, radius, axis, start_degrees, sweep_degrees, rotate_copies } => {
+        InstancesFile::Circle {
+            count,
+            radius,
+            axis,
+            start_degrees,
+            sweep_degrees,
+            rotate_copies,
+        } => {
             let at = || {
                 let help = Some("such as (0, 1, 0) for a level circle".to_owned());
                 let message = "the axis of the circle is (0, 0, 0), which is no direction";
@@ -258,8 +265,7 @@ mod tests {
 
     #[test]
     fn a_listed_copy_is_scaled_then_turned_then_moved() {
-        let list =
-            "instances: List([(scale: 3, rotation_degrees: (0, 90, 0), translation: (0, 0, 1)), ()])";
+        let list = "instances: List([(scale: 3, rotation_degrees: (0, 90, 0), translation: (0, 0, 1)), ()])";
         assert_eq!(instance_points(list).expect("places"), [[3.0, 0.0, 1.0], [0.0, 0.0, 1.0]]);
     }
 

@@ -174,7 +174,8 @@ fn resolve_cone(origin: &Origin, index: usize, light: &LightFile) -> Result<[f32
         return Ok([inner, outer].map(|angle| libm::cos(angle.to_radians()) as f32));
     }
     let path = [Field("lights"), Index(index), Field("outer_cone_degrees")];
-    let message = format!("the falloff of a spot cannot begin at {inner} degrees and end at {outer}");
+    let message =
+        format!("the falloff of a spot cannot begin at {inner} degrees and end at {outer}");
     let help = "0 <= inner_cone_degrees < outer_cone_degrees <= 90".to_owned();
     Err(origin.error_at(&path, message, Some(help)))
 }

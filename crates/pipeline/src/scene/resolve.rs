@@ -1,20 +1,18 @@
 //! From what a person wrote to what drawing needs, or to an error that points.
 
 use super::backdrop::{resolve_backdrop, resolve_background_color};
-use super::file::{
-    BackgroundFile, Choice, Finite, MaterialFile, ModelFile, OverlayFile,
-};
+use super::file::{BackgroundFile, Choice, Finite, MaterialFile, ModelFile, OverlayFile};
 use super::ground::resolve_ground;
 use super::insets::resolve_insets;
 use super::instances;
 use super::lights::resolve_lights;
 use super::material_overrides::override_materials;
-use super::suggest::suggest_name;
 use super::number::Positive;
 use super::section::resolve_sections;
-use super::syntax::PathStep::{Field, Index};
 use super::style::resolve_style;
+use super::suggest::suggest_name;
 use super::surrounding_light::resolve_environment;
+use super::syntax::PathStep::{Field, Index};
 use super::validate::{errors_around_models, errors_of_resolution};
 use super::view_projection::resolve_view_projection;
 use super::{ImageSpec, Origin, ResolveError, Scene, SceneError, SceneFile, Style};
@@ -22,7 +20,7 @@ use drawing::Overlay;
 use homog::Bounds;
 use model::Model;
 use model::ModelInstance;
-use model::import::{ImportError, ImportErrorKind, ImportOptions, load, load_bytes};
+use model::import::{ImportError, ImportOptions, load, load_bytes};
 use model::world_points;
 use raster::Samples;
 use shade::ToneMapper;
@@ -47,10 +45,11 @@ impl Scene {
         file: &SceneFile,
         options: &ResolveOptions,
     ) -> Result<Self, ResolveError> {
-        let loaded =
-            resolve_image(origin, file).map_err(ResolveError::from).and_then(|_| load_models(origin, file, options));
-        let models = loaded
-            .map_err(|error| error.or_all(|| errors_of_resolution(origin, file, options)))?;
+        let loaded = resolve_image(origin, file)
+            .map_err(ResolveError::from)
+            .and_then(|_| load_models(origin, file, options));
+        let models =
+            loaded.map_err(|error| error.or_all(|| errors_of_resolution(origin, file, options)))?;
         let allowed = &options.import.allow_outside;
         let frame = || Self::resolve_with_models(origin, file, models.clone(), allowed);
         let scene = options.import.timings.measure("frame", frame);
@@ -99,7 +98,10 @@ impl Scene {
             };
             file.radius.map_or_else(usual, Positive::value)
         });
-        let develop = ToneMapper::new(file.image.exposure_ev.map_or(0.0, Finite::value), file.image.tone_mapping);
+        let develop = ToneMapper::new(
+            file.image.exposure_ev.map_or(0.0, Finite::value),
+            file.image.tone_mapping,
+        );
         let style = resolve_style(origin, &file.style)?;
         // Nothing is mirrored in line drawings.
         let is_lit = matches!(style, Style::Shaded | Style::Flat);
@@ -238,13 +240,20 @@ impl From<SceneError> for ModelError {
 
 impl ModelError {
     /// The fault, told where the scene file asks for the model, if there is such a file.
-    pub(super) fn into_resolve_error(self, origin: &Origin, number: usize, entry: &ModelFile) -> ResolveError {
+    pub(super) fn into_resolve_error(
+        self,
+        origin: &Origin,
+        number: usize,
+        entry: &ModelFile,
+    ) -> ResolveError {
         match self {
             Self::File(error) if origin.text.is_empty() => error.into(),
             Self::File(error) => {
                 let at = [Field("models"), Index(number), Field("path")];
                 let help = suggest_model_file(&origin.folder.join(&entry.path));
-                origin.error_at(&at, format!("{}: {}", entry.path, error.diagnostic), help).into()
+                origin
+                    .error_at(&at, format!("{}: {}", entry.path, error.diagnostic.sentence()), help)
+                    .into()
             }
             Self::Scene(error) => error.into(),
         }
@@ -303,14 +312,14 @@ fn choice_error(
     entry: &ModelFile,
     error: ImportError,
 ) -> ModelError {
-    if origin.text.is_empty() || error.diagnostic.kind != ImportErrorKind::NotFound {
+    if origin.text.is_empty() || error.diagnostic.code != model::codes::NO_SUCH_ITEM {
         return ModelError::File(error);
     }
     let scene = entry.scene.is_some() && error.diagnostic.location == "/scenes";
     let field = if scene { "scene" } else { "variant" };
     let message = format!("{}: {}", entry.path, error.diagnostic.message);
     let at = [Field("models"), Index(number), Field(field)];
-    origin.error_at(&at, message, Some(error.diagnostic.help)).into()
+    origin.error_at(&at, message, error.diagnostic.help).into()
 }
 
 /// The number of the animation that is wanted, or the first.

@@ -42,7 +42,8 @@ pub(super) fn resolve_section(
     let unit = Normal::<World>::new(-x / largest, -y / largest, -z / largest).normalized();
     let fault = || {
         let path = [Field("sections"), Index(at), Field("normal")];
-        let help = "the normal points to the half that is removed, such as normal: (0, 0, 1)".to_owned();
+        let help =
+            "the normal points to the half that is removed, such as normal: (0, 0, 1)".to_owned();
         origin.error_at(&path, "a section needs a direction: its normal has no length", Some(help))
     };
     let unit = unit.filter(|_| largest > 0.0).ok_or_else(fault)?;

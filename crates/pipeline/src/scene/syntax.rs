@@ -14,5 +14,5 @@ mod tree;
 pub(super) use literal::{parse_integer, parse_number, unescape_string};
 pub(super) use parser::{SAMPLE_SCENE, SyntaxTree, parse_tree};
 pub(super) use tokens::{Token, TokenKind, tokenize};
-pub(super) use tree::{Group, Item, Key, Node, NodeKind, has_value, span_of};
 pub(crate) use tree::PathStep;
+pub(super) use tree::{Group, Item, Key, Node, NodeKind, has_value, span_of};

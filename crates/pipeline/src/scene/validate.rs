@@ -12,8 +12,7 @@ use super::lights::check_light;
 use super::origin::Origin;
 use super::resolve::{
     ModelError, load_model, missing_model_error, outside_folder_error, resolve_image,
-    resolve_image_size,
-    resolve_max_anisotropy, resolve_overlays, resolve_samples,
+    resolve_image_size, resolve_max_anisotropy, resolve_overlays, resolve_samples,
 };
 use super::section::{check_section_count, resolve_section};
 use super::shadows::resolve_shadow;
@@ -116,7 +115,9 @@ fn load_valid_models(
             Ok(model) => instances::instantiate_model(origin, index, entry, &Arc::new(model)),
             Err(ModelError::Scene(error)) => Err(error),
             Err(error) => match error.into_resolve_error(origin, index, entry) {
-                ResolveError::Scene(scene_errors) if with_files => Err(scene_errors.first().clone()),
+                ResolveError::Scene(scene_errors) if with_files => {
+                    Err(scene_errors.first().clone())
+                }
                 _ => {
                     is_complete = false;
                     continue;
@@ -148,9 +149,8 @@ fn errors_of_scene(
     errors.extend(resolve_overlays(origin, &file.overlays, &models, image).err());
     if errors.is_empty() {
         let insets = resolve_insets(origin, file, &models, allowed).map(drop);
-        let scene = insets.and_then(|()| {
-            Scene::resolve_without_insets(origin, file, models, allowed).map(drop)
-        });
+        let scene = insets
+            .and_then(|()| Scene::resolve_without_insets(origin, file, models, allowed).map(drop));
         if let Err(ResolveError::Scene(error)) = scene {
             errors.extend(Vec::from(error));
         }
@@ -199,7 +199,11 @@ fn errors_of_description(
 }
 
 /// The paths of models that lead nowhere, or out of the scene's folder. The files are not read.
-fn errors_of_model_paths(origin: &Origin, file: &SceneFile, allowed: &[PathBuf]) -> Vec<SceneError> {
+fn errors_of_model_paths(
+    origin: &Origin,
+    file: &SceneFile,
+    allowed: &[PathBuf],
+) -> Vec<SceneError> {
     let path_error = |(index, entry): (usize, &super::file::ModelFile)| {
         let error = if origin.allows_path(Path::new(&entry.path), allowed) {
             let path = origin.folder.join(&entry.path);

@@ -140,7 +140,7 @@ impl<'a> CameraResolver<'a> {
     pub(super) fn nothing_to_draw_error(&self) -> SceneError {
         // What the importer left out is the likely reason.
         let warnings = self.models.iter().flat_map(|placed| &placed.model.warnings).next();
-        let help = warnings.map(|warning| format!("{}: {}", warning.pointer, warning.message));
+        let help = warnings.map(|warning| format!("{}: {}", warning.location, warning.message));
         let message = "there is nothing to draw: the models have no points, lines or triangles";
         self.view_error(message, help)
     }

@@ -79,7 +79,9 @@ pub(super) fn suggest_field(
             let help = format!("did you mean `{name}`?");
             Suggestion { help, sibling: Some(name), kind: SuggestionKind::Similar }
         }
-        None => Suggestion { help: list_names(siblings), sibling: None, kind: SuggestionKind::List },
+        None => {
+            Suggestion { help: list_names(siblings), sibling: None, kind: SuggestionKind::List }
+        }
     }
 }
 
@@ -105,7 +107,8 @@ pub(super) fn suggest_variant(
     let same_spelling = names.iter().copied().find(|name| normalize(name) == normalize(word));
     let similar = same_spelling.or_else(|| closest_name(word, &names));
     let is_very_similar = similar.is_some_and(|name| strsim::jaro_winkler(word, name) > 0.9);
-    let elsewhere = example_elsewhere(&targets, top_level).filter(|_| !is_very_similar && same_spelling.is_none());
+    let elsewhere = example_elsewhere(&targets, top_level)
+        .filter(|_| !is_very_similar && same_spelling.is_none());
     match (elsewhere, similar) {
         (Some(example), _) => known(format!("write it as {example}")),
         (None, Some(name)) => {
@@ -121,7 +124,8 @@ fn targets_of(word: &str) -> Vec<Target> {
     let word = normalize(word);
     let legacy = LEGACY_WORDS.iter().filter(|legacy| normalize(legacy.old) == word);
     let legacy = legacy.map(|legacy| (legacy.owner, legacy.new));
-    let foreign = FOREIGN_WORDS.iter().filter(|(words, ..)| words.split(' ').any(|known| known == word));
+    let foreign =
+        FOREIGN_WORDS.iter().filter(|(words, ..)| words.split(' ').any(|known| known == word));
     legacy.chain(foreign.map(|&(_, owner, name)| (owner, name))).collect()
 }
 
@@ -137,7 +141,8 @@ fn legacy_note(owner: &str, word: &str) -> &'static str {
 
 /// How the first of the targets is written, those in the same field of the scene before others.
 fn example_elsewhere(targets: &[Target], top_level: Option<&str>) -> Option<String> {
-    let examples = targets.iter().filter_map(|(owner, name)| example_of(SceneFile::ENTRY, owner, name));
+    let examples =
+        targets.iter().filter_map(|(owner, name)| example_of(SceneFile::ENTRY, owner, name));
     nearest_example(&examples.collect::<Vec<_>>(), top_level)
 }
 
@@ -145,7 +150,8 @@ fn example_elsewhere(targets: &[Target], top_level: Option<&str>) -> Option<Stri
 fn declared_elsewhere(word: &str) -> Vec<String> {
     let word = normalize(word);
     let fields = fields_where(SceneFile::ENTRY, |field| normalize(field) == word);
-    let example = |(owner, field): &(String, &'static str)| example_of(SceneFile::ENTRY, owner, field);
+    let example =
+        |(owner, field): &(String, &'static str)| example_of(SceneFile::ENTRY, owner, field);
     fields.iter().filter_map(example).collect()
 }
 

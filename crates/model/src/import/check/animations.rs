@@ -1,6 +1,6 @@
-//! Animations: samplers, channels, and what they move (glTF 2.0 §3.11).
+//! Animations: samplers, channels and their targets (glTF 2.0 §3.11).
 
-use super::codes::{self, Code};
+use super::codes::{self, DiagnosticCode};
 use super::data::{ElementRule, ElementRules};
 use super::document::{
     CheckedDocument, array_items, extension_object, index_member, integer_member, string_member,
@@ -12,7 +12,7 @@ use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fmt::Display;
 
-/// Checks all animations; notes what is demanded of accessors.
+/// Validates all animations, and records rules for the elements of their accessors.
 pub(super) fn check_animations(
     document: &CheckedDocument<'_>,
     usage: &UsageMap<'_>,
@@ -47,31 +47,38 @@ pub(super) fn check_animations(
             checker.report(
                 &codes::UNUSED_OBJECT,
                 &format!("samplers/{number}"),
-                "no channel uses it",
+                "unused: no channel refers to it",
             );
         }
     }
 }
 
+/// The validation of one animation.
 struct AnimationChecker<'a, 'd> {
     document: &'a CheckedDocument<'a>,
     usage: &'a UsageMap<'a>,
+    /// The rules for the elements of accessors, collected for the pass over the data.
     demands: &'d mut ElementRules,
+    /// The samplers of the animation, to which its channels refer by index.
     samplers: &'a [Value],
-    /// How many morph targets each mesh has.
+    /// The number of morph targets of each mesh.
     targets: &'a [usize],
+    /// The JSON pointer of the animation.
     pointer: String,
 }
 
 impl<'a> AnimationChecker<'a, '_> {
-    fn report(&self, code: &Code, member: &str, message: impl Display) {
+    /// Reports a diagnostic at a member of the animation.
+    fn report(&self, code: &DiagnosticCode, member: &str, message: impl Display) {
         self.document.diagnostics.add(code, format_args!("{}/{member}", self.pointer), message);
     }
 
+    /// The JSON of an accessor, if it exists.
     fn accessor_json(&self, at: Option<usize>) -> Option<&'a Value> {
         self.document.root_array("accessors").get(at?)
     }
 
+    /// The accessors of a sampler: their uses and strides, and its keyframe times.
     fn check_sampler(&mut self, number: usize, sampler: &Value) {
         for (key, role) in [("input", AccessorUse::Input), ("output", AccessorUse::Output)] {
             let Some(at) = index_member(sampler, key) else { continue };
@@ -82,7 +89,7 @@ impl<'a> AnimationChecker<'a, '_> {
             }
             self.usage.note_accessor(at, role, &pointer);
             if self.usage.has_stride(at) {
-                let message = "the view must not have a stride";
+                let message = "byteStride must not be set on this buffer view";
                 self.report(&codes::ANIMATION_SAMPLER_ACCESSOR_WITH_BYTESTRIDE, &member, message);
             }
             if role == AccessorUse::Input {
@@ -91,10 +98,11 @@ impl<'a> AnimationChecker<'a, '_> {
         }
     }
 
+    /// Keyframe times: bounded, non-normalized float scalars, at least two for a cubic spline.
     fn check_input(&mut self, at: usize, sampler: &Value, member: &str, pointer: &str) {
         let Some(accessor) = self.accessor_json(Some(at)) else { return };
         if accessor.get("min").is_none() || accessor.get("max").is_none() {
-            let message = "the accessor of times must have min and max";
+            let message = "an accessor of times must have min and max";
             self.report(&codes::ANIMATION_SAMPLER_INPUT_ACCESSOR_WITHOUT_BOUNDS, member, message);
         }
         let Some(layout) = AccessorLayout::from_accessor(accessor) else { return };
@@ -103,15 +111,18 @@ impl<'a> AnimationChecker<'a, '_> {
         {
             self.demands.add(at, ElementRule::Times, pointer);
         } else {
-            let message = format_args!("times cannot be {}", layout.format_name());
+            let message = format_args!("the format of times cannot be {}", layout.format_name());
             self.report(&codes::ANIMATION_SAMPLER_INPUT_ACCESSOR_INVALID_FORMAT, member, message);
         }
         if string_member(sampler, "interpolation") == Some("CUBICSPLINE") && layout.count < 2 {
-            let message = "a spline needs two keys";
+            let message = "a cubic spline needs at least two keyframes";
             self.report(&codes::ANIMATION_SAMPLER_INPUT_ACCESSOR_TOO_FEW_ELEMENTS, member, message);
         }
     }
 
+    /// A channel: its target is animated once and can be animated, and its sampler exists.
+    ///
+    /// `known` has the targets of the channels before it, as pairs of node and path.
     fn check_channel(
         &mut self,
         number: usize,
@@ -130,7 +141,9 @@ impl<'a> AnimationChecker<'a, '_> {
         let node = index_member(target, "node");
         if let Some(node) = node.filter(|_| !has_pointer) {
             if !known.insert((node, path)) {
-                let message = format_args!("another channel moves the {path} of node {node}");
+                let message = format_args!(
+                    "duplicate target: another channel animates the {path} of node {node}"
+                );
                 self.report(
                     &codes::ANIMATION_DUPLICATE_TARGETS,
                     &format!("{member}/target"),
@@ -142,7 +155,7 @@ impl<'a> AnimationChecker<'a, '_> {
         let Some(at) = index_member(channel, "sampler") else { return };
         let Some(sampler) = self.samplers.get(at) else {
             let count = self.samplers.len();
-            let message = format_args!("there is no sampler {at}: there are {count}");
+            let message = format_args!("sampler {at} does not exist: there are {count}");
             return self.report(
                 &codes::UNRESOLVED_REFERENCE,
                 &format!("{member}/sampler"),
@@ -155,19 +168,24 @@ impl<'a> AnimationChecker<'a, '_> {
         self.check_output(sampler, path, targets as u64, &format!("{member}/sampler"));
     }
 
+    /// A target by JSON pointer (KHR_animation_pointer).
     fn check_pointer_target(&self, target: &Value, path: &str, member: &str) {
         if path != "pointer" {
-            let message = format_args!("with a pointer the path must be \"pointer\", not {path:?}");
+            let message = format_args!(
+                "with KHR_animation_pointer the path must be \"pointer\", not {path:?}"
+            );
             let code = &codes::KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_PATH;
             self.report(code, &format!("{member}/target/path"), message);
         }
         if target.get("node").is_some() {
-            let message = "with a pointer there must be no node";
+            let message = "with KHR_animation_pointer the target must not have a node";
             let code = &codes::KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_NODE;
             self.report(code, &format!("{member}/target/node"), message);
         }
     }
 
+    /// A target node: morph weights need morph targets, and a node with a matrix cannot be
+    /// animated, because an animation replaces one of translation, rotation and scale.
     fn check_node_target(&self, at: usize, path: &str, member: &str) {
         let Some(node) = self.document.root_array("nodes").get(at) else { return };
         let member = format!("{member}/target");
@@ -179,11 +197,15 @@ impl<'a> AnimationChecker<'a, '_> {
                 self.report(code, &member, message);
             }
         } else if node.get("matrix").is_some() {
-            let message = format_args!("node {at} has a matrix, which cannot be animated");
+            let message = format_args!("node {at} has a matrix and cannot be animated");
             self.report(&codes::ANIMATION_CHANNEL_TARGET_NODE_MATRIX, &member, message);
         }
     }
 
+    /// The values of a channel: their format, and as many as the keyframes need.
+    ///
+    /// There is one value per keyframe; for morph weights one per target; and three of each for a
+    /// cubic spline, with its in- and out-tangents (glTF 2.0 §3.11).
     fn check_output(&mut self, sampler: &Value, path: &str, targets: u64, member: &str) {
         let at = index_member(sampler, "output");
         let Some(layout) = self.accessor_json(at).and_then(AccessorLayout::from_accessor) else {
@@ -192,7 +214,7 @@ impl<'a> AnimationChecker<'a, '_> {
         let spline = string_member(sampler, "interpolation") == Some("CUBICSPLINE");
         let Some(formats) = formats::animation_output_formats(path) else { return };
         if !formats::is_allowed(layout, &formats) {
-            let message = format_args!("the {path} cannot be {}", layout.format_name());
+            let message = format_args!("the format of {path} cannot be {}", layout.format_name());
             self.report(&codes::ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_FORMAT, member, message);
         } else if path == "rotation" {
             let pointer = format!("{}/{member}", self.pointer);
@@ -204,7 +226,7 @@ impl<'a> AnimationChecker<'a, '_> {
         let each = if path == "weights" { targets } else { 1 } * if spline { 3 } else { 1 };
         let expected = keys.unwrap_or(0).saturating_mul(each);
         if expected != 0 && expected != layout.count {
-            let message = format_args!("there are {} values, and {expected} are due", layout.count);
+            let message = format_args!("expected {expected} values, found {}", layout.count);
             self.report(&codes::ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_COUNT, member, message);
         }
     }

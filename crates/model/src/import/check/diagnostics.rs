@@ -1,40 +1,47 @@
-//! The list of problems, kept short even if a file has millions, and without doubles.
+//! The collection of diagnostics: deduplicated, and bounded even if a file has millions.
 
-use super::codes::Code;
-use super::report::{Problem, Severity};
+use super::codes::DiagnosticCode;
+use crate::diagnostic::{Diagnostic, Severity};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::fmt::Display;
 
-/// So many problems of each severity are kept; a reader has lost patience long before.
+/// The number of diagnostics of each severity that are listed; further ones are only counted.
 const MAX_PER_SEVERITY: usize = 400;
-/// No message and no pointer is longer than this: what a file has for names may have megabytes.
+/// The maximum length of a message or pointer in bytes: names in a file may have megabytes.
 const MAX_TEXT_LENGTH: usize = 500;
 
-/// Collects problems while a file is checked.
+/// Collects diagnostics while a file is validated.
+///
+/// Interior mutability lets every check hold the document and report through it.
 #[derive(Default, Debug)]
 pub(super) struct Diagnostics {
-    lists: RefCell<[SeverityList; 3]>,
+    /// One list for each severity, in the order of [`Severity::ALL`].
+    lists: RefCell<[SeverityList; Severity::ALL.len()]>,
 }
 
-/// The problems of one severity.
+/// The diagnostics of one severity.
 #[derive(Default, Debug)]
 struct SeverityList {
-    retained: Vec<Problem>,
+    /// The diagnostics that are listed, in the order in which they were added.
+    retained: Vec<Diagnostic>,
+    /// Code and pointer of each, to drop duplicates.
     known_keys: BTreeSet<(&'static str, String)>,
+    /// The number of all diagnostics, listed or not.
     count: usize,
 }
 
 impl Diagnostics {
-    /// Adds a problem, with the remedy that goes with its code. Nothing is formatted if the list is full.
-    pub(super) fn add(&self, code: &Code, pointer: impl Display, message: impl Display) {
+    /// Adds a diagnostic with the help of its code. Nothing is formatted if the list is full.
+    pub(super) fn add(&self, code: &DiagnosticCode, pointer: impl Display, message: impl Display) {
         self.add_with_help(code, pointer, message, code.remedy);
     }
 
-    /// Adds a problem with a remedy of its own.
+    /// Adds a diagnostic with a help of its own. A second one of the same code and pointer is
+    /// dropped.
     pub(super) fn add_with_help(
         &self,
-        code: &Code,
+        code: &DiagnosticCode,
         pointer: impl Display,
         message: impl Display,
         remedy: &str,
@@ -47,21 +54,21 @@ impl Diagnostics {
         let pointer = truncate_text(pointer.to_string());
         if list.known_keys.insert((code.name, pointer.clone())) {
             list.count += 1;
-            list.retained.push(Problem {
+            list.retained.push(Diagnostic {
                 severity: code.severity,
                 code: code.name,
-                pointer,
+                location: pointer,
                 message: truncate_text(message.to_string()),
-                remedy: remedy.to_owned(),
+                help: Some(remedy.to_owned()),
             });
         }
     }
 
-    /// Whether something at least so bad is known of this very place, or of a place in it.
+    /// Whether there is a diagnostic of severity `worst` or worse at this pointer or below it.
     pub(super) fn has_at_or_below(&self, worst: Severity, pointer: &str) -> bool {
         let lists = self.lists.borrow();
-        let concerns = |problem: &Problem| {
-            let rest = problem.pointer.strip_prefix(pointer);
+        let concerns = |problem: &Diagnostic| {
+            let rest = problem.location.strip_prefix(pointer);
             rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
         };
         let worse = &lists[..=worst as usize];
@@ -73,20 +80,22 @@ impl Diagnostics {
         self.lists.borrow()[Severity::Error as usize].count > 0
     }
 
-    /// Whether a problem of this kind is known.
-    pub(super) fn has_code(&self, code: &Code) -> bool {
+    /// Whether there is a diagnostic of this code.
+    pub(super) fn has_code(&self, code: &DiagnosticCode) -> bool {
         let list = &self.lists.borrow()[code.severity as usize];
         list.retained.iter().any(|problem| problem.code == code.name)
     }
 
-    /// All that is kept, the worst first, and how many there are of each severity.
-    pub(super) fn into_parts(self) -> (Vec<Problem>, [usize; 3]) {
+    /// The listed diagnostics, the worst first, and the numbers of errors, warnings and notes.
+    pub(super) fn into_parts(self) -> (Vec<Diagnostic>, [usize; 3]) {
         let lists = self.lists.into_inner();
-        let counts = [lists[0].count, lists[1].count, lists[2].count];
+        let [errors, warnings, info, hints] = Severity::ALL.map(|s| lists[s as usize].count);
+        let counts = [errors, warnings, info + hints];
         (lists.into_iter().flat_map(|list| list.retained).collect(), counts)
     }
 }
 
+/// Truncates a text at a character boundary.
 fn truncate_text(mut text: String) -> String {
     if text.len() > MAX_TEXT_LENGTH {
         let end = (0..=MAX_TEXT_LENGTH).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
@@ -103,23 +112,23 @@ mod tests {
 
     #[test]
     fn the_list_is_short_sorted_and_without_doubles() {
-        let findings = Diagnostics::default();
-        findings.add(&codes::NODE_EMPTY, "/nodes/0", "empty");
+        let diagnostics = Diagnostics::default();
+        diagnostics.add(&codes::NODE_EMPTY, "/nodes/0", "empty");
         for at in [1, 1, 2] {
-            findings.add(&codes::ACCESSOR_TOO_LONG, format_args!("/accessors/{at}"), "too long");
+            diagnostics.add(&codes::ACCESSOR_TOO_LONG, format_args!("/accessors/{at}"), "too long");
         }
         for at in 0..1_000_000 {
-            findings.add(&codes::NON_RELATIVE_URI, format_args!("/images/{at}/uri"), "absolute");
+            diagnostics.add(&codes::NON_RELATIVE_URI, format_args!("/images/{at}/uri"), "absolute");
         }
-        findings.add(&codes::EMPTY_ENTITY, "é".repeat(10_000), "empty");
-        let knows = |pointer| findings.has_at_or_below(Severity::Warning, pointer);
+        diagnostics.add(&codes::EMPTY_ENTITY, "é".repeat(10_000), "empty");
+        let knows = |pointer| diagnostics.has_at_or_below(Severity::Warning, pointer);
         assert!(knows("/accessors/1") && knows("/accessors") && knows("/images/7"));
         assert!(!knows("/accessors/11") && !knows("/nodes/0") && !knows(""));
-        assert!(!findings.has_at_or_below(Severity::Error, "/images/7"));
-        let (problems, counts) = findings.into_parts();
+        assert!(!diagnostics.has_at_or_below(Severity::Error, "/images/7"));
+        let (problems, counts) = diagnostics.into_parts();
         assert_eq!(counts, [3, 1_000_000, 1]);
         assert_eq!(problems.len(), 3 + MAX_PER_SEVERITY + 1);
         assert!(problems.windows(2).all(|pair| pair[0].severity <= pair[1].severity));
-        assert!(problems[2].pointer.len() < MAX_TEXT_LENGTH + 5);
+        assert!(problems[2].location.len() < MAX_TEXT_LENGTH + 5);
     }
 }

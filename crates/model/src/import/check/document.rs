@@ -1,7 +1,8 @@
-//! A document under check: its JSON as it stands in the file, and what has been found so far.
+//! The document under validation: its raw JSON, the diagnostics so far, and the objects referred
+//! to.
 //!
-//! Everything here answers "what does the file say?" for members that may be missing or of any type: `None` then, and the
-//! walk over the schema has told so already.
+//! The accessors of this module return `None` for members that are missing or of the wrong type:
+//! the schema walk has reported those already.
 
 use super::diagnostics::Diagnostics;
 use super::schema::Collection;
@@ -9,17 +10,20 @@ use serde_json::{Map, Value};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
-/// A document under check.
+/// A document under validation.
 pub(super) struct CheckedDocument<'a> {
+    /// The root of the JSON.
     pub(super) root: &'a Value,
+    /// The collection that every check reports to.
     pub(super) diagnostics: &'a Diagnostics,
-    /// Which things of each collection something refers to.
+    /// For each object of each collection, whether something refers to it.
     used_flags: RefCell<Vec<Vec<bool>>>,
-    /// The extensions that the file says it uses.
+    /// The names in `extensionsUsed`.
     extensions: BTreeSet<&'a str>,
 }
 
 impl<'a> CheckedDocument<'a> {
+    /// A document of which nothing has been validated yet.
     pub(super) fn new(root: &'a Value, diagnostics: &'a Diagnostics) -> Self {
         let count = |(_, pointer, _): (Collection, &str, bool)| {
             root.pointer(pointer).and_then(Value::as_array).map_or(0, Vec::len)
@@ -30,12 +34,12 @@ impl<'a> CheckedDocument<'a> {
         Self { root, diagnostics, used_flags: RefCell::new(used), extensions }
     }
 
-    /// The things of an array at the top of the document.
+    /// The items of a top-level array.
     pub(super) fn root_array(&self, key: &str) -> &'a [Value] {
         array_items(self.root, key)
     }
 
-    /// How many things a collection has, and that this one is used; `false` if it does not exist.
+    /// Marks an object as used; `false` if it does not exist.
     pub(super) fn mark_used(&self, collection: Collection, index: u64) -> bool {
         let mut used = self.used_flags.borrow_mut();
         let list = used.get_mut(collection as usize);
@@ -43,37 +47,37 @@ impl<'a> CheckedDocument<'a> {
         slot.map(|slot| *slot = true).is_some()
     }
 
-    /// The numbers of the things of a collection that nothing refers to.
+    /// The indices of the objects of a collection that nothing refers to.
     pub(super) fn unused_indices(&self, collection: Collection) -> Vec<usize> {
         let used = self.used_flags.borrow();
         let list = used.get(collection as usize).into_iter().flatten();
         list.enumerate().filter(|(_, used)| !**used).map(|(at, _)| at).collect()
     }
 
-    /// Whether the file says that it uses an extension.
+    /// Whether an extension is listed in `extensionsUsed`.
     pub(super) fn uses_extension(&self, extension: &str) -> bool {
         self.extensions.contains(extension)
     }
 }
 
-/// The items of an array that is a member of an object.
+/// The items of an array member; empty if there is none.
 pub(super) fn array_items<'a>(value: &'a Value, key: &str) -> &'a [Value] {
     value.get(key).and_then(Value::as_array).map_or(&[], Vec::as_slice)
 }
 
-/// The members of an object that is a member of an object.
+/// The members of an object member.
 pub(super) fn object_members<'a>(value: &'a Value, key: &str) -> Option<&'a Map<String, Value>> {
     value.get(key).and_then(Value::as_object)
 }
 
-/// A whole number that is not negative, written as `1` or as `1.0`.
+/// A non-negative integer, written as `1` or as `1.0`.
 pub(super) fn as_whole_number(value: &Value) -> Option<u64> {
-    // What is too large for an integer is larger than anything there is, and so is the largest integer.
+    // The cast saturates: a number too large for u64 is out of every range, as u64::MAX is.
     let from_float = |number: f64| (number >= 0.0 && number % 1.0 == 0.0).then_some(number as u64);
     value.as_u64().or_else(|| from_float(value.as_f64()?))
 }
 
-/// A member that is a whole number.
+/// A member that is a non-negative integer.
 pub(super) fn integer_member(value: &Value, key: &str) -> Option<u64> {
     as_whole_number(value.get(key)?)
 }
@@ -83,7 +87,7 @@ pub(super) fn index_member(value: &Value, key: &str) -> Option<usize> {
     usize::try_from(integer_member(value, key)?).ok()
 }
 
-/// A member that is a text.
+/// A member that is a string.
 pub(super) fn string_member<'a>(value: &'a Value, key: &str) -> Option<&'a str> {
     value.get(key)?.as_str()
 }
@@ -94,12 +98,12 @@ pub(super) fn number_array<const N: usize>(value: &Value, key: &str) -> Option<[
     numbers?.try_into().ok()
 }
 
-/// An extension's object in an object.
+/// The object of an extension inside an object.
 pub(super) fn extension_object<'a>(value: &'a Value, name: &str) -> Option<&'a Value> {
     value.get("extensions")?.get(name)
 }
 
-/// A name as a part of a JSON pointer (RFC 6901 §3).
+/// Escapes a name as a token of a JSON pointer (RFC 6901 §3).
 pub(super) fn escape_pointer_token(name: &str) -> String {
     name.replace('~', "~0").replace('/', "~1")
 }

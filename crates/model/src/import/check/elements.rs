@@ -1,20 +1,22 @@
-//! The elements of an accessor, one after the other, without an array of them.
+//! Streaming access to the elements of an accessor, without a decoded copy.
 
 use super::layout::AccessorLayout;
 
-/// The elements of one accessor, whose bytes are known to be there.
+/// The elements of one accessor whose bytes are all present, with its sparse replacements.
 #[derive(Debug)]
 pub(super) struct AccessorElements<'a> {
+    /// The layout that the accessor declares.
     pub(super) layout: AccessorLayout,
-    /// The elements' bytes and stride; `None` for zeros.
+    /// The bytes of the elements and their stride; `None` if all are zero.
     base: Option<(&'a [u8], usize)>,
-    /// Which elements are replaced, sorted, and by which value.
+    /// Pairs of element and sparse value that replaces it, sorted by element.
     replaced: Vec<(u32, u32)>,
+    /// The bytes of the sparse values, tightly packed.
     values: &'a [u8],
 }
 
 impl<'a> AccessorElements<'a> {
-    /// `indices` says which elements are replaced by the `values`, which lie without gaps.
+    /// Elements of which those at `indices` are replaced by the tightly packed `values`.
     pub(super) fn new(
         layout: AccessorLayout,
         base: Option<(&'a [u8], usize)>,
@@ -26,12 +28,15 @@ impl<'a> AccessorElements<'a> {
         Self { layout, base, replaced, values }
     }
 
-    /// Whether all elements are zero because nothing says otherwise.
+    /// Whether there is neither a buffer view nor a sparse replacement: all elements are zero.
     pub(super) fn has_no_data(&self) -> bool {
         self.base.is_none() && self.replaced.is_empty()
     }
 
-    /// Calls `see` with the number of each element and its numbers.
+    /// Calls `see` with the index of each element and its components.
+    ///
+    /// The components are those of the file: [`dequantize`](Self::dequantize) maps normalized
+    /// integers. The sorted replacements are merged with the elements, so that the pass is linear.
     pub(super) fn for_each_element(&self, mut see: impl FnMut(u64, &[f64])) {
         let mut numbers = [0.0; 16];
         let numbers = &mut numbers[..self.layout.element_type.component_count()];
@@ -52,6 +57,7 @@ impl<'a> AccessorElements<'a> {
         }
     }
 
+    /// Decodes the components of the element that starts at a byte offset, column by column.
     fn read_element(&self, bytes: &[u8], start: usize, numbers: &mut [f64]) {
         let AccessorLayout { component_type: component, element_type: shape, .. } = self.layout;
         let bytes = bytes.get(start..).unwrap_or(&[]);
@@ -62,7 +68,7 @@ impl<'a> AccessorElements<'a> {
         }
     }
 
-    /// What a number means: normalised integers lie in [0, 1] or [−1, 1] (glTF 2.0 §3.11).
+    /// The value of a component: normalized integers map to [0, 1] or [−1, 1] (glTF 2.0 §3.11).
     pub(super) fn dequantize(&self, number: f64) -> f64 {
         match self.layout.normalized {
             true => (number / self.layout.component_type.max_value()).max(-1.0),

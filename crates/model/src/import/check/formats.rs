@@ -1,24 +1,27 @@
-//! The formats that each attribute may have (glTF 2.0 §3.7.2.1 and §3.7.2.2), and those KHR_mesh_quantization adds.
+//! Accessor formats allowed for each use (glTF 2.0 §3.7.2.1, §3.7.2.2 and §3.11).
+//!
+//! KHR_mesh_quantization adds integer formats for positions, normals, tangents and texture
+//! coordinates.
 
 use super::layout::ComponentType::{F32, I8, I16, U8, U16, U32};
 use super::layout::{AccessorLayout, ComponentType, ElementType, SCALAR, VEC2, VEC3, VEC4};
 
-/// A format: how many numbers, their type, and whether integers are normalised.
+/// A format: element type, component type, and whether integers are normalized.
 type AttributeFormat = (ElementType, ComponentType, bool);
 
-/// What the name of an attribute says: its kind, and which one of several it is.
+/// The semantic of an attribute, parsed from its name.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Semantic<'a> {
     /// POSITION, NORMAL, TANGENT.
     Single(&'a str),
     /// TEXCOORD_0 and the like.
     Numbered(&'a str, u32),
-    /// A name of its own, which begins with an underscore.
+    /// An application-specific name, which starts with an underscore.
     Custom,
 }
 
 impl<'a> Semantic<'a> {
-    /// `None` for a name that glTF does not have.
+    /// Parses the name of an attribute; `None` for a name that glTF does not define.
     pub(super) fn from_name(name: &'a str) -> Option<Self> {
         if name.starts_with('_') {
             return Some(Self::Custom);
@@ -34,6 +37,7 @@ impl<'a> Semantic<'a> {
         Some(Self::Numbered(kind, number))
     }
 
+    /// The name without its set index; empty for a custom name.
     fn base_name(self) -> &'a str {
         match self {
             Self::Single(kind) | Self::Numbered(kind, _) => kind,
@@ -41,7 +45,7 @@ impl<'a> Semantic<'a> {
         }
     }
 
-    /// The formats that an attribute may have; `None` for a name of its own, which may have any.
+    /// The formats that an attribute may have; `None` for a custom name, which may have any.
     pub(super) fn allowed_formats(
         self,
         in_target: bool,
@@ -64,6 +68,7 @@ impl<'a> Semantic<'a> {
         Some(formats)
     }
 
+    /// The formats that KHR_mesh_quantization allows besides those of core glTF.
     fn quantized_formats(self, in_target: bool) -> Vec<AttributeFormat> {
         let all = |shape, components: &[ComponentType], normalized: &[bool]| {
             let pairs = components.iter().flat_map(|&c| normalized.iter().map(move |&n| (c, n)));
@@ -80,7 +85,7 @@ impl<'a> Semantic<'a> {
     }
 }
 
-/// Floats, or normalised integers of some types.
+/// Float formats, and formats of normalized integers of some types.
 fn float_or_normalized(
     shapes: &[ElementType],
     components: &[ComponentType],
@@ -92,16 +97,16 @@ fn float_or_normalized(
     shapes.iter().flat_map(of).collect()
 }
 
-/// Whether a layout is one of some formats.
+/// Whether the format of a layout is one of those allowed.
 pub(super) fn is_allowed(layout: AccessorLayout, formats: &[AttributeFormat]) -> bool {
     formats.contains(&(layout.element_type, layout.component_type, layout.normalized))
 }
 
-/// What indices may be.
+/// The formats of primitive indices.
 pub(super) const INDEX_FORMATS: [AttributeFormat; 3] =
     [(SCALAR, U8, false), (SCALAR, U16, false), (SCALAR, U32, false)];
 
-/// What the values of an animation may be, by the path they move; `None` for a path that is not known.
+/// The formats of an animation output by the path of its target; `None` for an unknown path.
 pub(super) fn animation_output_formats(path: &str) -> Option<Vec<AttributeFormat>> {
     match path {
         "translation" | "scale" => Some(vec![(VEC3, F32, false)]),

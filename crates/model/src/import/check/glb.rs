@@ -1,97 +1,108 @@
-//! The container: header and chunks of a binary file (glTF 2.0 §4.4), each rule by itself.
+//! The GLB container: header and chunks of a binary file (glTF 2.0 §4.4).
 //!
 //! ```text
 //!  magic · version · length │ length · JSON · … │ length · BIN · … │ length · anything · …
 //! ```
 
-use super::codes::{self, Code};
+use super::codes::{self, DiagnosticCode};
 use super::diagnostics::Diagnostics;
 use std::fmt::Display;
 use std::ops::Range;
 
-/// Where the parts of a file lie, as far as they can be made out.
+/// The byte ranges of the parts of a file, as far as they can be determined.
 #[derive(Default, Debug)]
 pub(super) struct ContainerParts {
+    /// The JSON, in a GLB the content of its first chunk.
     pub(super) json: Option<Range<usize>>,
+    /// The content of the binary chunk of a GLB.
     pub(super) binary: Option<Range<usize>>,
-    /// Whether the file is a binary one.
+    /// Whether the file is a GLB.
     pub(super) is_binary: bool,
 }
 
-/// Finds the parts of a file and what is wrong with its container.
-pub(super) fn check_container(bytes: &[u8], findings: &Diagnostics) -> ContainerParts {
+/// Validates the container, and finds its parts.
+pub(super) fn check_container(bytes: &[u8], diagnostics: &Diagnostics) -> ContainerParts {
     if !bytes.starts_with(b"glTF") {
         let mark = if bytes.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
-        check_byte_order_mark(bytes, findings);
+        check_byte_order_mark(bytes, diagnostics);
         return ContainerParts { json: Some(mark..bytes.len()), ..ContainerParts::default() };
     }
     let mut reader = ContainerReader {
         bytes,
-        findings,
+        diagnostics,
         parts: ContainerParts { is_binary: true, ..ContainerParts::default() },
     };
     reader.check_header();
     if let Some(json) = &reader.parts.json {
-        check_byte_order_mark(&bytes[json.clone()], findings);
+        check_byte_order_mark(&bytes[json.clone()], diagnostics);
     }
     reader.parts
 }
 
-/// JSON must not begin with a byte order mark (glTF 2.0 §2.7); it is skipped.
-fn check_byte_order_mark(json: &[u8], findings: &Diagnostics) {
+/// JSON must not start with a byte order mark (glTF 2.0 §2.7); it is skipped.
+fn check_byte_order_mark(json: &[u8], diagnostics: &Diagnostics) {
     if json.starts_with(b"\xEF\xBB\xBF") {
-        findings.add(&codes::INVALID_JSON, "", "the JSON begins with a byte order mark");
+        diagnostics.add(&codes::INVALID_JSON, "", "the JSON starts with a byte order mark");
     }
 }
 
+/// Reads the container chunk by chunk.
 struct ContainerReader<'a> {
+    /// The file, cut at the length that its header declares.
     bytes: &'a [u8],
-    findings: &'a Diagnostics,
+    diagnostics: &'a Diagnostics,
+    /// The parts found so far.
     parts: ContainerParts,
 }
 
 impl ContainerReader<'_> {
-    fn report(&self, code: &Code, message: impl Display) {
-        self.findings.add(code, "", message);
+    /// Reports a diagnostic about the file as a whole.
+    fn report(&self, code: &DiagnosticCode, message: impl Display) {
+        self.diagnostics.add(code, "", message);
     }
 
+    /// The little-endian u32 at an offset.
     fn read_u32(&self, at: usize) -> Option<usize> {
         let number = u32::from_le_bytes(*self.bytes.get(at..)?.first_chunk()?);
         usize::try_from(number).ok()
     }
 
+    /// The 12-byte header: version, and length against the size of the file.
     fn check_header(&mut self) {
-        let there = self.bytes.len();
+        let actual = self.bytes.len();
         let (Some(version), Some(length)) = (self.read_u32(4), self.read_u32(8)) else {
-            let message = format_args!("the file ends after {there} bytes, in its header");
+            let message = format_args!("unexpected end of header: the file has {actual} bytes");
             return self.report(&codes::GLB_UNEXPECTED_END_OF_HEADER, message);
         };
         if version != 2 {
-            let message = format_args!("the version is {version}, and only 2 is known");
+            let message = format_args!("unsupported GLB version {version}: expected 2");
             return self.report(&codes::GLB_INVALID_VERSION, message);
         }
         let is_small = length < 20;
         if is_small {
-            let message = format_args!("the header says {length} bytes, too few for any content");
+            let message =
+                format_args!("the declared length of {length} bytes is too small for any content");
             self.report(&codes::GLB_LENGTH_TOO_SMALL, message);
         }
-        if length > there || is_small {
-            let message = format_args!("the header says {length} bytes, the file has {there}");
+        if length > actual || is_small {
+            let message =
+                format_args!("the declared length is {length} bytes, but the file has {actual}");
             self.report(&codes::GLB_LENGTH_MISMATCH, message);
-        } else if length < there {
-            let message = format_args!("{} bytes follow the end", there - length);
+        } else if length < actual {
+            let message = format_args!("{} bytes of extra data after the end", actual - length);
             self.report(&codes::GLB_EXTRA_DATA, message);
             self.bytes = &self.bytes[..length];
         }
         self.check_chunks();
     }
 
+    /// All chunks, remembering the first JSON and BIN chunk in their places.
     fn check_chunks(&mut self) {
         let (mut at, mut number, mut known) = (12, 0, [false; 2]);
         while at < self.bytes.len() {
             let (Some(length), Some(kind)) = (self.read_u32(at), self.bytes.get(at + 4..at + 8))
             else {
-                let message = format_args!("chunk {number} ends within its header");
+                let message = format_args!("unexpected end of the header of chunk {number}");
                 return self.report(&codes::GLB_UNEXPECTED_END_OF_CHUNK_HEADER, message);
             };
             let name = String::from_utf8_lossy(kind).escape_default().to_string();
@@ -99,7 +110,9 @@ impl ContainerReader<'_> {
             let (start, end) = (at + 8, (at + 8).saturating_add(length));
             if end > self.bytes.len() {
                 let left = self.bytes.len() - start;
-                let message = format_args!("chunk {number} says {length} bytes, {left} are left");
+                let message = format_args!(
+                    "chunk {number} declares {length} bytes, but only {left} are left"
+                );
                 return self.report(&codes::GLB_UNEXPECTED_END_OF_CHUNK_DATA, message);
             }
             match kind {
@@ -115,7 +128,7 @@ impl ContainerReader<'_> {
         }
     }
 
-    /// The rules for one chunk.
+    /// The rules for one chunk: alignment, type, order and duplicates.
     fn check_chunk(
         &self,
         number: usize,
@@ -125,18 +138,20 @@ impl ContainerReader<'_> {
         known: &mut [bool; 2],
     ) {
         if !length.is_multiple_of(4) {
-            let message = format_args!("chunk {number} has {length} bytes, no multiple of 4");
+            let message = format_args!(
+                "the length of chunk {number}, {length} bytes, is not a multiple of 4"
+            );
             self.report(&codes::GLB_CHUNK_LENGTH_UNALIGNED, message);
         }
         if number == 0 && kind != b"JSON" {
-            let message = format_args!("the first chunk is {name} and not JSON");
+            let message = format_args!("the first chunk must be JSON, not {name}");
             self.report(&codes::GLB_UNEXPECTED_FIRST_CHUNK, message);
         }
         let slot = match kind {
             b"JSON" => 0,
             b"BIN\0" => 1,
             _ => {
-                let message = format_args!("chunk {number} is {name}, which is not known");
+                let message = format_args!("unknown type {name} of chunk {number}");
                 return self.report(&codes::GLB_UNKNOWN_CHUNK_TYPE, message);
             }
         };
@@ -144,10 +159,10 @@ impl ContainerReader<'_> {
             self.report(&codes::GLB_EMPTY_CHUNK, format_args!("chunk {number} is empty"));
         }
         if known[slot] {
-            let message = format_args!("chunk {number} is {name} once more");
+            let message = format_args!("chunk {number} is a duplicate {name} chunk");
             self.report(&codes::GLB_DUPLICATE_CHUNK, message);
         } else if slot == 1 && number > 1 {
-            let message = format_args!("{name} is chunk {number} and must be the second");
+            let message = format_args!("{name} must be the second chunk, not chunk {number}");
             self.report(&codes::GLB_UNEXPECTED_BIN_CHUNK, message);
         }
         known[slot] = true;
@@ -174,9 +189,9 @@ mod tests {
     }
 
     fn reported_codes(bytes: &[u8]) -> (ContainerParts, Vec<&'static str>) {
-        let findings = Diagnostics::default();
-        let parts = check_container(bytes, &findings);
-        let (problems, _) = findings.into_parts();
+        let diagnostics = Diagnostics::default();
+        let parts = check_container(bytes, &diagnostics);
+        let (problems, _) = diagnostics.into_parts();
         (parts, problems.iter().map(|problem| problem.code).collect())
     }
 

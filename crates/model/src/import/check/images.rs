@@ -1,4 +1,4 @@
-//! Images: where their bytes are, whether they are what the file says, and whether textures may use them.
+//! Images: their source, their format against the declared one, and their use in textures.
 
 use super::codes;
 use super::document::{CheckedDocument, extension_object, index_member, string_member};
@@ -10,7 +10,7 @@ use crate::import::uri_resolver::UriResolver;
 use serde_json::Value;
 use std::borrow::Cow;
 
-/// Checks all images, and the textures that use them.
+/// Validates all images, and the textures that use them.
 pub(super) fn check_images(
     document: &CheckedDocument<'_>,
     store: &BufferStore<'_>,
@@ -35,7 +35,7 @@ pub(super) fn check_images(
     }
 }
 
-/// The kinds of image, by their media types, with the extension that allows each and that extension's place.
+/// The image formats by media type, with the extension that allows each.
 const IMAGE_FORMATS: [(&str, Option<&str>); 4] = [
     ("image/png", None),
     ("image/jpeg", None),
@@ -43,7 +43,7 @@ const IMAGE_FORMATS: [(&str, Option<&str>); 4] = [
     ("image/ktx2", Some("KHR_texture_basisu")),
 ];
 
-/// What an image is by its first bytes.
+/// The media type of an image, from its first bytes.
 fn sniff_media_type(bytes: &[u8]) -> Option<&'static str> {
     match bytes {
         [0x89, b'P', b'N', b'G', ..] => Some("image/png"),
@@ -54,38 +54,43 @@ fn sniff_media_type(bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
+/// The validation of one image.
 struct ImageChecker<'a> {
     document: &'a CheckedDocument<'a>,
     store: &'a BufferStore<'a>,
     usage: &'a UsageMap<'a>,
     resolver: &'a UriResolver<'a>,
+    /// Whether the file is a GLB, in which data URIs are a waste.
     is_binary: bool,
+    /// The JSON pointer of the image.
     pointer: String,
 }
 
 impl ImageChecker<'_> {
-    /// Checks an image; gives what it is, as far as its bytes or the file tell.
+    /// Validates an image; returns its media type, from its bytes or as declared.
     fn check_image(&self, image: &Value) -> Option<String> {
-        let findings = self.document.diagnostics;
+        let diagnostics = self.document.diagnostics;
         let declared = string_member(image, "mimeType");
         if image.get("bufferView").is_some() && declared.is_none() {
             let message = "an image in a buffer view must have a mimeType";
             let pointer = format_args!("{}/bufferView", self.pointer);
-            findings.add(&codes::UNSATISFIED_DEPENDENCY, pointer, message);
+            diagnostics.add(&codes::UNSATISFIED_DEPENDENCY, pointer, message);
         }
         let in_uri = string_member(image, "uri").and_then(uris::media_type);
         let bytes = self.image_bytes(image);
         let found = bytes.as_deref().and_then(|bytes| self.check_image_header(bytes));
-        if let (Some(said), Some(found)) = (declared, found)
-            && found != said
+        if let (Some(declared_type), Some(found)) = (declared, found)
+            && found != declared_type
         {
-            let message = format_args!("the image is {found}, and not {said}");
-            findings.add(&codes::IMAGE_MIME_TYPE_INVALID, &self.pointer, message);
+            let message = format_args!("the image is {found}, not {declared_type}");
+            diagnostics.add(&codes::IMAGE_MIME_TYPE_INVALID, &self.pointer, message);
         }
-        if let Some(said) = in_uri.filter(|said| bytes.is_some() && Some(said.as_str()) != found) {
+        if let Some(declared_type) =
+            in_uri.filter(|declared_type| bytes.is_some() && Some(declared_type.as_str()) != found)
+        {
             let message =
-                format_args!("the image is {}, and not {said}", found.unwrap_or("unknown"));
-            findings.add(&codes::INVALID_URI, format_args!("{}/uri", self.pointer), message);
+                format_args!("the image is {}, not {declared_type}", found.unwrap_or("unknown"));
+            diagnostics.add(&codes::INVALID_URI, format_args!("{}/uri", self.pointer), message);
         }
         let kind = found.or(declared)?;
         if let Some((_, Some(extension))) = IMAGE_FORMATS.iter().find(|known| known.0 == kind)
@@ -93,35 +98,39 @@ impl ImageChecker<'_> {
             && !self.document.uses_extension(extension)
         {
             let message = format_args!("{kind} is allowed only with {extension}");
-            // The validator does not know the format of the other ones, and extensions of vendors allow it too.
+            // The Khronos validator recognizes WebP only; a vendor extension may allow the others.
             let is_webp = kind == "image/webp";
             let strange = &codes::IMAGE_UNRECOGNIZED_FORMAT;
             let code = if is_webp { &codes::IMAGE_NON_ENABLED_MIME_TYPE } else { strange };
-            findings.add(code, &self.pointer, message);
+            diagnostics.add(code, &self.pointer, message);
         }
         Some(kind.to_owned())
     }
 
+    /// The bytes of an image, from its buffer view or its URI; `None` if they cannot be read.
     fn image_bytes(&self, image: &Value) -> Option<Cow<'_, [u8]>> {
-        let findings = self.document.diagnostics;
+        let diagnostics = self.document.diagnostics;
         if let Some(view) = index_member(image, "bufferView") {
             let pointer = format!("{}/bufferView", self.pointer);
             self.usage.note_view(view, ViewUse::Image, &pointer);
             if self.store.view_stride(view).is_some() {
-                let message = "the view of an image must not have a stride";
-                findings.add(&codes::IMAGE_BUFFER_VIEW_WITH_BYTESTRIDE, &pointer, message);
+                let message = "byteStride must not be set on the buffer view of an image";
+                diagnostics.add(&codes::IMAGE_BUFFER_VIEW_WITH_BYTESTRIDE, &pointer, message);
             }
             return self.store.view_bytes(view).map(Cow::Borrowed);
         }
         let uri = string_member(image, "uri")?;
         let pointer = format!("{}/uri", self.pointer);
-        uris::check_uri(uri, &pointer, self.is_binary, findings);
-        uris::read_uri(self.resolver, uri, &pointer, findings).map(Cow::Owned)
+        uris::check_uri(uri, &pointer, self.is_binary, diagnostics);
+        uris::read_uri(self.resolver, uri, &pointer, diagnostics).map(Cow::Owned)
     }
 
-    /// What an image is; its header must be whole.
+    /// The media type of an image, whose header must be complete.
+    ///
+    /// Only the header is decoded. Decoders tell a truncated file from a corrupt one in the text of
+    /// their errors alone, which decides the code here.
     fn check_image_header(&self, bytes: &[u8]) -> Option<&'static str> {
-        let findings = self.document.diagnostics;
+        let diagnostics = self.document.diagnostics;
         let Some(kind) = sniff_media_type(bytes) else {
             let is_cut = IMAGE_FORMATS.len() > bytes.len();
             let code = if is_cut {
@@ -129,8 +138,8 @@ impl ImageChecker<'_> {
             } else {
                 &codes::IMAGE_UNRECOGNIZED_FORMAT
             };
-            let message = format_args!("{} bytes are of no format that glTF knows", bytes.len());
-            findings.add(code, &self.pointer, message);
+            let message = format_args!("unrecognized image format ({} bytes)", bytes.len());
+            diagnostics.add(code, &self.pointer, message);
             return None;
         };
         let problem = match kind {
@@ -143,13 +152,13 @@ impl ImageChecker<'_> {
                 .any(|words| problem.contains(words));
             let code =
                 if is_cut { &codes::IMAGE_UNEXPECTED_EOS } else { &codes::IMAGE_DATA_INVALID };
-            findings.add(code, &self.pointer, problem);
+            diagnostics.add(code, &self.pointer, problem);
         }
         Some(kind)
     }
 }
 
-/// A texture uses PNG or JPEG, and other formats through the extension for each.
+/// A texture refers to PNG or JPEG directly, and to other formats through their extensions.
 fn check_texture(
     document: &CheckedDocument<'_>,
     at: usize,
@@ -157,7 +166,7 @@ fn check_texture(
     kinds: &[Option<String>],
 ) {
     let say = |member: &str, found: &str| {
-        let message = format_args!("an image that is {found} cannot be used here");
+        let message = format_args!("an image of type {found} cannot be used here");
         let pointer = format_args!("/textures/{at}/{member}");
         document.diagnostics.add(&codes::TEXTURE_INVALID_IMAGE_MIME_TYPE, pointer, message);
     };

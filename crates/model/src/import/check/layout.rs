@@ -1,20 +1,26 @@
-//! How the elements of an accessor lie in memory (glTF 2.0 §3.6.2).
+//! The memory layout of accessor elements (glTF 2.0 §3.6.2).
 
 use super::document::{index_member, integer_member, string_member};
 use serde_json::Value;
 
-/// What an accessor says of its elements, as far as it makes sense.
+/// The layout that an accessor declares.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct AccessorLayout {
+    /// The type of each component (`componentType`).
     pub(super) component_type: ComponentType,
+    /// The type of an element (`type`).
     pub(super) element_type: ElementType,
+    /// Whether integers stand for fractions (`normalized`).
     pub(super) normalized: bool,
+    /// The number of elements (`count`).
     pub(super) count: u64,
+    /// The offset of the first element in the buffer view (`byteOffset`).
     pub(super) byte_offset: u64,
+    /// The index of the buffer view; without one all elements are zero.
     pub(super) buffer_view: Option<usize>,
 }
 
-/// The type of a number.
+/// The type of a component (glTF 2.0 §3.6.2.2).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum ComponentType {
     I8,
@@ -25,21 +31,28 @@ pub(super) enum ComponentType {
     F32,
 }
 
-/// How many numbers an element has: rows and columns.
+/// The type of an element, as its number of rows and columns; vectors have one column.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct ElementType {
+    /// The number of components of a vector, or of a column of a matrix.
     pub(super) rows: usize,
+    /// The number of columns; 1 for scalars and vectors.
     pub(super) columns: usize,
 }
 
+/// One component.
 pub(super) const SCALAR: ElementType = ElementType { rows: 1, columns: 1 };
+/// Two components.
 pub(super) const VEC2: ElementType = ElementType { rows: 2, columns: 1 };
+/// Three components.
 pub(super) const VEC3: ElementType = ElementType { rows: 3, columns: 1 };
+/// Four components.
 pub(super) const VEC4: ElementType = ElementType { rows: 4, columns: 1 };
+/// A 4×4 matrix, column by column.
 pub(super) const MAT4: ElementType = ElementType { rows: 4, columns: 4 };
 
 impl ComponentType {
-    /// The type with this number in OpenGL.
+    /// The type of an OpenGL constant, such as 5126 for `FLOAT`.
     pub(super) fn from_gl_constant(number: u64) -> Option<Self> {
         Some(match number {
             5120 => Self::I8,
@@ -52,6 +65,7 @@ impl ComponentType {
         })
     }
 
+    /// The size of a component in bytes.
     pub(super) fn byte_size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -60,7 +74,7 @@ impl ComponentType {
         }
     }
 
-    /// The largest number of the type: among indices it would restart a strip.
+    /// The maximum of the type. As an index it is the primitive restart value.
     pub(super) fn max_value(self) -> f64 {
         match self {
             Self::I8 => f64::from(i8::MAX),
@@ -72,7 +86,8 @@ impl ComponentType {
         }
     }
 
-    /// The number at the beginning of some bytes; 0 if they are too few, which the caller has excluded.
+    /// Reads the component at the start of some bytes; 0 if they are too few, which callers
+    /// exclude.
     pub(super) fn read_number(self, bytes: &[u8]) -> f64 {
         let one = || bytes.first().copied().unwrap_or(0);
         let two = || bytes.first_chunk().copied().unwrap_or_default();
@@ -87,6 +102,7 @@ impl ComponentType {
         }
     }
 
+    /// The name of the OpenGL constant, for messages.
     fn name(self) -> &'static str {
         match self {
             Self::I8 => "BYTE",
@@ -100,6 +116,7 @@ impl ComponentType {
 }
 
 impl ElementType {
+    /// The element type of a `type` member.
     fn from_name(name: &str) -> Option<Self> {
         Some(match name {
             "SCALAR" => SCALAR,
@@ -113,15 +130,17 @@ impl ElementType {
         })
     }
 
-    /// How many numbers an element has.
+    /// The number of components of an element.
     pub(super) fn component_count(self) -> usize {
         self.rows * self.columns
     }
 
+    /// Whether an element is a matrix, whose columns are aligned.
     pub(super) fn is_matrix(self) -> bool {
         self.columns > 1
     }
 
+    /// The name in glTF, for messages.
     fn name(self) -> &'static str {
         match (self.rows, self.columns) {
             (1, _) => "SCALAR",
@@ -136,7 +155,7 @@ impl ElementType {
 }
 
 impl AccessorLayout {
-    /// What an accessor says, if its type, its component type and its count can be read.
+    /// The layout of an accessor, if its type, component type and count are valid.
     pub(super) fn from_accessor(accessor: &Value) -> Option<Self> {
         Some(Self {
             component_type: ComponentType::from_gl_constant(integer_member(
@@ -154,24 +173,24 @@ impl AccessorLayout {
         })
     }
 
-    /// From one column to the next: columns of matrices begin at multiples of four.
+    /// The bytes from one column to the next: columns of matrices are aligned to four (§3.6.2.4).
     pub(super) fn column_stride(&self) -> usize {
         let column = self.element_type.rows * self.component_type.byte_size();
         if self.element_type.is_matrix() { column.next_multiple_of(4) } else { column }
     }
 
-    /// The bytes of an element, up to the end of its last number.
+    /// The bytes of an element, up to the end of its last component.
     pub(super) fn element_size(&self) -> usize {
         (self.element_type.columns - 1) * self.column_stride()
             + self.element_type.rows * self.component_type.byte_size()
     }
 
-    /// From one element to the next where the buffer view does not say.
+    /// The bytes from one element to the next if the buffer view has no `byteStride`.
     pub(super) fn packed_stride(&self) -> usize {
         self.element_type.columns * self.column_stride()
     }
 
-    /// The bytes of all elements.
+    /// The bytes of all elements at this stride, up to the end of the last component.
     pub(super) fn byte_length(&self, stride: usize) -> u64 {
         if self.count == 0 {
             return 0;
@@ -180,7 +199,7 @@ impl AccessorLayout {
         gaps.saturating_add(self.element_size() as u64)
     }
 
-    /// The format in words, such as `VEC3 of FLOAT`.
+    /// The format as messages name it, such as `VEC3 of FLOAT`.
     pub(super) fn format_name(&self) -> String {
         let normalized = if self.normalized { "normalized " } else { "" };
         format!("{} of {normalized}{}", self.element_type.name(), self.component_type.name())

@@ -1,6 +1,6 @@
 //! Meshes: their attributes, indices and morph targets (glTF 2.0 §3.7.2).
 
-use super::codes::{self, Code};
+use super::codes::{self, DiagnosticCode};
 use super::data::{ElementRule, ElementRules};
 use super::document::{
     CheckedDocument, array_items, escape_pointer_token, index_member, integer_member,
@@ -14,7 +14,7 @@ use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
-/// Checks all meshes; notes what is demanded of accessors.
+/// Validates all meshes, and records rules for the elements of their accessors.
 pub(super) fn check_meshes(
     document: &CheckedDocument<'_>,
     usage: &UsageMap<'_>,
@@ -29,7 +29,7 @@ pub(super) fn check_meshes(
             let count = array_items(primitive, "targets").len();
             if count != targets {
                 let message =
-                    format_args!("{count} morph targets, and {targets} in the first primitive");
+                    format_args!("{count} morph targets, but the first primitive has {targets}");
                 let code = &codes::MESH_PRIMITIVES_UNEQUAL_TARGETS_COUNT;
                 document.diagnostics.add(code, &pointer, message);
             }
@@ -53,28 +53,35 @@ pub(super) fn check_meshes(
     }
 }
 
+/// The validation of one primitive.
 struct PrimitiveChecker<'a, 'd> {
     document: &'a CheckedDocument<'a>,
     usage: &'a UsageMap<'a>,
+    /// The rules for the elements of accessors, collected for the pass over the data.
     rules: &'d mut ElementRules,
+    /// The vertex attributes that each material requires.
     requirements: &'a [MaterialRequirements],
+    /// The JSON of the primitive.
     primitive: &'a Value,
+    /// The JSON pointer of the primitive.
     pointer: String,
 }
 
-/// The attributes of a primitive by their names, as far as they are accessors that exist.
+/// The attributes of a primitive whose accessors exist: name, index and JSON of the accessor.
 type ResolvedAttributes<'a> = Vec<(&'a str, usize, &'a Value)>;
 
-/// How many elements the attributes of a primitive have.
+/// The number of elements of each attribute of a primitive.
 type AttributeCounts<'a> = BTreeMap<&'a str, Option<u64>>;
 
 impl<'a> PrimitiveChecker<'a, '_> {
-    fn report(&self, code: &Code, member: &str, message: impl Display) {
+    /// Reports a diagnostic at a member of the primitive, or at the primitive itself.
+    fn report(&self, code: &DiagnosticCode, member: &str, message: impl Display) {
         let slash = if member.is_empty() { "" } else { "/" };
         let pointer = format_args!("{}{slash}{member}", self.pointer);
         self.document.diagnostics.add(code, pointer, message);
     }
 
+    /// Attributes, indices, mode, material requirements and morph targets, in this order.
     fn check_primitive(&mut self) {
         let Some(named) = object_members(self.primitive, "attributes") else {
             self.check_indices(None);
@@ -107,6 +114,7 @@ impl<'a> PrimitiveChecker<'a, '_> {
         }
     }
 
+    /// The attributes whose accessors exist; others have been reported by the schema walk.
     fn resolve_attributes(&self, named: &'a Map<String, Value>) -> ResolvedAttributes<'a> {
         let accessors = self.document.root_array("accessors");
         let find = |(name, value): (&'a String, &Value)| {
@@ -116,19 +124,20 @@ impl<'a> PrimitiveChecker<'a, '_> {
         named.iter().filter_map(find).collect()
     }
 
-    /// Names that glTF knows, numbered without gaps, and fitting each other; gives the number of sets of texture coordinates.
+    /// Validates the names of attributes and their numbering; returns the number of `TEXCOORD`
+    /// sets.
     fn check_names(&self, named: &Map<String, Value>) -> u64 {
         for name in named.keys().filter(|name| Semantic::from_name(name).is_none()) {
-            let message = format_args!("{name:?} is no attribute of glTF");
+            let message = format_args!("unknown attribute {name:?}");
             let member = format!("attributes/{}", escape_pointer_token(name));
             self.report(&codes::MESH_PRIMITIVE_INVALID_ATTRIBUTE, &member, message);
         }
         if !named.contains_key("POSITION") {
-            let message = "there are no positions; nothing is drawn";
+            let message = "missing POSITION: the primitive is not drawn";
             self.report(&codes::MESH_PRIMITIVE_NO_POSITION, "attributes", message);
         }
         if named.contains_key("TANGENT") && !named.contains_key("NORMAL") {
-            let message = "tangents without normals mean nothing";
+            let message = "TANGENT has no effect without NORMAL";
             self.report(
                 &codes::MESH_PRIMITIVE_TANGENT_WITHOUT_NORMAL,
                 "attributes/TANGENT",
@@ -144,7 +153,7 @@ impl<'a> PrimitiveChecker<'a, '_> {
                 numbers.fold((0, 0), |(count, last), n| (count + 1, u64::from(n).max(last)));
             if count > 0 && last + 1 != count {
                 let message = format_args!(
-                    "{count} attributes {kind} go up to number {last}: some are missing"
+                    "{kind} attributes are not numbered consecutively: {count} of them, up to {kind}_{last}"
                 );
                 let code = &codes::MESH_PRIMITIVE_INDEXED_SEMANTIC_CONTINUITY;
                 self.report(code, &format!("attributes/{kind}_0"), message);
@@ -153,16 +162,19 @@ impl<'a> PrimitiveChecker<'a, '_> {
             count
         });
         if counts[2] != counts[3] {
-            let message = format_args!("{} sets of joints and {} of weights", counts[2], counts[3]);
+            let message = format_args!(
+                "the number of JOINTS sets ({}) differs from that of WEIGHTS sets ({})",
+                counts[2], counts[3]
+            );
             self.report(&codes::MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH, "attributes", message);
         }
         counts[0]
     }
 
-    /// The formats of all attributes; gives the number of vertices.
+    /// Validates the formats and counts of all attributes; returns the number of vertices.
     fn check_attributes(&mut self, attributes: &ResolvedAttributes<'_>) -> Option<u64> {
         let mut vertices = None;
-        // The number of vertices is that of the positions, wherever they stand.
+        // POSITION comes first, because its count is the number of vertices.
         let position = attributes.iter().find(|(name, ..)| *name == "POSITION");
         for &(name, at, accessor) in position.into_iter().chain(attributes) {
             let member = format!("attributes/{}", escape_pointer_token(name));
@@ -186,6 +198,9 @@ impl<'a> PrimitiveChecker<'a, '_> {
         vertices
     }
 
+    /// Records rules for the elements of an attribute in a valid format.
+    ///
+    /// Normals and tangents are unit vectors; float colors are in [0, 1].
     fn add_element_rules(&mut self, name: &str, at: usize, layout: AccessorLayout, pointer: &str) {
         let quantized = self.document.uses_extension("KHR_mesh_quantization");
         let formats = Semantic::from_name(name)
@@ -202,11 +217,15 @@ impl<'a> PrimitiveChecker<'a, '_> {
         }
     }
 
+    /// Validates the format, bounds and alignment of an attribute.
+    ///
+    /// `POSITION` needs `min` and `max`. Vertex data is aligned to four bytes, in its offset and in
+    /// its stride (glTF 2.0 §3.7.2.1).
     fn check_format(&self, name: &str, accessor: &Value, member: &str, in_target: bool) {
         let Some(layout) = AccessorLayout::from_accessor(accessor) else { return };
         let has_bounds = accessor.get("min").is_some() && accessor.get("max").is_some();
         if name == "POSITION" && !has_bounds {
-            let message = "the accessor of positions must have min and max";
+            let message = "the accessor of POSITION must have min and max";
             self.report(&codes::MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS, member, message);
         }
         let quantized = self.document.uses_extension("KHR_mesh_quantization");
@@ -214,7 +233,7 @@ impl<'a> PrimitiveChecker<'a, '_> {
             .map(|semantic| semantic.allowed_formats(in_target, quantized))
         {
             Some(Some(formats)) if !formats::is_allowed(layout, &formats) => {
-                let message = format_args!("it cannot be {}", layout.format_name());
+                let message = format_args!("the format cannot be {}", layout.format_name());
                 self.report(
                     &codes::MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT,
                     member,
@@ -222,7 +241,7 @@ impl<'a> PrimitiveChecker<'a, '_> {
                 );
             }
             None | Some(None) if layout.component_type == ComponentType::U32 => {
-                let message = "no attribute can be of UNSIGNED_INT";
+                let message = "an attribute cannot be of UNSIGNED_INT";
                 self.report(
                     &codes::MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_UNSIGNED_INT,
                     member,
@@ -239,19 +258,19 @@ impl<'a> PrimitiveChecker<'a, '_> {
         };
         let is_aligned = stride.is_multiple_of(4);
         if !layout.byte_offset.is_multiple_of(4) || !is_aligned {
-            let message = "the data of vertices must begin at multiples of 4 bytes";
+            let message = "vertex data must be aligned to 4 bytes";
             self.report(&codes::MESH_PRIMITIVE_ACCESSOR_UNALIGNED, member, message);
         }
     }
 
-    /// The format of the indices; gives how many there are.
+    /// Validates the format of the indices; returns their number.
     fn check_indices(&mut self, vertices: Option<u64>) -> Option<u64> {
         let at = index_member(self.primitive, "indices")?;
         let accessor = self.document.root_array("accessors").get(at)?;
         let pointer = format!("{}/indices", self.pointer);
         self.usage.note_accessor(at, AccessorUse::Indices, &pointer);
         if self.usage.has_stride(at) {
-            let message = "the view of indices must not have a stride";
+            let message = "byteStride must not be set on the buffer view of indices";
             self.report(
                 &codes::MESH_PRIMITIVE_INDICES_ACCESSOR_WITH_BYTESTRIDE,
                 "indices",
@@ -264,12 +283,13 @@ impl<'a> PrimitiveChecker<'a, '_> {
             let demand = ElementRule::Indices { vertices: vertices.unwrap_or(0), triangles };
             self.rules.add(at, demand, &pointer);
         } else {
-            let message = format_args!("indices cannot be {}", layout.format_name());
+            let message = format_args!("the format of indices cannot be {}", layout.format_name());
             self.report(&codes::MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT, "indices", message);
         }
         Some(layout.count)
     }
 
+    /// The number of vertices or indices must form whole primitives of the mode.
     fn check_mode(&self, count: Option<u64>) {
         let Some(count) = count else { return };
         let fits = match integer_member(self.primitive, "mode").unwrap_or(4) {
@@ -280,11 +300,15 @@ impl<'a> PrimitiveChecker<'a, '_> {
             _ => true,
         };
         if !fits {
-            let message = format_args!("{count} vertices do not make whole lines or triangles");
+            let message = format_args!(
+                "{count} vertices or indices do not form whole primitives of this mode"
+            );
             self.report(&codes::MESH_PRIMITIVE_INCOMPATIBLE_MODE, "", message);
         }
     }
 
+    /// A morph target: its attributes can be displaced, exist in the base mesh, and have as many
+    /// elements as there.
     fn check_morph_target(
         &self,
         at: usize,
@@ -298,7 +322,7 @@ impl<'a> PrimitiveChecker<'a, '_> {
             };
             if !is_movable {
                 let member = format!("targets/{at}/{}", escape_pointer_token(name));
-                let message = format_args!("{name:?} is no attribute of a morph target");
+                let message = format_args!("{name:?} cannot be an attribute of a morph target");
                 self.report(&codes::MESH_PRIMITIVE_INVALID_ATTRIBUTE, &member, message);
             }
         }
@@ -310,12 +334,12 @@ impl<'a> PrimitiveChecker<'a, '_> {
             self.check_format(name, json, &member, true);
             match base.get(name) {
                 None => {
-                    let message = format_args!("the mesh itself has no {name}");
+                    let message = format_args!("the base mesh has no {name}");
                     let code = &codes::MESH_PRIMITIVE_MORPH_TARGET_NO_BASE_ACCESSOR;
                     self.report(code, &member, message);
                 }
                 Some(count) if *count != integer_member(json, "count") => {
-                    let message = "it has not as many elements as the mesh itself";
+                    let message = "the number of elements differs from that of the base mesh";
                     let code = &codes::MESH_PRIMITIVE_MORPH_TARGET_INVALID_ATTRIBUTE_COUNT;
                     self.report(code, &member, message);
                 }

@@ -1,99 +1,116 @@
-//! The JSON schema of glTF as tables: which members an object may have, and what each must be.
+//! The JSON schema of glTF as constant tables: the members of every object, and their values.
 //!
-//! The tables are the specification's own property tables (glTF 2.0 §5) and those of the extensions, line by line. A walk over
-//! a document ([`super::walk`]) by these tables finds whatever is of the wrong type, out of range, missing, or refers
-//! to nothing, without a line of code for any single member.
+//! The tables are the property tables of the specification (glTF 2.0 §5) and of the extensions, row
+//! by row. The schema walk ([`super::schema_walk`]) interprets them: it finds values of the wrong
+//! type or out of range, missing members and unresolved references without code for any single
+//! member.
 
 pub(super) mod core;
 pub(super) mod extensions;
 
-/// An object: its name in the tables of extensions, and its members. All may have `extensions` and `extras` besides.
+/// The schema of an object: its name, to which extensions refer, and its members.
+///
+/// Every object may have `extensions` and `extras` besides.
 #[derive(Debug)]
-pub(super) struct Object {
+pub(super) struct ObjectSchema {
+    /// The name in the specification, such as `accessor` or `textureInfo`.
     pub(super) name: &'static str,
+    /// The members, in the order of the specification.
     pub(super) members: &'static [MemberSchema],
 }
 
-/// A member of an object.
+/// The schema of a member.
 #[derive(Debug)]
 pub(super) struct MemberSchema {
+    /// The name of the member.
     pub(super) name: &'static str,
+    /// The type and range of its value.
     pub(super) kind: ValueKind,
+    /// When it must be present.
     pub(super) rule: PresenceRule,
 }
 
-/// When a member must be there.
+/// When a member must be present.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum PresenceRule {
-    /// Whenever one likes.
-    May,
+    /// Never.
+    Optional,
     /// Always.
-    Must,
+    Required,
     /// Only together with another member.
-    With(&'static str),
-    /// Exactly one of this member and that one must be there.
-    Either(&'static str),
+    Requires(&'static str),
+    /// Exactly one of this member and another one.
+    ExactlyOne(&'static str),
     /// Only without another member.
-    Not(&'static str),
+    Excludes(&'static str),
 }
 
-/// What a member must be.
+/// The type and range of a value.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum ValueKind {
-    /// Anything at all.
+    /// Any value.
     Any,
     /// true or false.
-    Flag,
-    /// A text.
+    Boolean,
+    /// A string.
     Text,
-    /// A text of the form `2.0`.
+    /// A string of the form `2.0`.
     Version,
-    /// One of these texts; another one is only a warning.
-    Word(&'static [&'static str]),
-    /// A whole number from the first to the second.
+    /// One of these strings; another one is only a warning.
+    EnumString(&'static [&'static str]),
+    /// An integer from the first to the second.
     Integer(u64, u64),
-    /// One of these whole numbers; another one is only a warning.
-    Choice(&'static [u64]),
+    /// One of these integers; another one is only a warning.
+    EnumInteger(&'static [u64]),
     /// A number in a range.
     Number(NumberRange),
-    /// So many numbers, each in a range; 0 for any number but none.
+    /// An array of this many numbers in a range; 0 for any length above 0.
     Numbers(usize, NumberRange),
-    /// The number of something.
+    /// An index into a collection.
     Index(Collection),
-    /// The numbers of several things, all different.
+    /// Distinct indices into a collection.
     Indices(Collection),
-    /// Texts, all different.
+    /// Distinct strings.
     Texts,
     /// An object.
-    Object(&'static Object),
-    /// At least one object.
-    Objects(&'static Object),
-    /// Accessors by the names of attributes.
+    Object(&'static ObjectSchema),
+    /// A non-empty array of objects.
+    Objects(&'static ObjectSchema),
+    /// Accessor indices by attribute name.
     Attributes,
-    /// Several of them: morph targets.
+    /// Morph targets: a non-empty array of attributes.
     Targets,
 }
 
-/// The least and the greatest number that is allowed, and whether the least itself is.
+/// A range of numbers, with or without its minimum.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NumberRange {
+    /// The minimum.
     pub(super) min: f64,
+    /// The maximum, which is part of the range.
     pub(super) max: f64,
+    /// Whether the minimum itself is excluded.
     pub(super) exclusive_min: bool,
 }
 
-const fn not(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
-    MemberSchema { name, kind, rule: PresenceRule::Not(other) }
+/// A member that excludes another one.
+const fn excludes(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
+    MemberSchema { name, kind, rule: PresenceRule::Excludes(other) }
 }
 
+/// Any number.
 const ANY: NumberRange =
     NumberRange { min: f64::NEG_INFINITY, max: f64::INFINITY, exclusive_min: false };
+/// Factors: [0, 1].
 const UNIT: NumberRange = NumberRange { min: 0.0, max: 1.0, exclusive_min: false };
+/// Components of unit vectors and quaternions: [−1, 1].
 const SIGNED_UNIT: NumberRange = NumberRange { min: -1.0, max: 1.0, exclusive_min: false };
+/// Numbers from 0.
 const NOT_NEGATIVE: NumberRange = NumberRange { min: 0.0, ..ANY };
+/// Numbers greater than 0.
 const POSITIVE: NumberRange = NumberRange { min: 0.0, exclusive_min: true, ..ANY };
 
-/// What an index counts.
+/// A collection of objects that indices refer to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Collection {
     Accessors,
@@ -110,12 +127,12 @@ pub(super) enum Collection {
     Textures,
     Lights,
     Variants,
-    /// The samplers of the same animation; they are checked with it.
+    /// The samplers of the same animation, which are validated with it.
     AnimationSamplers,
 }
 
 impl Collection {
-    /// Those that are arrays of a document, where each is, and whether something in it that nobody uses is worth a note.
+    /// The collections of a document with their pointers, and whether unused objects get a note.
     pub(super) const ALL: [(Self, &'static str, bool); 14] = [
         (Self::Accessors, "/accessors", true),
         (Self::Buffers, "/buffers", true),
@@ -134,18 +151,22 @@ impl Collection {
     ];
 }
 
-const fn may(name: &'static str, kind: ValueKind) -> MemberSchema {
-    MemberSchema { name, kind, rule: PresenceRule::May }
+/// A member that may be absent.
+const fn optional(name: &'static str, kind: ValueKind) -> MemberSchema {
+    MemberSchema { name, kind, rule: PresenceRule::Optional }
 }
 
-const fn must(name: &'static str, kind: ValueKind) -> MemberSchema {
-    MemberSchema { name, kind, rule: PresenceRule::Must }
+/// A member that must be present.
+const fn required(name: &'static str, kind: ValueKind) -> MemberSchema {
+    MemberSchema { name, kind, rule: PresenceRule::Required }
 }
 
-const fn with(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
-    MemberSchema { name, kind, rule: PresenceRule::With(other) }
+/// A member that is valid only together with another one.
+const fn requires(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
+    MemberSchema { name, kind, rule: PresenceRule::Requires(other) }
 }
 
-const fn either(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
-    MemberSchema { name, kind, rule: PresenceRule::Either(other) }
+/// A member of which, with another one, exactly one must be present.
+const fn one_of(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
+    MemberSchema { name, kind, rule: PresenceRule::ExactlyOne(other) }
 }

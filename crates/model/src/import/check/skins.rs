@@ -1,6 +1,6 @@
-//! Skins: joints, their matrices, and the weights of the vertices they bend (glTF 2.0 §3.7.3).
+//! Skins: joints, inverse bind matrices, and the joint weights of vertices (glTF 2.0 §3.7.3).
 
-use super::codes::{self, Code};
+use super::codes::{self, DiagnosticCode};
 use super::data::{ElementRule, ElementRules};
 use super::document::{
     CheckedDocument, array_items, as_whole_number, index_member, integer_member, object_members,
@@ -12,7 +12,7 @@ use super::store::BufferStore;
 use super::usage::{AccessorUse, UsageMap};
 use serde_json::{Map, Value};
 
-/// Checks all skins; notes what is demanded of accessors.
+/// Validates all skins, and records rules for the elements of their accessors.
 pub(super) fn check_skins(
     document: &CheckedDocument<'_>,
     tree: &NodeTree,
@@ -29,6 +29,10 @@ pub(super) fn check_skins(
     }
 }
 
+/// The joints have a common root, and `skeleton` is a common ancestor of them.
+///
+/// Both are constant-time queries per joint: the root of each node, and its traversal interval, are
+/// part of the tree.
 fn check_common_root(
     document: &CheckedDocument<'_>,
     tree: &NodeTree,
@@ -36,23 +40,24 @@ fn check_common_root(
     skin: &Value,
     pointer: &str,
 ) {
-    let findings = document.diagnostics;
+    let diagnostics = document.diagnostics;
     let top = |&joint: &usize| tree.roots.get(joint).copied().flatten();
     let mut tops = joints.iter().map(top);
     let first = tops.next();
     if first.is_some_and(|first| first.is_none() || tops.any(|top| top != first)) {
-        let message = "the joints are not all below one node";
-        findings.add(&codes::SKIN_NO_COMMON_ROOT, format_args!("{pointer}/joints"), message);
+        let message = "the joints have no common root node";
+        diagnostics.add(&codes::SKIN_NO_COMMON_ROOT, format_args!("{pointer}/joints"), message);
     }
     let skeleton = index_member(skin, "skeleton").filter(|&node| node < tree.parents.len());
     if let Some(node) = skeleton
         && !joints.iter().all(|&joint| tree.is_at_or_below(joint, node))
     {
-        let message = format_args!("not all joints are below node {node}");
-        findings.add(&codes::SKIN_SKELETON_INVALID, format_args!("{pointer}/skeleton"), message);
+        let message = format_args!("node {node} is not a common ancestor of the joints");
+        diagnostics.add(&codes::SKIN_SKELETON_INVALID, format_args!("{pointer}/skeleton"), message);
     }
 }
 
+/// The inverse bind matrices: format, stride, and at least one for each joint.
 fn check_inverse_bind_matrices(
     document: &CheckedDocument<'_>,
     usage: &UsageMap<'_>,
@@ -61,31 +66,32 @@ fn check_inverse_bind_matrices(
     skin: &Value,
     pointer: &str,
 ) {
-    let findings = document.diagnostics;
+    let diagnostics = document.diagnostics;
     let Some(at) = index_member(skin, "inverseBindMatrices") else { return };
     let Some(accessor) = document.root_array("accessors").get(at) else { return };
     let pointer = format!("{pointer}/inverseBindMatrices");
     usage.note_accessor(at, AccessorUse::InverseBind, &pointer);
     if usage.has_stride(at) {
-        let message = "the view of the matrices must not have a stride";
-        findings.add(&codes::SKIN_IBM_ACCESSOR_WITH_BYTESTRIDE, &pointer, message);
+        let message = "byteStride must not be set on the buffer view of inverse bind matrices";
+        diagnostics.add(&codes::SKIN_IBM_ACCESSOR_WITH_BYTESTRIDE, &pointer, message);
     }
     let Some(layout) = AccessorLayout::from_accessor(accessor) else { return };
     if (layout.element_type, layout.component_type) == (MAT4, ComponentType::F32) {
         demands.add(at, ElementRule::Matrices, &pointer);
     } else {
-        let message = format_args!("the matrices cannot be {}", layout.format_name());
-        findings.add(&codes::SKIN_IBM_INVALID_FORMAT, &pointer, message);
+        let message =
+            format_args!("the format of inverse bind matrices cannot be {}", layout.format_name());
+        diagnostics.add(&codes::SKIN_IBM_INVALID_FORMAT, &pointer, message);
     }
     if layout.count < joints as u64 {
         let message = format_args!("{} matrices for {joints} joints", layout.count);
-        findings.add(&codes::INVALID_IBM_ACCESSOR_COUNT, &pointer, message);
+        diagnostics.add(&codes::INVALID_IBM_ACCESSOR_COUNT, &pointer, message);
     }
 }
 
-/// Checks joints and weights of all meshes that a skin bends.
+/// Validates the joints and weights of all skinned meshes.
 pub(super) fn check_skinned_meshes(document: &CheckedDocument<'_>, store: &BufferStore<'_>) {
-    // A mesh may be bent by several skins: the one with the fewest joints is the measure.
+    // A mesh may be used with several skins: its joint indices must fit the smallest.
     let mut fewest_joints: Vec<Option<usize>> = vec![None; document.root_array("meshes").len()];
     let skins = document.root_array("skins");
     for node in document.root_array("nodes") {
@@ -108,24 +114,29 @@ pub(super) fn check_skinned_meshes(document: &CheckedDocument<'_>, store: &Buffe
     }
 }
 
-/// Joints and weights of every vertex, four of each.
+/// One set of joints and weights: four of each per vertex.
 type InfluenceSet = (Vec<[f32; 4]>, Vec<[f32; 4]>);
 
+/// The validation of the joints and weights of one primitive.
 struct InfluenceChecker<'a> {
     document: &'a CheckedDocument<'a>,
     store: &'a BufferStore<'a>,
+    /// The number of joints of the skin.
     joints: usize,
+    /// The JSON pointer of the attributes.
     pointer: String,
 }
 
-/// So many sets of joints and weights are looked at; nobody has more.
+/// The maximum number of sets of joints and weights that are validated.
 const MAX_SETS: usize = 16;
 
-/// Weights rounded to bytes may add up to so much more or less than 1 for every two joints beyond the first two. The
-/// validator's number.
+/// The tolerance for the sum of weights rounded to bytes, for every two joints beyond the first two
+/// (the Khronos validator's value).
 const WEIGHT_ROUNDING: f64 = 0.003_921_6;
 
 impl InfluenceChecker<'_> {
+    /// Validates all sets of joints and weights of a primitive together, because the weights of a
+    /// vertex sum to 1 over all sets.
     fn check_influences(&self, named: &Map<String, Value>) {
         let mut sets = Vec::new();
         while let (true, Some(joints), Some(weights)) = (
@@ -150,31 +161,31 @@ impl InfluenceChecker<'_> {
         for vertex in 0..count.unwrap_or(0) {
             self.check_vertex(&sets, vertex, &mut faults);
         }
-        let words: [(&Code, &str, &str); 4] = [
-            (&codes::ACCESSOR_JOINTS_INDEX_OOB, "JOINTS", "joints are not in the skin"),
-            (&codes::ACCESSOR_JOINTS_INDEX_DUPLICATE, "JOINTS", "joints bend a vertex twice"),
+        let words: [(&DiagnosticCode, &str, &str); 4] = [
+            (&codes::ACCESSOR_JOINTS_INDEX_OOB, "JOINTS", "joint indices are not in the skin"),
+            (
+                &codes::ACCESSOR_JOINTS_INDEX_DUPLICATE,
+                "JOINTS",
+                "joints influence a vertex more than once",
+            ),
             (&codes::ACCESSOR_WEIGHTS_NEGATIVE, "WEIGHTS", "weights are negative"),
             (
                 &codes::ACCESSOR_WEIGHTS_NON_NORMALIZED,
                 "WEIGHTS",
-                "weights of vertices do not add up to 1",
+                "the weights of vertices do not sum to 1",
             ),
         ];
         for (set, counts) in faults.iter().enumerate() {
             for (count, (code, name, what)) in counts.iter().zip(words) {
                 if *count > 0 {
                     let pointer = format_args!("{}/{name}_{set}", self.pointer);
-                    self.document.diagnostics.add(
-                        code,
-                        pointer,
-                        format_args!("{what} (how many: {count})"),
-                    );
+                    self.document.diagnostics.add(code, pointer, format_args!("{what} ({count})"));
                 }
             }
         }
     }
 
-    /// The four numbers of every vertex.
+    /// Decodes the four components of every vertex.
     fn read_vec4s(&self, accessor: &Value) -> Option<Vec<[f32; 4]>> {
         let at = usize::try_from(as_whole_number(accessor)?).ok()?;
         let accessor = self.document.root_array("accessors").get(at)?;
@@ -182,7 +193,7 @@ impl InfluenceChecker<'_> {
             .filter(|layout| layout.element_type.component_count() == 4)?;
         let elements: AccessorElements<'_> = self.store.accessor_elements(accessor, layout)?;
         let pointer = format!("/accessors/{at}/count");
-        // Only what has bytes is worth the memory.
+        // An accessor without a buffer view is all zeros: do not allocate for it.
         layout.buffer_view.filter(|_| integer_member(accessor, "count").is_some())?;
         self.store.charge_budget(&pointer, layout.count.saturating_mul(16)).then_some(())?;
         let mut all = Vec::new();
@@ -193,6 +204,10 @@ impl InfluenceChecker<'_> {
         Some(all)
     }
 
+    /// Counts the violations of one vertex, by set and rule.
+    ///
+    /// A joint may influence a vertex only once; joints of weight 0 do not count (glTF 2.0
+    /// §3.7.3.3).
     fn check_vertex(
         &self,
         sets: &[InfluenceSet],
@@ -220,7 +235,7 @@ impl InfluenceChecker<'_> {
                 }
             }
         }
-        // Adding in single precision, as others do, loses some digits.
+        // The second term covers the rounding of a sum in single precision.
         let allowed =
             WEIGHT_ROUNDING * (number.div_ceil(2).saturating_sub(1)) as f64 + 2e-7 * number as f64;
         if (sum - 1.0).abs() > allowed {

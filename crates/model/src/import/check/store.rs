@@ -1,4 +1,4 @@
-//! The bytes that a document speaks of: buffers are read, each once, and views found in them.
+//! Buffer data: buffers are read once, and buffer views are resolved in them.
 
 use super::codes;
 use super::document::{
@@ -7,30 +7,34 @@ use super::document::{
 use super::elements::AccessorElements;
 use super::layout::{AccessorLayout, ComponentType};
 use super::uris;
+use crate::import::gltf::meshopt::CompressedView;
 use crate::import::memory_budget::MemoryBudget;
-use crate::import::meshopt::CompressedView;
 use crate::import::uri_resolver::UriResolver;
 use serde_json::Value;
 use std::cell::{Cell, OnceCell};
 
-/// The buffers of a document.
+/// The buffers of a document, its decompressed buffer views, and the budget for reading them.
 pub(super) struct BufferStore<'a> {
     document: &'a CheckedDocument<'a>,
     resolver: &'a UriResolver<'a>,
+    /// The bytes of each buffer; `None` if they cannot be read.
     buffers: Vec<Option<BufferBytes<'a>>>,
-    /// The views that have been decompressed.
+    /// The buffer views decompressed by meshopt, each on first use.
     decompressed: Vec<OnceCell<Option<Vec<u8>>>>,
+    /// The budget of bytes that may be read or decoded, in proportion to the size of the files.
     budget: MemoryBudget<'a>,
+    /// Whether the budget has been exceeded: nothing more is read then.
     exhausted: Cell<bool>,
 }
 
+/// The bytes of a buffer.
 enum BufferBytes<'a> {
     Chunk(&'a [u8]),
     Read(Vec<u8>),
 }
 
 impl<'a> BufferStore<'a> {
-    /// Reads all buffers. `chunk` is the binary chunk of a file that is binary.
+    /// Reads all buffers; `chunk` is the binary chunk of a GLB.
     pub(super) fn load_buffers(
         document: &'a CheckedDocument<'a>,
         resolver: &'a UriResolver<'a>,
@@ -53,6 +57,10 @@ impl<'a> BufferStore<'a> {
         store
     }
 
+    /// Reads one buffer from its URI or the binary chunk.
+    ///
+    /// The binary chunk is the first buffer without a URI; it may be up to three bytes longer than
+    /// the buffer, for padding.
     fn load_buffer(
         &self,
         at: usize,
@@ -60,15 +68,15 @@ impl<'a> BufferStore<'a> {
         chunk: Option<&'a [u8]>,
         is_binary: bool,
     ) -> Option<BufferBytes<'a>> {
-        let findings = self.document.diagnostics;
+        let diagnostics = self.document.diagnostics;
         let length = integer_member(buffer, "byteLength");
         let Some(uri) = string_member(buffer, "uri") else {
             let has_no_uri = buffer.is_object() && buffer.get("uri").is_none();
             let chunk = chunk.filter(|_| at == 0 && has_no_uri);
-            // A buffer without data is what meshopt has for those who cannot read it.
+            // A buffer without data may be the fallback buffer of EXT_meshopt_compression.
             if chunk.is_none() && is_binary && has_no_uri && at == 0 {
-                let message = "the buffer is to be the binary chunk, and there is none";
-                findings.add(
+                let message = "the buffer refers to the binary chunk, but there is none";
+                diagnostics.add(
                     &codes::BUFFER_MISSING_GLB_DATA,
                     format_args!("/buffers/{at}"),
                     message,
@@ -79,8 +87,8 @@ impl<'a> BufferStore<'a> {
             if chunk.len() as u64 > length.saturating_add(3) {
                 let more = chunk.len() as u64 - length;
                 let message =
-                    format_args!("the binary chunk has {more} bytes more than the buffer");
-                findings.add(
+                    format_args!("the binary chunk is {more} bytes larger than the buffer");
+                diagnostics.add(
                     &codes::BUFFER_GLB_CHUNK_TOO_BIG,
                     format_args!("/buffers/{at}"),
                     message,
@@ -89,23 +97,25 @@ impl<'a> BufferStore<'a> {
             return Some(BufferBytes::Chunk(chunk));
         };
         let pointer = format!("/buffers/{at}/uri");
-        uris::check_buffer_uri(uri, &pointer, is_binary, findings);
-        let bytes = uris::read_uri(self.resolver, uri, &pointer, findings)?;
+        uris::check_buffer_uri(uri, &pointer, is_binary, diagnostics);
+        let bytes = uris::read_uri(self.resolver, uri, &pointer, diagnostics)?;
         if let Some(length) = length {
             self.check_length(at, bytes.len(), length);
         }
         Some(BufferBytes::Read(bytes))
     }
 
-    fn check_length(&self, at: usize, there: usize, length: u64) {
-        if (there as u64) < length {
-            let message = format_args!("the buffer says {length} bytes, its data has {there}");
+    /// Reports data that is shorter than the declared `byteLength`.
+    fn check_length(&self, at: usize, available: usize, length: u64) {
+        if (available as u64) < length {
+            let message =
+                format_args!("byteLength is {length}, but the data has {available} bytes");
             let pointer = format_args!("/buffers/{at}/byteLength");
             self.document.diagnostics.add(&codes::BUFFER_BYTE_LENGTH_MISMATCH, pointer, message);
         }
     }
 
-    /// Whether so many bytes more may be looked at; the first time they may not is told.
+    /// Charges bytes to the budget; the first time it is exceeded, that is reported.
     pub(super) fn charge_budget(&self, pointer: &str, bytes: u64) -> bool {
         if self.exhausted.get() {
             return false;
@@ -113,13 +123,19 @@ impl<'a> BufferStore<'a> {
         let charged = self.budget.charge_bytes(pointer, bytes, self.resolver.total_bytes());
         if let Err(fault) = &charged {
             self.exhausted.set(true);
-            let message = format_args!("{}; the data from here on is not checked", fault.message);
-            let findings = self.document.diagnostics;
-            findings.add_with_help(&codes::LIMIT_EXCEEDED, pointer, message, &fault.help);
+            let message = format_args!("{}; data from here on is not validated", fault.message);
+            let diagnostics = self.document.diagnostics;
+            diagnostics.add_with_help(
+                &codes::LIMIT_EXCEEDED,
+                pointer,
+                message,
+                fault.help.as_deref().unwrap_or_default(),
+            );
         }
         charged.is_ok()
     }
 
+    /// All bytes of a buffer.
     fn buffer_bytes(&self, buffer: usize) -> Option<&[u8]> {
         match self.buffers.get(buffer)?.as_ref()? {
             BufferBytes::Chunk(bytes) => Some(bytes),
@@ -127,7 +143,7 @@ impl<'a> BufferStore<'a> {
         }
     }
 
-    /// The bytes of a view, if they are all there.
+    /// The bytes of a buffer view, decompressed if necessary, if all of them are present.
     pub(super) fn view_bytes(&self, view: usize) -> Option<&[u8]> {
         let json = self.document.root_array("bufferViews").get(view)?;
         let packed = ["KHR_meshopt_compression", "EXT_meshopt_compression"];
@@ -147,12 +163,13 @@ impl<'a> BufferStore<'a> {
         )
     }
 
+    /// A range of a buffer, if it is inside.
     fn buffer_range(&self, buffer: usize, offset: u64, length: u64) -> Option<&[u8]> {
         let start = usize::try_from(offset).ok()?;
         self.buffer_bytes(buffer)?.get(start..)?.get(..usize::try_from(length).ok()?)
     }
 
-    /// A compressed view; what is wrong with the stream, the loader tells.
+    /// Decompresses a meshopt buffer view. Errors of the stream are reported by the loader.
     fn decompress_view(&self, view: usize, json: &Value) -> Option<Vec<u8>> {
         let pointer = format!("/bufferViews/{view}");
         let json = serde_json::from_value(json.clone()).ok()?;
@@ -162,7 +179,7 @@ impl<'a> BufferStore<'a> {
             .then(|| packed.decompress(stream).ok())?
     }
 
-    /// The elements of an accessor, if all of their bytes are there.
+    /// The elements of an accessor, if all of their bytes are present.
     pub(super) fn accessor_elements(
         &self,
         accessor: &Value,
@@ -192,7 +209,7 @@ impl<'a> BufferStore<'a> {
         Some(AccessorElements::new(layout, base, indices, values))
     }
 
-    /// Which elements a sparse accessor replaces.
+    /// The indices of a sparse accessor, if all of their bytes are present.
     pub(super) fn sparse_indices(&self, sparse: &Value) -> Option<Vec<u32>> {
         let json = sparse.get("indices")?;
         let component = ComponentType::from_gl_constant(integer_member(json, "componentType")?)?;
@@ -211,48 +228,50 @@ impl<'a> BufferStore<'a> {
         )
     }
 
-    /// The stride that a view declares.
+    /// The `byteStride` that a buffer view declares.
     pub(super) fn view_stride(&self, view: usize) -> Option<usize> {
         index_member(self.document.root_array("bufferViews").get(view)?, "byteStride")
     }
 }
 
-/// The rules for buffer views (glTF 2.0 §5.11).
+/// Validates all buffer views (glTF 2.0 §5.11).
 pub(super) fn check_buffer_views(document: &CheckedDocument<'_>) {
     for (at, view) in document.root_array("bufferViews").iter().enumerate() {
         check_buffer_view(document, at, view);
     }
 }
 
+/// Validates one buffer view: its range, and its stride, which is a multiple of four, not set for
+/// indices, and not greater than the view.
 fn check_buffer_view(document: &CheckedDocument<'_>, at: usize, view: &Value) {
-    let findings = document.diagnostics;
+    let diagnostics = document.diagnostics;
     let offset = integer_member(view, "byteOffset").unwrap_or(0);
     let length = integer_member(view, "byteLength");
     let buffer =
         index_member(view, "buffer").and_then(|at| array_items(document.root, "buffers").get(at));
-    let there = buffer.and_then(|buffer| integer_member(buffer, "byteLength"));
-    if let (Some(length), Some(there)) = (length, there)
-        && (offset.saturating_add(length) > there || offset >= there && offset > 0)
+    let available = buffer.and_then(|buffer| integer_member(buffer, "byteLength"));
+    if let (Some(length), Some(available)) = (length, available)
+        && (offset.saturating_add(length) > available || offset >= available && offset > 0)
     {
-        let member = if offset >= there { "byteOffset" } else { "byteLength" };
+        let member = if offset >= available { "byteOffset" } else { "byteLength" };
         let message = format_args!(
-            "bytes {offset} to {offset} + {length} are not all in a buffer of {there}"
+            "{length} bytes from offset {offset} exceed the buffer of {available} bytes"
         );
         let pointer = format_args!("/bufferViews/{at}/{member}");
-        findings.add(&codes::BUFFER_VIEW_TOO_LONG, pointer, message);
+        diagnostics.add(&codes::BUFFER_VIEW_TOO_LONG, pointer, message);
     }
     let Some(stride) = integer_member(view, "byteStride") else { return };
     let pointer = format!("/bufferViews/{at}/byteStride");
     if !stride.is_multiple_of(4) {
-        let message = format_args!("{stride} is no multiple of 4");
-        findings.add(&codes::VALUE_MULTIPLE_OF, &pointer, message);
+        let message = format_args!("{stride} is not a multiple of 4");
+        diagnostics.add(&codes::VALUE_MULTIPLE_OF, &pointer, message);
     }
     if integer_member(view, "target") == Some(34_963) {
-        let message = "a view of indices has no stride";
-        findings.add(&codes::BUFFER_VIEW_INVALID_BYTE_STRIDE, &pointer, message);
+        let message = "a buffer view of indices must not have byteStride";
+        diagnostics.add(&codes::BUFFER_VIEW_INVALID_BYTE_STRIDE, &pointer, message);
     }
     if let Some(length) = length.filter(|&length| stride > length) {
-        let message = format_args!("the stride is {stride}, and the view has {length} bytes");
-        findings.add(&codes::BUFFER_VIEW_TOO_BIG_BYTE_STRIDE, &pointer, message);
+        let message = format_args!("byteStride {stride} exceeds the buffer view of {length} bytes");
+        diagnostics.add(&codes::BUFFER_VIEW_TOO_BIG_BYTE_STRIDE, &pointer, message);
     }
 }

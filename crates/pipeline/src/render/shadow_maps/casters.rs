@@ -10,7 +10,9 @@ use crate::render::vertex_processing::{VertexArrays, material_uv_set};
 use crate::scene::Scene;
 use homog::Affine;
 use model::{MeshInstance, Model, Primitive, TextureInfo, TextureSlot, Topology};
-use raster::{CullMode, Fragment, Fragments, Frame, LANES, Opacity, SimdLevel, Surface};
+use raster::{
+    CullMode, Fragment, Fragments, Frame, LANES, MeshTriangles, Opacity, SimdLevel, Surface,
+};
 use shade::{Draw, DrawKind, DrawList, MaterialTextures, Tangents};
 
 /// What of draws is there at all: their colours do not count.
@@ -56,8 +58,9 @@ pub(super) fn draw_casters<'a>(
             images.cull_clusters(stage, model_to_clip, primitive, &posed, None);
             images.project_vertices(stage, model_to_clip, &posed.positions, threads);
             for (whole, cut) in images.triangle_runs() {
-                let screen = &images.screen_vertices;
-                frame.add_mesh_runs(screen, triangles, whole, first_id, cover, CullMode::Nothing);
+                let (vertices, opacity, cull) = (&images.screen_vertices, cover, CullMode::Nothing);
+                let mesh = MeshTriangles { vertices, triangles, first_id, opacity, cull };
+                frame.add_mesh_runs(mesh, whole);
                 let cut = cut.start.min(triangles.len())..cut.end.min(triangles.len());
                 for (number, corners) in (first_id..).zip(triangles).take(cut.end).skip(cut.start) {
                     submit_clipped_triangle(

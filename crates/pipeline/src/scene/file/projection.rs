@@ -157,11 +157,7 @@ impl ProjectionFile {
     /// Two-point perspective with every default.
     #[must_use]
     pub const fn two_point() -> Self {
-        Self::TwoPoint {
-            x: point(-3.2, 0.4),
-            z: point(2.4, 0.4),
-            fraction: Finite::constant(0.57),
-        }
+        Self::TwoPoint { x: point(-3.2, 0.4), z: point(2.4, 0.4), fraction: Finite::constant(0.57) }
     }
 
     /// Three-point perspective with every default.

@@ -60,10 +60,7 @@ fn near_distance(adviser: &Linter<'_>) -> Option<f64> {
 }
 
 /// Where the plane is written, or the camera that brings it.
-fn plane_path<'a>(
-    adviser: &Linter<'_>,
-    plane: &'a str,
-) -> Vec<crate::scene::syntax::PathStep<'a>> {
+fn plane_path<'a>(adviser: &Linter<'_>, plane: &'a str) -> Vec<crate::scene::syntax::PathStep<'a>> {
     let given = matches!(
         adviser.file.camera.projection,
         Some(

@@ -59,15 +59,26 @@ impl<'a> Checker<'a> {
     }
 
     /// Reports that a value is not of the type that its field has; what `expected` says follows the path of the field.
-    pub(in crate::scene) fn report_type(&mut self, node: &Node<'_>, expected: &str, help: Option<String>) {
+    pub(in crate::scene) fn report_type(
+        &mut self,
+        node: &Node<'_>,
+        expected: &str,
+        help: Option<String>,
+    ) {
         if node.kind != NodeKind::Invalid {
-            let message = format!("{}expected {expected}, found {}", self.path_prefix(), self.describe(node));
+            let message =
+                format!("{}expected {expected}, found {}", self.path_prefix(), self.describe(node));
             self.report(node.span.clone(), message, help);
         }
     }
 
     /// Reports that a value is of the right type and out of its range.
-    pub(in crate::scene) fn report_value(&mut self, node: &Node<'_>, problem: &str, help: Option<String>) {
+    pub(in crate::scene) fn report_value(
+        &mut self,
+        node: &Node<'_>,
+        problem: &str,
+        help: Option<String>,
+    ) {
         let message = format!("{}{problem}", self.path_prefix());
         self.report(node.span.clone(), message, help);
     }
@@ -131,7 +142,8 @@ impl<'a> Checker<'a> {
             NodeKind::Invalid => None,
             NodeKind::Word(word) if suggest_variant(entry, word, None).is_known() => {
                 let suggestion = suggest_variant(entry, word, self.top_level_field());
-                let message = format!("{}expected `{}`, found `{word}`", self.path_prefix(), entry.name);
+                let message =
+                    format!("{}expected `{}`, found `{word}`", self.path_prefix(), entry.name);
                 self.report(node.span.clone(), message, Some(suggestion.help));
                 None
             }
@@ -148,7 +160,11 @@ impl<'a> Checker<'a> {
         let message = format!("expected `{}`, found `{}`", entry.name, name.name);
         let suggestion = suggest_variant(entry, name.name, self.top_level_field());
         let is_known = suggestion.is_known();
-        let help = if is_known { suggestion.help } else { format!("write {}(…), or just (…)", entry.name) };
+        let help = if is_known {
+            suggestion.help
+        } else {
+            format!("write {}(…), or just (…)", entry.name)
+        };
         self.report(name.span.clone(), message, Some(help));
         (!is_known).then_some(())
     }
@@ -177,7 +193,11 @@ impl<'a> Checker<'a> {
                     None => meant.extend(self.report_unknown_field(key, &owner, declared)),
                     Some(field) if found.iter().any(|(name, _)| *name == field.name) => {
                         let message = format!("the field `{}` is there twice", field.name);
-                        self.report(key.span.clone(), message, Some("remove one of them".to_owned()));
+                        self.report(
+                            key.span.clone(),
+                            message,
+                            Some("remove one of them".to_owned()),
+                        );
                     }
                     Some(field) => found.push((field.name, item)),
                 },
@@ -260,25 +280,32 @@ impl<'a> Checker<'a> {
         variants: &'static [VariantEntry],
     ) {
         let text = &self.source[node.span.clone()];
-        let inner = |variant: &VariantEntry| variant.value_type.map(|value_type| value_type().words());
+        let inner =
+            |variant: &VariantEntry| variant.value_type.map(|value_type| value_type().words());
         let kinds: &[&str] = match node.kind {
             NodeKind::String(_) => &["string", "Color"],
             NodeKind::Number(_) => &["whole number", "Positive"],
             _ => &[],
         };
-        let fitting = variants.iter().find(|&variant| inner(variant).is_some_and(|words| kinds.contains(&words.as_str())));
+        let fitting = variants
+            .iter()
+            .find(|&variant| inner(variant).is_some_and(|words| kinds.contains(&words.as_str())));
         let help = match fitting {
             Some(variant) => format!("did you mean `{}({text})`?", variant.name),
             None => format!("`alberti scene doc {}` lists the words that are possible", entry.name),
         };
-        let quotes = if matches!(node.kind, NodeKind::String(_)) { ", without quotation marks" } else { "" };
+        let quotes =
+            if matches!(node.kind, NodeKind::String(_)) { ", without quotation marks" } else { "" };
         let expected = format!("one of the words of `{}`{quotes}", entry.name);
         self.report_type(node, &expected, Some(help));
     }
 
     /// Reads the elements of a list. Of a list of the whole scene those that cannot be read are left out; any other list is read
     /// whole or not at all.
-    pub(in crate::scene) fn read_list<T: SceneValue>(&mut self, items: &[Item<'_>]) -> Option<Vec<T>> {
+    pub(in crate::scene) fn read_list<T: SceneValue>(
+        &mut self,
+        items: &[Item<'_>],
+    ) -> Option<Vec<T>> {
         let mut values = Vec::new();
         let mut indices = Vec::new();
         for (index, item) in items.iter().enumerate() {
@@ -295,12 +322,20 @@ impl<'a> Checker<'a> {
     }
 
     /// Reads an element of a list or a tuple.
-    pub(in crate::scene) fn read_element<T: SceneValue>(&mut self, index: usize, item: &Item<'_>) -> Option<T> {
+    pub(in crate::scene) fn read_element<T: SceneValue>(
+        &mut self,
+        index: usize,
+        item: &Item<'_>,
+    ) -> Option<T> {
         self.path.push(Segment::Index(index));
         self.scopes.push(item.span());
         let value = if let Some(key) = &item.key {
             let message = format!("elements of lists have no names, found `{}: …`", key.name);
-            self.report(key.span.clone(), message, Some("remove the name, or put it in round brackets".to_owned()));
+            self.report(
+                key.span.clone(),
+                message,
+                Some("remove the name, or put it in round brackets".to_owned()),
+            );
             None
         } else {
             T::from_node(&item.value, self)
@@ -379,10 +414,16 @@ impl<'n> Variant<'n> {
     }
 
     /// The value in the brackets. The brackets of the variant are also those of a struct, list or vector inside.
-    pub(in crate::scene) fn read_inner<T: SceneValue>(&self, checker: &mut Checker<'_>) -> Option<T> {
+    pub(in crate::scene) fn read_inner<T: SceneValue>(
+        &self,
+        checker: &mut Checker<'_>,
+    ) -> Option<T> {
         let Some(group) = self.group else {
             let message = format!("`{}` needs a value in brackets", self.variant.name);
-            let words = self.variant.value_type.map_or(String::new(), |value_type: fn() -> ValueType| value_type().words());
+            let words = self
+                .variant
+                .value_type
+                .map_or(String::new(), |value_type: fn() -> ValueType| value_type().words());
             let help = format!("write {}(…) with a {words}", self.variant.name);
             checker.report(self.span.clone(), message, Some(help));
             return None;

@@ -31,7 +31,11 @@ pub(in crate::scene) fn fields_where(
 
 /// How a field or a variant is written in a scene, from the scene's own brackets on: `camera: (view: LookAt(eye: …))`. `None` if the
 /// owner has none of this name.
-pub(in crate::scene) fn example_of(root: &'static TypeEntry, owner: &str, name: &str) -> Option<String> {
+pub(in crate::scene) fn example_of(
+    root: &'static TypeEntry,
+    owner: &str,
+    name: &str,
+) -> Option<String> {
     let sites = sites(root);
     let site = sites.iter().find(|site| site.owner == owner)?;
     let Site { before, after, .. } = site;
@@ -101,7 +105,9 @@ fn add_sites(
                 if let Some(value_type) = variant.value_type {
                     // The brackets of the variant are those of the struct inside.
                     let declared = value_type().declared();
-                    next.extend(declared.into_iter().map(|entry| (entry, before.clone(), after.clone())));
+                    next.extend(
+                        declared.into_iter().map(|entry| (entry, before.clone(), after.clone())),
+                    );
                 }
                 if !inner.fields.is_empty() || variant.value_type.is_some() {
                     sites.push(inner);

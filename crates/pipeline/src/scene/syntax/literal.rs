@@ -38,7 +38,9 @@ fn unescape_character(rest: &str) -> Result<(Option<char>, usize), &'static str>
         Some('x') => {
             let digits = rest.get(1..3).filter(|digits| is_hexadecimal(digits));
             let code = digits.and_then(|digits| u8::from_str_radix(digits, 16).ok());
-            let code = code.filter(u8::is_ascii).ok_or("\\x is followed by two hexadecimal digits up to 7f")?;
+            let code = code
+                .filter(u8::is_ascii)
+                .ok_or("\\x is followed by two hexadecimal digits up to 7f")?;
             Ok((Some(char::from(code)), 3))
         }
         Some('u') => {
@@ -83,7 +85,8 @@ pub(in crate::scene) fn parse_integer(word: &str) -> Option<i128> {
         None => (false, word.strip_prefix('+').unwrap_or(word)),
     };
     let radices = [("0x", 16), ("0o", 8), ("0b", 2)];
-    let prefixed = radices.iter().find_map(|(prefix, radix)| Some((unsigned.strip_prefix(prefix)?, *radix)));
+    let prefixed =
+        radices.iter().find_map(|(prefix, radix)| Some((unsigned.strip_prefix(prefix)?, *radix)));
     let (digits, radix) = prefixed.unwrap_or((unsigned, 10));
     let digits = without_underscores(digits)?;
     let is_plain = digits.starts_with(|c: char| c.is_digit(radix));

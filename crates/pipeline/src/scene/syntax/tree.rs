@@ -107,5 +107,8 @@ pub(in crate::scene) fn span_of(source: &str, path: &[PathStep<'_>]) -> Range<us
 /// Whether the text has a value at the end of `path`.
 pub(in crate::scene) fn has_value(source: &str, path: &[PathStep<'_>]) -> bool {
     let tree = parse_tree(source);
-    path.iter().try_fold(tree.root.as_ref(), |node, step| node?.child(*step).map(Some)).flatten().is_some()
+    path.iter()
+        .try_fold(tree.root.as_ref(), |node, step| node?.child(*step).map(Some))
+        .flatten()
+        .is_some()
 }

@@ -1,177 +1,191 @@
-//! The objects of extensions, each with the object it may be in.
+//! The objects of extensions, each with the core object that may contain it.
 //!
-//! What is here is checked; other extensions may say what they like. An extension that has no object in the file at all,
-//! such as KHR_mesh_quantization, has none here either and may be in nothing.
+//! Other extensions are not validated. An extension without any object, such as
+//! KHR_mesh_quantization, has the parent "nothing": it is known, but may not appear anywhere.
 
 use super::Collection::{Accessors, BufferViews, Buffers, Images, Lights, Materials, Variants};
 use super::ValueKind::{
-    Flag, Index, Indices, Integer, Number, Numbers, Object as One, Objects, Text, Word,
+    Boolean, EnumString, Index, Indices, Integer, Number, Numbers, Object as ObjectKind, Objects,
+    Text,
 };
 use super::core::{NORMAL_TEXTURE, TEXTURE_INFO, UNKNOWN};
-use super::{ANY, NOT_NEGATIVE, NumberRange, Object, POSITIVE, UNIT, may, must};
+use super::{ANY, NOT_NEGATIVE, NumberRange, ObjectSchema, POSITIVE, UNIT, optional, required};
 
-const MOST: u64 = u64::MAX;
+/// An integer without maximum.
+const MAX_INTEGER: u64 = u64::MAX;
+/// Indices of refraction: at least 1.
 const ABOVE_ONE: NumberRange = NumberRange { min: 1.0, ..ANY };
+/// Cone angles of spot lights, in radians.
 const QUARTER_TURN: NumberRange =
     NumberRange { min: 0.0, max: std::f64::consts::FRAC_PI_2, exclusive_min: false };
 
-/// An extension's object: the extension's name, the object it is in, and its members.
-pub(in super::super) struct Place {
+/// The object of an extension: the extension's name, its parent object, and its members.
+pub(in super::super) struct ExtensionObject {
+    /// The name of the extension.
     pub(in super::super) name: &'static str,
-    pub(in super::super) host: &'static str,
-    pub(in super::super) object: Object,
+    /// The name of the object that may contain it.
+    pub(in super::super) parent: &'static str,
+    /// The members of the extension's object.
+    pub(in super::super) object: ObjectSchema,
 }
 
-macro_rules! places {
-    ($($name:ident in $host:literal: [$($member:expr),* $(,)?];)*) => {
-        pub(in super::super) static PLACES: &[Place] = &[$(Place {
+/// Declares the table: extension, parent object, members. An extension with objects in several
+/// parents has a row for each.
+macro_rules! extension_objects {
+    ($($name:ident in $parent:literal: [$($member:expr),* $(,)?];)*) => {
+        pub(in super::super) static EXTENSION_OBJECTS: &[ExtensionObject] = &[$(ExtensionObject {
             name: stringify!($name),
-            host: $host,
-            object: Object { name: stringify!($name), members: &[$($member),*] },
+            parent: $parent,
+            object: ObjectSchema { name: stringify!($name), members: &[$($member),*] },
         }),*];
     };
 }
 
-places! {
-    CESIUM_primitive_outline in "primitive": [may("indices", Index(Accessors))];
-    EXT_mesh_gpu_instancing in "node": [must("attributes", super::ValueKind::Attributes)];
+extension_objects! {
+    CESIUM_primitive_outline in "primitive": [optional("indices", Index(Accessors))];
+    EXT_mesh_gpu_instancing in "node": [required("attributes", super::ValueKind::Attributes)];
     EXT_mesh_primitive_edge_visibility in "primitive": [
-        may("visibility", Index(Accessors)),
-        may("material", Index(Materials)),
-        may("lineStrings", UNKNOWN),
-        may("silhouetteNormals", Index(Accessors)),
+        optional("visibility", Index(Accessors)),
+        optional("material", Index(Materials)),
+        optional("lineStrings", UNKNOWN),
+        optional("silhouetteNormals", Index(Accessors)),
     ];
     EXT_meshopt_compression in "bufferView": [
-        must("buffer", Index(Buffers)),
-        may("byteOffset", Integer(0, MOST)),
-        must("byteLength", Integer(1, MOST)),
-        must("byteStride", Integer(1, 256)),
-        must("count", Integer(1, MOST)),
-        must("mode", Word(&["ATTRIBUTES", "TRIANGLES", "INDICES"])),
-        may("filter", Word(&["NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"])),
+        required("buffer", Index(Buffers)),
+        optional("byteOffset", Integer(0, MAX_INTEGER)),
+        required("byteLength", Integer(1, MAX_INTEGER)),
+        required("byteStride", Integer(1, 256)),
+        required("count", Integer(1, MAX_INTEGER)),
+        required("mode", EnumString(&["ATTRIBUTES", "TRIANGLES", "INDICES"])),
+        optional("filter", EnumString(&["NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"])),
     ];
-    EXT_meshopt_compression in "buffer": [may("fallback", Flag)];
-    EXT_texture_webp in "texture": [may("source", Index(Images))];
-    KHR_animation_pointer in "target": [must("pointer", Text)];
+    EXT_meshopt_compression in "buffer": [optional("fallback", Boolean)];
+    EXT_texture_webp in "texture": [optional("source", Index(Images))];
+    KHR_animation_pointer in "target": [required("pointer", Text)];
     KHR_draco_mesh_compression in "primitive": [
-        must("bufferView", Index(BufferViews)),
-        must("attributes", UNKNOWN),
+        required("bufferView", Index(BufferViews)),
+        required("attributes", UNKNOWN),
     ];
-    KHR_lights_punctual in "glTF": [must("lights", Objects(&LIGHT))];
-    KHR_lights_punctual in "node": [must("light", Index(Lights))];
+    KHR_lights_punctual in "glTF": [required("lights", Objects(&LIGHT))];
+    KHR_lights_punctual in "node": [required("light", Index(Lights))];
     KHR_materials_anisotropy in "material": [
-        may("anisotropyStrength", Number(UNIT)),
-        may("anisotropyRotation", Number(ANY)),
-        may("anisotropyTexture", One(&TEXTURE_INFO)),
+        optional("anisotropyStrength", Number(UNIT)),
+        optional("anisotropyRotation", Number(ANY)),
+        optional("anisotropyTexture", ObjectKind(&TEXTURE_INFO)),
     ];
     KHR_materials_clearcoat in "material": [
-        may("clearcoatFactor", Number(UNIT)),
-        may("clearcoatTexture", One(&TEXTURE_INFO)),
-        may("clearcoatRoughnessFactor", Number(UNIT)),
-        may("clearcoatRoughnessTexture", One(&TEXTURE_INFO)),
-        may("clearcoatNormalTexture", One(&NORMAL_TEXTURE)),
+        optional("clearcoatFactor", Number(UNIT)),
+        optional("clearcoatTexture", ObjectKind(&TEXTURE_INFO)),
+        optional("clearcoatRoughnessFactor", Number(UNIT)),
+        optional("clearcoatRoughnessTexture", ObjectKind(&TEXTURE_INFO)),
+        optional("clearcoatNormalTexture", ObjectKind(&NORMAL_TEXTURE)),
     ];
     KHR_materials_diffuse_transmission in "material": [
-        may("diffuseTransmissionFactor", Number(UNIT)),
-        may("diffuseTransmissionTexture", One(&TEXTURE_INFO)),
-        may("diffuseTransmissionColorFactor", Numbers(3, UNIT)),
-        may("diffuseTransmissionColorTexture", One(&TEXTURE_INFO)),
+        optional("diffuseTransmissionFactor", Number(UNIT)),
+        optional("diffuseTransmissionTexture", ObjectKind(&TEXTURE_INFO)),
+        optional("diffuseTransmissionColorFactor", Numbers(3, UNIT)),
+        optional("diffuseTransmissionColorTexture", ObjectKind(&TEXTURE_INFO)),
     ];
-    KHR_materials_dispersion in "material": [may("dispersion", Number(NOT_NEGATIVE))];
-    KHR_materials_emissive_strength in "material": [may("emissiveStrength", Number(NOT_NEGATIVE))];
-    KHR_materials_ior in "material": [may("ior", Number(IOR))];
+    KHR_materials_dispersion in "material": [optional("dispersion", Number(NOT_NEGATIVE))];
+    KHR_materials_emissive_strength in "material": [optional("emissiveStrength", Number(NOT_NEGATIVE))];
+    KHR_materials_ior in "material": [optional("ior", Number(IOR))];
     KHR_materials_iridescence in "material": [
-        may("iridescenceFactor", Number(UNIT)),
-        may("iridescenceTexture", One(&TEXTURE_INFO)),
-        may("iridescenceIor", Number(ABOVE_ONE)),
-        may("iridescenceThicknessMinimum", Number(NOT_NEGATIVE)),
-        may("iridescenceThicknessMaximum", Number(NOT_NEGATIVE)),
-        may("iridescenceThicknessTexture", One(&TEXTURE_INFO)),
+        optional("iridescenceFactor", Number(UNIT)),
+        optional("iridescenceTexture", ObjectKind(&TEXTURE_INFO)),
+        optional("iridescenceIor", Number(ABOVE_ONE)),
+        optional("iridescenceThicknessMinimum", Number(NOT_NEGATIVE)),
+        optional("iridescenceThicknessMaximum", Number(NOT_NEGATIVE)),
+        optional("iridescenceThicknessTexture", ObjectKind(&TEXTURE_INFO)),
     ];
     KHR_materials_pbrSpecularGlossiness in "material": [
-        may("diffuseFactor", Numbers(4, UNIT)),
-        may("diffuseTexture", One(&TEXTURE_INFO)),
-        may("specularFactor", Numbers(3, UNIT)),
-        may("glossinessFactor", Number(UNIT)),
-        may("specularGlossinessTexture", One(&TEXTURE_INFO)),
+        optional("diffuseFactor", Numbers(4, UNIT)),
+        optional("diffuseTexture", ObjectKind(&TEXTURE_INFO)),
+        optional("specularFactor", Numbers(3, UNIT)),
+        optional("glossinessFactor", Number(UNIT)),
+        optional("specularGlossinessTexture", ObjectKind(&TEXTURE_INFO)),
     ];
     KHR_materials_sheen in "material": [
-        may("sheenColorFactor", Numbers(3, UNIT)),
-        may("sheenColorTexture", One(&TEXTURE_INFO)),
-        may("sheenRoughnessFactor", Number(UNIT)),
-        may("sheenRoughnessTexture", One(&TEXTURE_INFO)),
+        optional("sheenColorFactor", Numbers(3, UNIT)),
+        optional("sheenColorTexture", ObjectKind(&TEXTURE_INFO)),
+        optional("sheenRoughnessFactor", Number(UNIT)),
+        optional("sheenRoughnessTexture", ObjectKind(&TEXTURE_INFO)),
     ];
     KHR_materials_specular in "material": [
-        may("specularFactor", Number(UNIT)),
-        may("specularTexture", One(&TEXTURE_INFO)),
-        may("specularColorFactor", Numbers(3, NOT_NEGATIVE)),
-        may("specularColorTexture", One(&TEXTURE_INFO)),
+        optional("specularFactor", Number(UNIT)),
+        optional("specularTexture", ObjectKind(&TEXTURE_INFO)),
+        optional("specularColorFactor", Numbers(3, NOT_NEGATIVE)),
+        optional("specularColorTexture", ObjectKind(&TEXTURE_INFO)),
     ];
     KHR_materials_transmission in "material": [
-        may("transmissionFactor", Number(UNIT)),
-        may("transmissionTexture", One(&TEXTURE_INFO)),
+        optional("transmissionFactor", Number(UNIT)),
+        optional("transmissionTexture", ObjectKind(&TEXTURE_INFO)),
     ];
     KHR_materials_unlit in "material": [];
-    KHR_materials_variants in "glTF": [must("variants", Objects(&VARIANT))];
-    KHR_materials_variants in "primitive": [must("mappings", Objects(&MAPPING))];
+    KHR_materials_variants in "glTF": [required("variants", Objects(&VARIANT))];
+    KHR_materials_variants in "primitive": [required("mappings", Objects(&MAPPING))];
     KHR_materials_volume in "material": [
-        may("thicknessFactor", Number(NOT_NEGATIVE)),
-        may("thicknessTexture", One(&TEXTURE_INFO)),
-        may("attenuationDistance", Number(POSITIVE)),
-        may("attenuationColor", Numbers(3, UNIT)),
+        optional("thicknessFactor", Number(NOT_NEGATIVE)),
+        optional("thicknessTexture", ObjectKind(&TEXTURE_INFO)),
+        optional("attenuationDistance", Number(POSITIVE)),
+        optional("attenuationColor", Numbers(3, UNIT)),
     ];
     KHR_mesh_quantization in "nothing": [];
     KHR_meshopt_compression in "bufferView": [
-        must("buffer", Index(Buffers)),
-        may("byteOffset", Integer(0, MOST)),
-        must("byteLength", Integer(1, MOST)),
-        must("byteStride", Integer(1, 256)),
-        must("count", Integer(1, MOST)),
-        must("mode", Word(&["ATTRIBUTES", "TRIANGLES", "INDICES"])),
-        may("filter", Word(&["NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"])),
+        required("buffer", Index(Buffers)),
+        optional("byteOffset", Integer(0, MAX_INTEGER)),
+        required("byteLength", Integer(1, MAX_INTEGER)),
+        required("byteStride", Integer(1, 256)),
+        required("count", Integer(1, MAX_INTEGER)),
+        required("mode", EnumString(&["ATTRIBUTES", "TRIANGLES", "INDICES"])),
+        optional("filter", EnumString(&["NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"])),
     ];
-    KHR_meshopt_compression in "buffer": [may("fallback", Flag)];
-    KHR_node_visibility in "node": [may("visible", Flag)];
-    KHR_texture_basisu in "texture": [may("source", Index(Images))];
+    KHR_meshopt_compression in "buffer": [optional("fallback", Boolean)];
+    KHR_node_visibility in "node": [optional("visible", Boolean)];
+    KHR_texture_basisu in "texture": [optional("source", Index(Images))];
     KHR_texture_transform in "textureInfo": [
-        may("offset", Numbers(2, ANY)),
-        may("rotation", Number(ANY)),
-        may("scale", Numbers(2, ANY)),
-        may("texCoord", Integer(0, MOST)),
+        optional("offset", Numbers(2, ANY)),
+        optional("rotation", Number(ANY)),
+        optional("scale", Numbers(2, ANY)),
+        optional("texCoord", Integer(0, MAX_INTEGER)),
     ];
-    MSFT_texture_dds in "texture": [must("source", Index(Images))];
+    MSFT_texture_dds in "texture": [required("source", Index(Images))];
 }
 
-/// An index of refraction is 0, for "as for metals", or at least 1; what is between is found with the materials.
+/// The index of refraction is 0, for metals, or at least 1; values between are rejected with the
+/// materials.
 const IOR: NumberRange = NOT_NEGATIVE;
 
-static LIGHT: Object = Object {
+/// A light of KHR_lights_punctual.
+static LIGHT: ObjectSchema = ObjectSchema {
     name: "light",
     members: &[
-        may("name", Text),
-        may("color", Numbers(3, UNIT)),
-        may("intensity", Number(NOT_NEGATIVE)),
-        may("range", Number(POSITIVE)),
-        may("spot", One(&SPOT)),
-        must("type", Word(&["directional", "point", "spot"])),
+        optional("name", Text),
+        optional("color", Numbers(3, UNIT)),
+        optional("intensity", Number(NOT_NEGATIVE)),
+        optional("range", Number(POSITIVE)),
+        optional("spot", ObjectKind(&SPOT)),
+        required("type", EnumString(&["directional", "point", "spot"])),
     ],
 };
 
-static SPOT: Object = Object {
+/// The cone of a spot light of KHR_lights_punctual.
+static SPOT: ObjectSchema = ObjectSchema {
     name: "spot",
     members: &[
-        may("innerConeAngle", Number(QUARTER_TURN)),
-        may("outerConeAngle", Number(NumberRange { exclusive_min: true, ..QUARTER_TURN })),
+        optional("innerConeAngle", Number(QUARTER_TURN)),
+        optional("outerConeAngle", Number(NumberRange { exclusive_min: true, ..QUARTER_TURN })),
     ],
 };
 
-static VARIANT: Object = Object { name: "variant", members: &[must("name", Text)] };
+/// A variant of KHR_materials_variants.
+static VARIANT: ObjectSchema = ObjectSchema { name: "variant", members: &[required("name", Text)] };
 
-static MAPPING: Object = Object {
+/// The material that a primitive has in some variants (KHR_materials_variants).
+static MAPPING: ObjectSchema = ObjectSchema {
     name: "mapping",
     members: &[
-        must("variants", Indices(Variants)),
-        must("material", Index(Materials)),
-        may("name", Text),
+        required("variants", Indices(Variants)),
+        required("material", Index(Materials)),
+        optional("name", Text),
     ],
 };
