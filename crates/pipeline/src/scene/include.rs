@@ -1,11 +1,13 @@
-//! Scene files that include others: merged into one scene, with a record of which part comes from which file.
+//! Scene files that include others: merged into one scene, with a record of which part comes from
+//! which file.
 //!
 //! ```text
 //!  studio.ron ─┐
 //!  paper.ron ──┴─► merged includes ─┐
 //!  scene.ron ───────────────────────┴─► one scene; errors point into the file that is wrong
 //! ```
-//! Lists are concatenated, included files first; every other field of the including file replaces the included ones', whole.
+//! Lists are concatenated, included files first; every other field of the including file replaces
+//! the included ones', whole.
 
 use super::file::{BackgroundFile, EnvironmentFile, ModelFile};
 use super::mistake::Mistake;
@@ -50,7 +52,8 @@ pub(super) struct IncludeMap {
 }
 
 impl IncludeMap {
-    /// Name and text of the included file that the value at the end of `path` is written in, and its path there.
+    /// Name and text of the included file that the value at the end of `path` is written in, and
+    /// its path there.
     pub(super) fn resolve_source<'a>(
         &self,
         path: &[PathStep<'a>],
@@ -89,7 +92,8 @@ pub(super) struct GatheredScene {
     /// The scene, without the parts that could not be read.
     pub(super) file: SceneFile,
     pub(super) includes: IncludeMap,
-    /// The mistakes of the scene file, then those of the included files in the order in which they were read.
+    /// The mistakes of the scene file, then those of the included files in the order in which they
+    /// were read.
     pub(super) mistakes: Vec<FileMistake>,
 }
 
@@ -141,7 +145,8 @@ struct IncludeResolver<'a> {
 }
 
 impl IncludeResolver<'_> {
-    /// Parses a file and merges it over what it includes. `open` are the files that are being read, each with its name.
+    /// Parses a file and merges it over what it includes. `open` are the files that are being read,
+    /// each with its name.
     fn parse_source(
         &mut self,
         source: &SourceFile<'_>,
@@ -219,7 +224,8 @@ fn top_level_fields(text: &str) -> Vec<&str> {
     keys.map(|key| key.name).collect()
 }
 
-/// Makes the paths of a file in `folder` relative to the scene's own folder. Every field that holds a path belongs here.
+/// Makes the paths of a file in `folder` relative to the scene's own folder. Every field that holds
+/// a path belongs here.
 fn rebase_paths(file: &mut SceneFile, folder: &Path) {
     if folder.as_os_str().is_empty() {
         return;

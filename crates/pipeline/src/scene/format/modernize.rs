@@ -6,8 +6,8 @@ use crate::scene::syntax::{Group, Key, Node, NodeKind, parse_tree};
 use crate::scene::vocabulary::LEGACY_WORDS;
 use core::ops::Range;
 
-/// The text with each legacy word replaced by that of today. Words are only replaced where their struct or enum stands; everything
-/// else, mistakes included, is left as it is.
+/// The text with each legacy word replaced by that of today. Words are only replaced where their
+/// struct or enum stands; everything else, mistakes included, is left as it is.
 pub(super) fn replace_legacy_words(source: &str) -> String {
     let tree = parse_tree(source);
     let mut edits = Vec::new();

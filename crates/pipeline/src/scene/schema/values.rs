@@ -1,4 +1,5 @@
-//! Values without declared parts: numbers with bounds, strings, lists, tuples, and what may be left out.
+//! Values without declared parts: numbers with bounds, strings, lists, tuples, and what may be left
+//! out.
 
 use super::{Checker, SceneValue, ValueType};
 use crate::scene::syntax::{Node, NodeKind, parse_integer, parse_number, unescape_string};

@@ -1,8 +1,10 @@
-//! Error-tolerant recursive-descent parser of RON: reports every error of grammar and still makes a tree.
+//! Error-tolerant recursive-descent parser of RON: reports every error of grammar and still makes a
+//! tree.
 //!
-//! Resynchronization: a missing comma or colon is reported and supplied; a token that cannot begin a value is reported and skipped
-//! up to the next comma or bracket; a closing bracket of the wrong kind closes the innermost group if the brackets that follow are
-//! then balanced, and otherwise the group that it fits.
+//! Resynchronization: a missing comma or colon is reported and supplied; a token that cannot begin
+//! a value is reported and skipped up to the next comma or bracket; a closing bracket of the wrong
+//! kind closes the innermost group if the brackets that follow are then balanced, and otherwise the
+//! group that it fits.
 
 use super::literal::looks_like_number;
 use super::tokens::{Token, TokenKind, tokenize};
@@ -21,7 +23,8 @@ pub(in crate::scene) struct SyntaxTree<'a> {
     /// The value of the file; `None` if there is none.
     pub(in crate::scene) root: Option<Node<'a>>,
     pub(in crate::scene) errors: Vec<Mistake>,
-    /// Whether the brackets or strings are so wrong that the tree may have values in the wrong group.
+    /// Whether the brackets or strings are so wrong that the tree may have values in the wrong
+    /// group.
     pub(in crate::scene) is_unreliable: bool,
 }
 
@@ -100,7 +103,8 @@ impl<'a> Parser<'a> {
             }
             _ => return,
         };
-        // Where a quotation mark is missing, the strings behind it are inside out: the first that spans lines is the likely one.
+        // Where a quotation mark is missing, the strings behind it are inside out: the first that
+        // spans lines is the likely one.
         let spans_lines =
             |token: &&Token<'_>| token.kind == TokenKind::Word && token.text.contains('\n');
         let first = tokens.iter().find(spans_lines).filter(|_| last.kind == TokenKind::Word);
@@ -208,7 +212,8 @@ impl<'a> Parser<'a> {
         Node { span: start..end, kind: NodeKind::Group(Group { name, open, items }) }
     }
 
-    /// Moves past the bracket `close`, if it is the innermost group's or stands for that. Returns where the group ends.
+    /// Moves past the bracket `close`, if it is the innermost group's or stands for that. Returns
+    /// where the group ends.
     fn close_group(&mut self, close: Token<'a>) -> usize {
         let open = self.open.last().copied().unwrap_or(close);
         if close.text == closing(open.text) {
@@ -255,7 +260,8 @@ impl<'a> Parser<'a> {
         );
     }
 
-    /// Whether a field begins here although the innermost group is a list: then the list's bracket is missing.
+    /// Whether a field begins here although the innermost group is a list: then the list's bracket
+    /// is missing.
     fn is_field_in_list(&self, token: Token<'_>) -> bool {
         let in_list = self.open.last().is_some_and(|open| open.text == "[")
             && self.open.iter().any(|open| open.text == "(");

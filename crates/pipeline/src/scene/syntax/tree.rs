@@ -65,7 +65,8 @@ impl<'a> Node<'a> {
         }
     }
 
-    /// The child that `step` leads to. Brackets around a single value, as in `Lines((width: Px(2)))`, are no level of their own.
+    /// The child that `step` leads to. Brackets around a single value, as in `Lines((width:
+    /// Px(2)))`, are no level of their own.
     fn child(&self, step: PathStep<'_>) -> Option<&Self> {
         let items = &self.group()?.items;
         let found = match step {
