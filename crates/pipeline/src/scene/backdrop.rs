@@ -15,6 +15,7 @@ use std::sync::Arc;
 const MAX_GRADIENT_COLORS: usize = 16;
 /// The most pixels of a picture behind the models.
 const MAX_IMAGE_TEXELS: u64 = 1 << 26;
+/// The path of the background in a scene file; viewports have their own.
 const BACKGROUND_PATH: [PathStep<'static>; 2] = [Field("image"), Field("background")];
 
 impl SceneFile {
@@ -33,6 +34,7 @@ impl SceneFile {
         around.into_iter().chain(behind)
     }
 }
+/// An error that points into the background, at the value at the end of `rest`.
 
 fn background_error(
     origin: &Origin,
@@ -43,8 +45,8 @@ fn background_error(
     origin.error_at(&[&BACKGROUND_PATH, rest].concat(), message, help.map(str::to_owned))
 }
 
-/// The color that all samples are cleared to: linear, premultiplied by alpha. Behind a gradient or a picture it only serves to choose
-/// a color of lines that contrasts with it.
+/// The color that all samples are cleared to: linear, premultiplied by alpha. Behind a gradient or
+/// a picture it only serves to choose a color of lines that contrasts with it.
 pub(super) fn resolve_background_color(
     origin: &Origin,
     file: &SceneFile,
@@ -87,7 +89,8 @@ fn resolve_gradient(
     Ok(Gradient::new(&codes, angle, [width, height]))
 }
 
-/// The gradient or image behind the models; `None` for plain backgrounds. An image file may lie in one of the `allowed` folders too.
+/// The gradient or image behind the models; `None` for plain backgrounds. An image file may lie in
+/// one of the `allowed` folders too.
 pub(super) fn resolve_backdrop(
     origin: &Origin,
     file: &SceneFile,

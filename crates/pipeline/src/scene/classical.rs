@@ -1,8 +1,10 @@
-//! The classical projections of a scene: each finds a window in which everything is.
+//! The classical projections: axonometric, oblique, planometric, and perspectives by vanishing
+//! points. Each of them fits its own window around the models.
 //!
-//! Those that are given by a picture plane are framed on it: the points are projected, the box around their images is the window, and
-//! the box's depths the near and far planes. Those that are given by vanishing points on the picture fix how the eye looks and where
-//! the window is beside its line of sight; framing finds where the eye stands.
+//! - Projections by a picture plane: the vertices are projected, the box around their images is
+//!   the window, and the depths of that box are the near and far planes.
+//! - Perspectives by vanishing points: the points fix the orientation of the eye and the slopes of
+//!   the window beside its line of sight; framing finds the position of the eye.
 
 use super::file::{Finite, FromFile, ProjectionFile};
 use super::view_projection::{CameraResolver, PROJECTION_PATH, VIEW_PATH};
@@ -24,7 +26,8 @@ struct ProjectedBounds {
 }
 
 impl CameraResolver<'_> {
-    /// A classical projection of the models as seen from a side; the front, unless another is named.
+    /// A classical projection of the models as seen from a side; the front, unless another is
+    /// named.
     pub(super) fn frame_classical(
         &self,
         from: Option<&FromFile>,
@@ -87,7 +90,8 @@ impl CameraResolver<'_> {
         padding: f64,
     ) -> Result<ViewProjection, SceneError> {
         let fault = |error: ProjectionError| self.projection_error(&error);
-        // The rows of the rotation are the eye's axes as the side from which the models are seen has them.
+        // The rows of the rotation are the eye's axes as the side from which the models are seen
+        // has them.
         let rows = construction.world_to_view().raw().transpose();
         let axis = |row: glam::DVec4| from.to_world(Vector::from_raw(row.truncate()));
         let basis = Basis::from_gaze(-axis(rows.z_axis), axis(rows.y_axis))
@@ -113,8 +117,8 @@ impl CameraResolver<'_> {
     }
 }
 
-/// The mistake in the numbers of a classical projection, if there is one. Those by vanishing points find their own eye: they need a
-/// view that is framed.
+/// The mistake in the numbers of a classical projection, if there is one. Those by vanishing points
+/// find their own eye: they need a view that is framed.
 pub(super) fn check_classical_projection(
     origin: &Origin,
     projection: Option<&ProjectionFile>,
@@ -158,7 +162,8 @@ fn vanishing_point_construction(
     })
 }
 
-/// The projection that is given by its picture plane; `radius` is that of the models about the camera.
+/// The projection that is given by its picture plane; `radius` is that of the models about the
+/// camera.
 fn picture_plane_projection(
     projection: &ProjectionFile,
     radius: f64,

@@ -1,4 +1,5 @@
-//! Colors of scene files: `#rgb`, `#rrggbb` and the names of CSS, in sRGB; or three linear numbers for light.
+//! Colors of scene files: `#rgb`, `#rrggbb` and the names of CSS, in sRGB; or three linear numbers
+//! for light.
 
 mod names;
 
@@ -17,7 +18,8 @@ impl Color {
     /// Black.
     pub const BLACK: Self = Self([0; 3]);
 
-    /// Parses `#rgb`, `#rrggbb`, or the name of a color of CSS in any case; `None` if the text is none of them.
+    /// Parses `#rgb`, `#rrggbb`, or the name of a color of CSS in any case; `None` if the text is
+    /// none of them.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         parse_hex_srgb(text).or_else(|| parse_color_name(text)).map(Self)
@@ -89,6 +91,7 @@ fn read_color_string(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Color
     }
     color
 }
+/// How colors are written.
 
 fn hex_help() -> String {
     "write #rgb, #rrggbb, such as #1a1f26, or a CSS color name".to_owned()

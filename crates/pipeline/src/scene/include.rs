@@ -1,11 +1,13 @@
-//! Scene files that include others: merged into one scene, with a record of which part comes from which file.
+//! Scene files that include others: merged into one scene, with a record of which part comes from
+//! which file.
 //!
 //! ```text
 //!  studio.ron ─┐
 //!  paper.ron ──┴─► merged includes ─┐
 //!  scene.ron ───────────────────────┴─► one scene; errors point into the file that is wrong
 //! ```
-//! Lists are concatenated, included files first; every other field of the including file replaces the included ones', whole.
+//! Lists are concatenated, included files first; every other field of the including file replaces
+//! the included ones', whole.
 
 use super::file::{BackgroundFile, EnvironmentFile, ModelFile};
 use super::mistake::Mistake;
@@ -50,7 +52,8 @@ pub(super) struct IncludeMap {
 }
 
 impl IncludeMap {
-    /// Name and text of the included file that the value at the end of `path` is written in, and its path there.
+    /// Name and text of the included file that the value at the end of `path` is written in, and
+    /// its path there.
     pub(super) fn resolve_source<'a>(
         &self,
         path: &[PathStep<'a>],
@@ -67,10 +70,12 @@ impl IncludeMap {
         let source = file.and_then(|file| self.files.get(file));
         (source.map(|(name, text)| (name.as_str(), text.as_str())), path)
     }
+    /// The names of the included files, in the order in which they were read.
 
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.files.iter().map(|(name, _)| name.as_str())
     }
+    /// The texts of the included files, in the order in which they were read.
 
     pub(super) fn included_texts(&self) -> impl Iterator<Item = &str> {
         self.files.iter().map(|(_, text)| text.as_str())
@@ -89,7 +94,8 @@ pub(super) struct GatheredScene {
     /// The scene, without the parts that could not be read.
     pub(super) file: SceneFile,
     pub(super) includes: IncludeMap,
-    /// The mistakes of the scene file, then those of the included files in the order in which they were read.
+    /// The mistakes of the scene file, then those of the included files in the order in which they
+    /// were read.
     pub(super) mistakes: Vec<FileMistake>,
 }
 
@@ -132,6 +138,7 @@ struct MergedScene {
     fields: BTreeMap<&'static str, Option<usize>>,
     lists: ElementSources,
 }
+/// Reads included files depth first, and collects the mistakes in all of them.
 
 struct IncludeResolver<'a> {
     origin: &'a Origin,
@@ -141,7 +148,8 @@ struct IncludeResolver<'a> {
 }
 
 impl IncludeResolver<'_> {
-    /// Parses a file and merges it over what it includes. `open` are the files that are being read, each with its name.
+    /// Parses a file and merges it over what it includes. `open` are the files that are being read,
+    /// each with its name.
     fn parse_source(
         &mut self,
         source: &SourceFile<'_>,
@@ -219,7 +227,8 @@ fn top_level_fields(text: &str) -> Vec<&str> {
     keys.map(|key| key.name).collect()
 }
 
-/// Makes the paths of a file in `folder` relative to the scene's own folder. Every field that holds a path belongs here.
+/// Makes the paths of a file in `folder` relative to the scene's own folder. Every field that holds
+/// a path belongs here.
 fn rebase_paths(file: &mut SceneFile, folder: &Path) {
     if folder.as_os_str().is_empty() {
         return;
@@ -295,6 +304,7 @@ fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
     }
     MergedScene { file, fields, lists }
 }
+/// Both lists in one, the included one first.
 
 fn concat_lists<T>(below: Vec<T>, above: Vec<T>) -> Vec<T> {
     below.into_iter().chain(above).collect()

@@ -10,6 +10,8 @@ use homog::{Point, Vector, World};
 use model::LightKind;
 use model::ModelInstance;
 use shade::{Light, Shadow};
+/// The lights of a scene: those of the file, or of the models, or a default key light with ambient
+/// light where nothing else would light the models.
 
 pub(super) fn resolve_lights(
     origin: &Origin,
@@ -43,7 +45,8 @@ pub(super) fn resolve_lights(
     Ok(resolved)
 }
 
-/// The lights that the models' files have, in the world (KHR_lights_punctual). Scales do not make them brighter.
+/// The lights that the models' files have, in the world (KHR_lights_punctual). Scales do not make
+/// them brighter.
 fn collect_model_lights(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec<Light> {
     let mut lights = Vec::new();
     for placed in models {
@@ -68,10 +71,13 @@ fn collect_model_lights(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec
     lights
 }
 
-/// A key light from above the viewer's left shoulder, so that shape reads from every side, and a quarter as much ambient.
+/// A key light from above the viewer's left shoulder, so that shape reads from every side, and a
+/// quarter as much ambient.
 fn default_lights(view_projection: &ViewProjection, shadow: Option<Shadow>) -> Vec<Light> {
     vec![default_key_light(view_projection, 2.5, shadow), Light::Ambient { lux: [0.7; 3] }]
 }
+/// A directional light from the upper left of the camera, so that all visible sides differ in
+/// brightness.
 
 fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<Shadow>) -> Light {
     let camera = view_projection.camera;
@@ -80,7 +86,8 @@ fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<
     Light::Sun { to_light: towards.raw().as_vec3().to_array(), lux: [lux; 3], shadow }
 }
 
-/// A light of the file, with the scene's shadows unless it has its own; `None` for those of the models.
+/// A light of the file, with the scene's shadows unless it has its own; `None` for those of the
+/// models.
 fn resolve_light(
     origin: &Origin,
     index: usize,
@@ -160,7 +167,8 @@ fn resolve_direction(
     })
 }
 
-/// The cosines of the inner and the outer cone angle of a spot; those of the defaults for other lights.
+/// The cosines of the inner and the outer cone angle of a spot; those of the defaults for other
+/// lights.
 fn resolve_cone(origin: &Origin, index: usize, light: &LightFile) -> Result<[f32; 2], SceneError> {
     let (inner, outer) = match *light {
         LightFile::Spot { inner_cone_degrees, outer_cone_degrees, .. } => {
@@ -190,6 +198,7 @@ fn resolve_light_shadow(
     let path = [Field("lights"), Index(index), Field("shadows")];
     own.map_or(Ok(of_scene), |own| resolve_shadow(origin, Some(&own), &path))
 }
+/// The light of a color at an intensity, in the unit of the intensity.
 
 fn scale_color(color: LightColor, intensity: NonNegative) -> [f32; 3] {
     color.0.map(|channel| (channel * intensity.value()) as f32)

@@ -17,7 +17,8 @@ use std::collections::BTreeMap;
 /// ```
 ///
 /// # Errors
-/// Every error of grammar, unknown name, wrong type, missing field and value out of range, in the order of the text.
+/// Every error of grammar, unknown name, wrong type, missing field and value out of range, in the
+/// order of the text.
 pub fn parse_scene(file: &str, source: &str) -> Result<SceneFile, SceneErrors> {
     let source = strip_byte_order_mark(source);
     let parsed = parse_recovering(source);

@@ -1,4 +1,5 @@
-//! From what a person wrote to what drawing needs, or to an error that points.
+//! Resolution: from a parsed scene file to the scene that is rendered, or to errors that point into
+//! the file. Models are loaded, angles are radians, and every default is decided.
 
 use super::backdrop::{resolve_backdrop, resolve_background_color};
 use super::file::{BackgroundFile, Choice, Finite, MaterialFile, ModelFile, OverlayFile};
@@ -31,7 +32,8 @@ use std::sync::Arc;
 /// How a scene is resolved.
 #[derive(Clone, Debug, Default)]
 pub struct ResolveOptions {
-    /// How models are loaded. The paths of a scene file may lead out of its folder into those that `allow_outside` names.
+    /// How models are loaded. The paths of a scene file may lead out of its folder into those that
+    /// `allow_outside` names.
     pub import: ImportOptions,
 }
 
@@ -39,7 +41,8 @@ impl Scene {
     /// Loads the models of a scene and decides everything that the file leaves open.
     ///
     /// # Errors
-    /// If a model cannot be loaded; and every mistake of the scene that can be found, in the order of the file.
+    /// If a model cannot be loaded; and every mistake of the scene that can be found, in the order
+    /// of the file.
     pub fn resolve(
         origin: &Origin,
         file: &SceneFile,
@@ -56,8 +59,8 @@ impl Scene {
         scene.map_err(|error| error.or_all(|| errors_around_models(origin, file, models, allowed)))
     }
 
-    /// Decides everything that the file leaves open around models that are loaded, posed and placed; those of the file are not
-    /// looked at.
+    /// Decides everything that the file leaves open around models that are loaded, posed and
+    /// placed; those of the file are not looked at.
     ///
     /// # Errors
     /// If something makes no sense; the error points at its place in the file.
@@ -69,7 +72,8 @@ impl Scene {
         Self::resolve_with_models(origin, file, models, &[])
     }
 
-    /// The scene around its models; the environment's file may lie in one of the `allowed` folders too.
+    /// The scene around its models; the environment's file may lie in one of the `allowed` folders
+    /// too.
     pub(crate) fn resolve_with_models(
         origin: &Origin,
         file: &SceneFile,
@@ -81,7 +85,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// The same without its views.
+    /// Resolves the scene without its viewports and stereo pair.
     pub(super) fn resolve_without_insets(
         origin: &Origin,
         file: &SceneFile,
@@ -185,11 +189,13 @@ pub(super) fn outside_folder_error(origin: &Origin, index: usize, entry: &ModelF
     let path = [Field("models"), Index(index), Field("path")];
     origin.error_at(&path, message, Some(help.to_owned()))
 }
+/// A scene without models.
 
 pub(super) fn missing_model_error(origin: &Origin) -> SceneError {
     let help = Some("add one: models: [(path: \"…\")]".to_owned());
     origin.error_at(&[Field("models")], "a scene needs a model", help)
 }
+/// Loads the models of a scene, and instantiates them.
 
 fn load_models(
     origin: &Origin,
@@ -201,7 +207,9 @@ fn load_models(
     }
     instances::check_instance_counts(origin, file)?;
     // Models in one pose are shared; a model in two poses, or with other materials, is two models.
+    /// The file of a model, its scene, variant and animation, and the bits of the time.
     type Pose = (PathBuf, [Option<Choice>; 3], Option<u64>);
+    /// The models of one pose, one for each set of material overrides.
     type Alike<'a> = Vec<(&'a [MaterialFile], Arc<Model>)>;
     let mut loaded: BTreeMap<Pose, Alike<'_>> = BTreeMap::new();
     let mut models = Vec::new();
@@ -226,7 +234,8 @@ fn load_models(
     Ok(models)
 }
 
-/// Why there is no model: the scene asks for something that makes no sense, or the model's file is at fault.
+/// Why there is no model: the scene asks for something that makes no sense, or the model's file is
+/// at fault.
 pub(super) enum ModelError {
     Scene(SceneError),
     File(ImportError),
@@ -239,7 +248,8 @@ impl From<SceneError> for ModelError {
 }
 
 impl ModelError {
-    /// The fault, told where the scene file asks for the model, if there is such a file.
+    /// The error as one of the scene file, pointing at the path of the model, if there is a scene
+    /// file.
     pub(super) fn into_resolve_error(
         self,
         origin: &Origin,
@@ -305,7 +315,8 @@ pub(super) fn load_model(
     Ok(model)
 }
 
-/// A scene or a variant that the model does not have is a mistake of the scene file, if there is one.
+/// A scene or a variant that the model does not have is a mistake of the scene file, if there is
+/// one.
 fn choice_error(
     origin: &Origin,
     number: usize,
@@ -350,6 +361,7 @@ pub fn select_animation(
         (message, suggest_name(&wanted, &names))
     })
 }
+/// The overlays, with the view-projection of each camera whose view volume is drawn.
 
 pub(super) fn resolve_overlays(
     origin: &Origin,

@@ -1,4 +1,4 @@
-//! What the sections of a scene file mean.
+//! Resolution of section planes.
 
 use super::file::SectionFile;
 use super::syntax::PathStep::{Field, Index};
@@ -8,7 +8,7 @@ use homog::{Normal, Plane, Point, World};
 /// More cuts than this are a slip, and each costs another pass over the models.
 const MAX_SECTIONS: usize = 16;
 
-/// The planes of the sections. Their normals have length 1 and point to what is kept.
+/// The planes of the sections. Their normals have length 1 and point to the half that is retained.
 pub(super) fn resolve_sections(
     origin: &Origin,
     sections: &[SectionFile],

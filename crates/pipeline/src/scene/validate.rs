@@ -1,7 +1,13 @@
 //! Validation: every mistake of a scene, and not only the first that resolution meets.
 //!
-//! Each part of the scene is resolved by itself, so that a mistake in one does not hide those in another. A part that depends on
-//! one that is wrong is left out: its mistakes could follow from that.
+//! Each part of the scene is resolved by itself, so that a mistake in one does not hide those in
+//! another. A part that depends on one that is wrong is left out: its mistakes could follow from
+//! that.
+//!
+//! There are three levels, by what must be known:
+//! 1. the text alone, even if parts of it could not be read (`with_errors_of_description`);
+//! 2. the text and the models (`validate_scene`), for `alberti scene check`;
+//! 3. everything that stops a renderer (`errors_of_resolution`), for [`Scene::resolve`].
 
 use super::backdrop::{resolve_backdrop, resolve_background_color};
 use super::error::SceneError;
@@ -27,8 +33,9 @@ use model::import::{ImportOptions, load};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Every mistake of a scene file that has been parsed, in the order of the file. Errors in the models' own files are not among
-/// them: [`check`](model::import::check) reports those. If a model cannot be loaded, what depends on the models is not validated.
+/// Every mistake of a scene file that has been parsed, in the order of the file. Errors in the
+/// models' own files are not among them: [`check`](model::import::check) reports those. If a model
+/// cannot be loaded, what depends on the models is not validated.
 #[must_use]
 pub fn validate_scene(
     origin: &Origin,
@@ -95,8 +102,8 @@ pub(super) fn with_errors_of_description(
     in_order(origin, errors.collect())
 }
 
-/// The models that can be loaded; `None`, and the mistakes, if not all can. `with_files` says whether errors of the models' own
-/// files are among them.
+/// The models that can be loaded; `None`, and the mistakes, if not all can. `with_files` says
+/// whether errors of the models' own files are among them.
 fn load_valid_models(
     origin: &Origin,
     file: &SceneFile,

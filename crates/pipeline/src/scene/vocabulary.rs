@@ -1,7 +1,9 @@
-//! Words that people bring from other programs, and words of older scene files, with the words of scene files in their place.
+//! Words that people bring from other programs, and words of older scene files, with the words of
+//! scene files in their place.
 //!
-//! A word is looked up with the struct or enum that it stands in. If that has the field or variant that is meant, the answer is its
-//! name; if another part of the scene has it, the answer shows where.
+//! A word is looked up with the struct or enum that it stands in. If that has the field or variant
+//! that is meant, the answer is its name; if another part of the scene has it, the answer shows
+//! where.
 
 mod foreign;
 mod legacy;
@@ -15,13 +17,14 @@ use foreign::FOREIGN_WORDS;
 
 /// An answer to a name that is not declared.
 pub(super) struct Suggestion {
-    /// What to write instead.
+    /// The help: a name, an example, or the names that are possible.
     pub(super) help: String,
     /// The field of the same struct that is meant, if there is one.
     pub(super) sibling: Option<&'static str>,
     kind: SuggestionKind,
 }
 
+/// How a suggestion was found.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum SuggestionKind {
     /// The word is in a table, or means a field or variant elsewhere.
@@ -42,8 +45,8 @@ impl Suggestion {
 /// A field or variant: the struct, variant (`View::LookAt`) or enum that has it, and its name.
 type Target = (&'static str, &'static str);
 
-/// What a field that is not declared is called in scene files. `owner` is the struct or variant it stands in, `siblings` are its
-/// fields, and `top_level` is the field of the scene around it.
+/// Suggests the name of a field for one that is not declared. `owner` is the struct or variant it
+/// stands in, `siblings` are its fields, and `top_level` is the field of the scene around it.
 pub(super) fn suggest_field(
     owner: &str,
     siblings: &[&'static str],
@@ -60,7 +63,8 @@ pub(super) fn suggest_field(
     let similar = same_spelling.or_else(|| closest_name(word, siblings));
     let is_very_similar = similar.is_some_and(|name| strsim::jaro_winkler(word, name) > 0.9);
     if !is_very_similar && same_spelling.is_none() {
-        // A field of this very name goes before what the word means in other programs, unless that is nearer or in the tables.
+        // A field of this very name goes before what the word means in other programs, unless that
+        // is nearer or in the tables.
         let same_name = targets.iter().filter(|(_, name)| normalize(name) == normalize(word));
         let same_name: Vec<Target> = same_name.copied().collect();
         let meant = example_elsewhere(&same_name, top_level)
@@ -85,7 +89,7 @@ pub(super) fn suggest_field(
     }
 }
 
-/// What a variant that is not declared, or the name of a struct that is another's, is called in scene files.
+/// Suggests the name of a variant for one that is not declared, or for a struct of another type.
 pub(super) fn suggest_variant(
     entry: &'static TypeEntry,
     word: &str,
@@ -119,7 +123,7 @@ pub(super) fn suggest_variant(
     }
 }
 
-/// What the tables say that a word means, in their order: older words first.
+/// The meanings of a word in the tables, in their order: older words first.
 fn targets_of(word: &str) -> Vec<Target> {
     let word = normalize(word);
     let legacy = LEGACY_WORDS.iter().filter(|legacy| normalize(legacy.old) == word);
@@ -129,10 +133,12 @@ fn targets_of(word: &str) -> Vec<Target> {
     legacy.chain(foreign.map(|&(_, owner, name)| (owner, name))).collect()
 }
 
-/// A word without capitals, underscores and hyphens: `DirectionalLight`, `directional_light` and `directional-light` are one.
+/// A word without capitals, underscores and hyphens: `DirectionalLight`, `directional_light` and
+/// `directional-light` are one.
 fn normalize(word: &str) -> String {
     word.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
+/// For a legacy word, that the formatter replaces it.
 
 fn legacy_note(owner: &str, word: &str) -> &'static str {
     let is_legacy = LEGACY_WORDS.iter().any(|legacy| legacy.owner == owner && legacy.old == word);
@@ -160,6 +166,7 @@ fn nearest_example(examples: &[String], top_level: Option<&str>) -> Option<Strin
     let is_near = |example: &&String| is_in_field(example, top_level);
     examples.iter().find(is_near).or(examples.first()).cloned()
 }
+/// Whether an example begins with a field of the scene.
 
 fn is_in_field(example: &str, top_level: Option<&str>) -> bool {
     top_level.is_some_and(|field| example.starts_with(&format!("{field}: ")))

@@ -1,7 +1,7 @@
 //! Checks a syntax tree against the declarations, and reads values from it.
 //!
-//! Every mistake is reported once, where it is. What follows from it is not: a value that could not be read has no other mistakes,
-//! and a field that was meant by a misspelt one is not missing.
+//! Every mistake is reported once, where it is. What follows from it is not: a value that could not
+//! be read has no other mistakes, and a field that was meant by a misspelt one is not missing.
 
 use super::{FieldEntry, SceneValue, Shape, TypeEntry, ValueType, VariantEntry};
 use crate::scene::mistake::Mistake;
@@ -31,7 +31,7 @@ pub(in crate::scene) struct Checker<'a> {
     retained: BTreeMap<&'static str, Vec<usize>>,
 }
 
-/// What a checker found besides the value.
+/// The results of a check besides the value.
 pub(in crate::scene) struct Checked {
     pub(in crate::scene) mistakes: Vec<Mistake>,
     /// For each list of the whole scene the indices of the elements that could be read.
@@ -39,9 +39,11 @@ pub(in crate::scene) struct Checked {
 }
 
 impl<'a> Checker<'a> {
+    /// A checker of a text; spans of nodes index into `source`.
     pub(in crate::scene) fn new(source: &'a str) -> Self {
         Self { source, ..Self::default() }
     }
+    /// The mistakes, in the order in which they were found.
 
     pub(in crate::scene) fn finish(self) -> Checked {
         Checked { mistakes: self.mistakes, retained: self.retained }
@@ -58,7 +60,8 @@ impl<'a> Checker<'a> {
         self.mistakes.push(Mistake { scope, ..Mistake::new(span, message, help) });
     }
 
-    /// Reports that a value is not of the type that its field has; what `expected` says follows the path of the field.
+    /// Reports that a value is not of the type that its field has; what `expected` says follows the
+    /// path of the field.
     pub(in crate::scene) fn report_type(
         &mut self,
         node: &Node<'_>,
@@ -83,7 +86,8 @@ impl<'a> Checker<'a> {
         self.report(node.span.clone(), message, help);
     }
 
-    /// The path of the value that is being read, such as `camera.view.LookAt.eye[1]`; empty for the whole scene.
+    /// The path of the value that is being read, such as `camera.view.LookAt.eye[1]`; empty for the
+    /// whole scene.
     fn path_text(&self) -> String {
         let mut text = String::new();
         for segment in &self.path {
@@ -95,6 +99,7 @@ impl<'a> Checker<'a> {
         }
         text
     }
+    /// The path of the value, quoted, as a message begins; empty for the whole scene.
 
     fn path_prefix(&self) -> String {
         let path = self.path_text();
@@ -155,7 +160,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Reports that a struct has another name than its type. Returns whether it is likely to be that type all the same.
+    /// Reports that a struct has another name than its type. Returns whether it is likely to be
+    /// that type all the same.
     fn report_struct_name(&mut self, name: &Key<'_>, entry: &'static TypeEntry) -> Option<()> {
         let message = format!("expected `{}`, found `{}`", entry.name, name.name);
         let suggestion = suggest_variant(entry, name.name, self.top_level_field());
@@ -169,7 +175,8 @@ impl<'a> Checker<'a> {
         (!is_known).then_some(())
     }
 
-    /// Finds the declared fields among the items of a group, and reports those that are unknown, doubled or missing.
+    /// Finds the declared fields among the items of a group, and reports those that are unknown,
+    /// doubled or missing.
     fn read_fields<'n>(
         &mut self,
         group: &'n Group<'n>,
@@ -179,6 +186,7 @@ impl<'a> Checker<'a> {
     ) -> Option<Fields<'n>> {
         let mut found: Vec<(&'static str, &'n Item<'n>)> = Vec::new();
         let mut meant: Vec<&'static str> = Vec::new();
+        let mut unknown = 0;
         for item in &group.items {
             self.scopes.push(item.span());
             match &item.key {
@@ -190,7 +198,10 @@ impl<'a> Checker<'a> {
                     }
                 }
                 Some(key) => match declared.iter().find(|field| field.name == key.name) {
-                    None => meant.extend(self.report_unknown_field(key, &owner, declared)),
+                    None => {
+                        unknown += 1;
+                        meant.extend(self.report_unknown_field(key, &owner, declared));
+                    }
                     Some(field) if found.iter().any(|(name, _)| *name == field.name) => {
                         let message = format!("the field `{}` is there twice", field.name);
                         self.report(
@@ -204,7 +215,9 @@ impl<'a> Checker<'a> {
             }
             self.scopes.pop();
         }
-        for field in declared {
+        // A field that nobody knows may stand for one that is missing.
+        let has_unexplained = unknown > meant.len();
+        for field in declared.iter().filter(|_| !has_unexplained) {
             let is_there = field.is_optional || meant.contains(&field.name);
             if !is_there && !found.iter().any(|(name, _)| *name == field.name) {
                 let message = format!("the field `{}` of `{}` is missing", field.name, owner.shown);
@@ -214,6 +227,7 @@ impl<'a> Checker<'a> {
         }
         Some(Fields { items: found })
     }
+    /// Reports a value without a name among fields, such as the 5 of `fov_y_degrees: 3,5`.
 
     fn report_keyless_item(&mut self, item: &Item<'_>) {
         if item.value.kind == NodeKind::Invalid {
@@ -225,7 +239,8 @@ impl<'a> Checker<'a> {
         self.report(item.value.span.clone(), message, Some(help.to_owned()));
     }
 
-    /// Reports a field that is not declared. Returns the field of the same struct that is probably meant.
+    /// Reports a field that is not declared. Returns the field of the same struct that is probably
+    /// meant.
     fn report_unknown_field(
         &mut self,
         key: &Key<'_>,
@@ -267,12 +282,14 @@ impl<'a> Checker<'a> {
         self.path.push(Segment::Variant(variant.name));
         Some(Variant { entry, variant, group, span: node.span.clone() })
     }
+    /// Ends the variant that [`open_variant`](Self::open_variant) began.
 
     pub(in crate::scene) fn close_variant(&mut self) {
         self.path.pop();
     }
 
-    /// Reports a value that names no variant, with the variant that holds such values, if there is one.
+    /// Reports a value that names no variant, with the variant that holds such values, if there is
+    /// one.
     fn report_no_variant(
         &mut self,
         node: &Node<'_>,
@@ -300,8 +317,8 @@ impl<'a> Checker<'a> {
         self.report_type(node, &expected, Some(help));
     }
 
-    /// Reads the elements of a list. Of a list of the whole scene those that cannot be read are left out; any other list is read
-    /// whole or not at all.
+    /// Reads the elements of a list. Of a list of the whole scene those that cannot be read are
+    /// left out; any other list is read whole or not at all.
     pub(in crate::scene) fn read_list<T: SceneValue>(
         &mut self,
         items: &[Item<'_>],
@@ -360,7 +377,8 @@ pub(in crate::scene) struct Fields<'n> {
 }
 
 impl Fields<'_> {
-    /// The value of a field. A field that is left out, or that cannot be read, has the value of `default`, if it has one.
+    /// The value of a field. A field that is left out, or that cannot be read, has the value of
+    /// `default`, if it has one.
     pub(in crate::scene) fn read<T: SceneValue>(
         &self,
         checker: &mut Checker<'_>,
@@ -389,6 +407,7 @@ pub(in crate::scene) struct Variant<'n> {
 }
 
 impl<'n> Variant<'n> {
+    /// The name of the variant, one of those that are declared.
     pub(in crate::scene) fn name(&self) -> &'static str {
         self.variant.name
     }
@@ -404,6 +423,7 @@ impl<'n> Variant<'n> {
 
     /// The fields in the brackets; a variant without brackets has none.
     pub(in crate::scene) fn open_fields(&self, checker: &mut Checker<'_>) -> Option<Fields<'n>> {
+        /// The brackets of a variant that is written without any.
         static EMPTY: Group<'static> = Group { name: None, open: '(', items: Vec::new() };
         let owner = Owner {
             key: format!("{}::{}", self.entry.name, self.variant.name),
@@ -413,7 +433,8 @@ impl<'n> Variant<'n> {
         checker.read_fields(group, self.span.clone(), owner, self.variant.fields)
     }
 
-    /// The value in the brackets. The brackets of the variant are also those of a struct, list or vector inside.
+    /// The value in the brackets. The brackets of the variant are also those of a struct, list or
+    /// vector inside.
     pub(in crate::scene) fn read_inner<T: SceneValue>(
         &self,
         checker: &mut Checker<'_>,

@@ -15,8 +15,8 @@ struct Site {
     variants: Vec<&'static str>,
 }
 
-/// The fields that `is_meant` accepts, each with its owner such as `Model` or `View::LookAt`, those nearest to the scene's own
-/// brackets first.
+/// The fields that `is_meant` accepts, each with its owner such as `Model` or `View::LookAt`, those
+/// nearest to the scene's own brackets first.
 pub(in crate::scene) fn fields_where(
     root: &'static TypeEntry,
     is_meant: impl Fn(&str) -> bool,
@@ -29,8 +29,8 @@ pub(in crate::scene) fn fields_where(
     found
 }
 
-/// How a field or a variant is written in a scene, from the scene's own brackets on: `camera: (view: LookAt(eye: …))`. `None` if the
-/// owner has none of this name.
+/// How a field or a variant is written in a scene, from the scene's own brackets on: `camera:
+/// (view: LookAt(eye: …))`. `None` if the owner has none of this name.
 pub(in crate::scene) fn example_of(
     root: &'static TypeEntry,
     owner: &str,
@@ -67,6 +67,7 @@ fn sites(root: &'static TypeEntry) -> Vec<Site> {
     }
     sites
 }
+/// Adds the struct or enum of an entry with its variants, and queues the types of their fields.
 
 fn add_sites(
     entry: &'static TypeEntry,

@@ -58,6 +58,7 @@ pub(in crate::scene) struct Key<'a> {
 }
 
 impl<'a> Node<'a> {
+    /// The items in brackets, if the value has any.
     pub(in crate::scene) fn group(&self) -> Option<&Group<'a>> {
         match &self.kind {
             NodeKind::Group(group) => Some(group),
@@ -65,7 +66,8 @@ impl<'a> Node<'a> {
         }
     }
 
-    /// The child that `step` leads to. Brackets around a single value, as in `Lines((width: Px(2)))`, are no level of their own.
+    /// The child that `step` leads to. Brackets around a single value, as in `Lines((width:
+    /// Px(2)))`, are no level of their own.
     fn child(&self, step: PathStep<'_>) -> Option<&Self> {
         let items = &self.group()?.items;
         let found = match step {

@@ -1,11 +1,14 @@
-//! Words of three.js, Blender, glTF, f3d and others, each with the field or variant that it means here.
+//! Words of three.js, Blender, glTF, f3d and others, each with the field or variant that it means
+//! here.
 
-/// Words without capitals and separators, parted by blanks; the struct, variant or enum that has what they mean; and its name there.
+/// Words without capitals and separators, parted by blanks; the struct, variant or enum that has
+/// what they mean; and its name there.
 ///
-/// Of several rows for a word the one goes first that has the struct in which the word stands, then those in the same field of the
-/// scene, then the first.
+/// Of several rows for a word the one goes first that has the struct in which the word stands, then
+/// those in the same field of the scene, then the first.
 pub(super) const FOREIGN_WORDS: &[(&str, &str, &str)] = &[
-    // Cameras: three.js PerspectiveCamera and OrthographicCamera, glTF camera.perspective, Blender and f3d's --camera-… options.
+    // Cameras: three.js PerspectiveCamera and OrthographicCamera, glTF camera.perspective, Blender
+    // and f3d's --camera-… options.
     (
         "fov fovy yfov vfov xfov fieldofview viewangle camerafov cameraviewangle focallength lens angley",
         "Projection::Perspective",
@@ -116,7 +119,8 @@ pub(super) const FOREIGN_WORDS: &[(&str, &str, &str)] = &[
     ("materialvariant", "Model", "variant"),
     ("copies array instancing instancedmesh duplicates count", "Model", "instances"),
     ("material materialoverrides", "Model", "materials"),
-    // Materials: glTF pbrMetallicRoughness, three.js MeshStandardMaterial, Blender's Principled BSDF.
+    // Materials: glTF pbrMetallicRoughness, three.js MeshStandardMaterial, Blender's Principled
+    // BSDF.
     (
         "basecolorfactor color colour albedo diffuse diffusecolor basecolour",
         "Material",

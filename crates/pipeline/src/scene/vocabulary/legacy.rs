@@ -3,11 +3,13 @@
 /// A word that was replaced.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::scene) struct LegacyWord {
-    /// The struct, variant (`Light::Directional`) or enum that the word stands in, by its name of today.
+    /// The struct, variant (`Light::Directional`) or enum that the word stands in, by its name of
+    /// today.
     pub(in crate::scene) owner: &'static str,
     pub(in crate::scene) old: &'static str,
     pub(in crate::scene) new: &'static str,
 }
+/// A row of the table.
 
 const fn word(owner: &'static str, old: &'static str, new: &'static str) -> LegacyWord {
     LegacyWord { owner, old, new }
