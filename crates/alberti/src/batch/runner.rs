@@ -97,6 +97,8 @@ impl BatchRun<'_> {
     }
 
     /// Renders one picture; returns the warnings of its models and of the drawing.
+    ///
+    /// One thread renders it: the batch runs several jobs at a time, which scales better.
     fn render_picture(&self, input: &Path, output: &Path) -> Result<Vec<String>, CliError> {
         let (_, _, scene) = self.args.overrides.open_scene(input, &self.args.load_options)?;
         let (picture, drawing) = render_reported(&scene, 1, &Timings::default())?;
