@@ -1,7 +1,7 @@
 //! A hostile file, and what is to come of it.
 
-use crate::document::Document;
 use crate::promises;
+use alberti_tests::gltf::Document;
 use model::Model;
 use model::import::{ImportError, ImportOptions, check_bytes, load, load_bytes};
 use std::path::Path;

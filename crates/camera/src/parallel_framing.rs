@@ -9,9 +9,9 @@
 //!       left    right
 //! ```
 //!
-//! The projectors run along the gaze (orthographic) or along any direction d that leads away from the
-//! viewer (oblique). A point (x, y, z) of view space has its image in the plane of the eye, z = 0, at
-//! (x − z dx/dz, y − z dy/dz). Sources: OB-1, VV-1.
+//! The projectors run along the gaze (orthographic) or along any direction d that leads away from
+//! the viewer (oblique). A point (x, y, z) of view space has its image in the plane of the eye, z =
+//! 0, at (x − z dx/dz, y − z dy/dz). Sources: OB-1, VV-1.
 
 use crate::framing::{check_aspect, check_padding};
 use crate::point_coordinates::PointCoordinates;

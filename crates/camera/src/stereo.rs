@@ -11,13 +11,13 @@
 //! ```
 //!
 //! Both eyes look the same way; turning them inwards (toe-in) would shift things vertically. Their
-//! windows are off the axis instead: for an eye that is e to the right of the middle, each side is at
-//! l − e · distance/zero_parallax on the plane at that distance.
+//! windows are off the axis instead: for an eye that is e to the right of the middle, each side is
+//! at l − e · distance/zero_parallax on the plane at that distance.
 //!
-//! [`apex_moved_view`] is what one lesson's `createFrustum` does with an off-axis window instead (LW-1,
-//! misprint M12): it moves the eye to the window's middle and keeps the frustum symmetric. The two
-//! agree on the window's plane and nowhere else, and a stereo pair made so has no plane of zero
-//! parallax where it was asked for. It is here to be compared.
+//! [`apex_moved_view`] is what one lesson's `createFrustum` does with an off-axis window instead
+//! (LW-1, misprint M12): it moves the eye to the window's middle and keeps the frustum symmetric.
+//! The two agree on the window's plane and nowhere else, and a stereo pair made so has no plane of
+//! zero parallax where it was asked for. It is here to be compared.
 
 use crate::window::{check_finite, check_positive};
 use crate::{Camera, CameraError, ViewWindow};
@@ -82,8 +82,8 @@ impl StereoRig {
         })
     }
 
-    /// The pair of [`off_axis_pair`](Self::off_axis_pair) with each frustum's apex moved to the middle of its window
-    /// (LW-1).
+    /// The pair of [`off_axis_pair`](Self::off_axis_pair) with each frustum's apex moved to the
+    /// middle of its window (LW-1).
     ///
     /// For comparison only: the eyes then are closer together than asked for, and their pictures
     /// meet elsewhere.

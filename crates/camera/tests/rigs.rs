@@ -41,7 +41,8 @@ fn seen(view: CameraView, point: Point<World>) -> [f64; 2] {
     [(x - w.left) / (w.right - w.left), (y - w.bottom) / (w.top - w.bottom)]
 }
 
-/// The point at `distance` along the gaze whose image is at `at`, in parts of the window from the lower left corner.
+/// The point at `distance` along the gaze whose image is at `at`, in parts of the window from the
+/// lower left corner.
 fn point_ahead(camera: Camera, window: ViewWindow, at: [f64; 2], distance: f64) -> Point<World> {
     let x = window.left + (window.right - window.left) * at[0];
     let y = window.bottom + (window.top - window.bottom) * at[1];

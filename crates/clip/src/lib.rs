@@ -1,9 +1,10 @@
 //! Clipping in homogeneous space, before the divide.
 //!
-//! Clipping makes of a shape the part of it that a volume contains. Here it comes before the divide by w, for the
-//! divide is where things go wrong: it takes points behind the eye to places in front of it. In clip space the volume
-//! is a wedge, |x| ≤ w and so on for y and z, and the picture is the line w = 1. The divide moves every point along
-//! its ray through the origin onto that line, those with w < 0 as well:
+//! Clipping makes of a shape the part of it that a volume contains. Here it comes before the divide
+//! by w, for the divide is where things go wrong: it takes points behind the eye to places in front
+//! of it. In clip space the volume is a wedge, |x| ≤ w and so on for y and z, and the picture is
+//! the line w = 1. The divide moves every point along its ray through the origin onto that line,
+//! those with w < 0 as well:
 //!
 //! ```text
 //!                 w
@@ -30,10 +31,10 @@
 //! | a convex polygon | [`clip_convex`] | the same for any number of corners |
 //! | a solid | [`cut_triangle`], [`Outline`] | its part behind a plane, the outline of the cut, the cap |
 //!
-//! A [`Volume`] is a table of planes: any convention's canonical volume, with or without a far plane, with a guard
-//! band, with planes of your own. Attributes follow by fractions and weights, which need no perspective correction at
-//! this stage. Neighbours that share an edge get the same bits where it is cut. Nothing here panics, and nothing that
-//! comes out is infinite or NaN.
+//! A [`Volume`] is a table of planes: any convention's canonical volume, with or without a far
+//! plane, with a guard band, with planes of your own. Attributes follow by fractions and weights,
+//! which need no perspective correction at this stage. Neighbours that share an edge get the same
+//! bits where it is cut. Nothing here panics, and nothing that comes out is infinite or NaN.
 //!
 //! # Example
 //! A floor tile under the camera: one corner is ahead, the others are beside and behind it.
@@ -63,8 +64,8 @@
 //! assert_eq!(left.outcomes.outcome_of(PlaneIndex::FAR), PlaneOutcome::Accepted);
 //! ```
 //!
-//! Sources: Cohen and Sutherland (about 1967), Sutherland and Hodgman (1974), Blinn and Newell (1978), Liang and
-//! Barsky (1984); CL-1 to CL-4.
+//! Sources: Cohen and Sutherland (about 1967), Sutherland and Hodgman (1974), Blinn and Newell
+//! (1978), Liang and Barsky (1984); CL-1 to CL-4.
 #![no_std]
 
 extern crate alloc;

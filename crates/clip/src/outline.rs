@@ -7,8 +7,9 @@ use homog::{Point, Space};
 /// The outline of a cut face.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Outline<S: Space> {
-    /// Closed loops; the last point is joined to the first. Seen from the positive side of the plane the outer ones run
-    /// counter-clockwise and holes clockwise, if the triangles of the surface run counter-clockwise seen from outside.
+    /// Closed loops; the last point is joined to the first. Seen from the positive side of the
+    /// plane the outer ones run counter-clockwise and holes clockwise, if the triangles of the
+    /// surface run counter-clockwise seen from outside.
     pub loops: Vec<Vec<Point<S>>>,
     /// What does not close, because the surface has a border itself. Empty for closed surfaces.
     pub open: Vec<Vec<Point<S>>>,
@@ -17,7 +18,8 @@ pub struct Outline<S: Space> {
 impl<S: Space> Outline<S> {
     /// Joins edges whose ends are the same numbers, as those of [`crate::CutTriangle::edge`] are.
     ///
-    /// Edges are joined end to start where possible. Where the surface is wound inconsistently they are turned round.
+    /// Edges are joined end to start where possible. Where the surface is wound inconsistently they
+    /// are turned round.
     ///
     /// ```
     /// use clip::{Outline, cut_triangle};

@@ -131,7 +131,7 @@ impl<C: Channel> RegionCanvas<'_, C> {
         let Some(pixmap) = Pixmap::new(tile.width, tile.height) else { return };
         let mut canvas = Canvas { pixmap, corner: [tile.x, tile.y] };
         self.for_each_shared_pixel(shown, &mut canvas, |pixel, canvas_pixel| {
-            *canvas_pixel = C::to_canvas(*pixel)
+            *canvas_pixel = C::to_canvas(*pixel);
         });
         draw(&mut canvas);
         self.for_each_shared_pixel(shown, &mut canvas, |pixel, canvas_pixel| {
@@ -139,7 +139,7 @@ impl<C: Channel> RegionCanvas<'_, C> {
         });
     }
 
-    /// Calls `each` with the pixels that the region and a canvas have in common.
+    /// Calls `each` with the pixels that the region and a canvas have in common, row by row.
     fn for_each_shared_pixel(
         &mut self,
         shown: PixelRect,
@@ -164,8 +164,8 @@ impl<C: Channel> RegionCanvas<'_, C> {
 
 /// Conversion of pixels to the 8-bit canvas and back.
 ///
-/// Pixels of 8 bits are drawn on. Pixels of 16 bits would lose precision: they are left as they are, and
-/// the drawing is composited over them.
+/// Pixels of 8 bits are drawn on. Pixels of 16 bits would lose precision: they keep their values,
+/// and the drawing is composited over them.
 trait CanvasChannel: Channel {
     /// The pixel of the canvas under the drawing.
     fn to_canvas(pixel: [Self; 4]) -> PremultipliedColorU8;
@@ -229,7 +229,7 @@ impl Canvas {
                     self.pixmap.stroke_path(&path, &paint, &stroke, Transform::identity(), None);
                 }
             }
-            // Holes must be in the path of what they are holes of.
+            // The even-odd rule applies within a path: holes must share that of their outline.
             for path in skia_paths(&group.fills, scale, self.corner, usize::MAX) {
                 let rule = FillRule::EvenOdd;
                 self.pixmap.fill_path(&path, &paint, rule, Transform::identity(), None);
@@ -238,12 +238,19 @@ impl Canvas {
     }
 
     /// Draws an image under all lines: each pixel is the mean of the area it covers (box filter).
+    ///
+    /// ```text
+    ///   canvas pixel ─► image columns [from, to) in real numbers, clamped to the image
+    /// ```
+    ///
+    /// The mean is weighted by area and alpha and composited over what is there, so edges of the
+    /// fill are anti-aliased.
     fn draw_image(&mut self, pasted: &PlacedImage, scale: [f64; 2]) {
         let PlacedImage { corner, size, picture, .. } = pasted;
         let (width, height) = (self.pixmap.width(), self.pixmap.height());
         let first = self.corner;
         let span = |axis: usize, side: u32, sides: u32| {
-            // Pixels of the pasted picture for one of the canvas, and where the canvas begins in it.
+            // Image pixels for one canvas pixel, and where the canvas begins in the image.
             let pixels = f64::from(side) / (f64::from(size[axis]) / 1000.0 * scale[axis]);
             let start = -f64::from(corner[axis]) / 1000.0 * scale[axis] * pixels;
             (first[axis]..first[axis] + sides).map(move |at| {
@@ -286,13 +293,16 @@ fn skia_stroke(pen: &Pen, dashes: &[f64], scale: f64) -> Stroke {
             Join::Round => LineJoin::Round,
             Join::Bevel => LineJoin::Bevel,
         },
-        // None for no dashes.
+        // `None` for an empty pattern: a continuous stroke.
         dash: StrokeDash::new(dashes, 0.0),
     }
 }
 
 /// The mean of an area of a picture: premultiplied red, green and blue, and alpha, 0 to 255;
 /// transparent outside the picture.
+///
+/// Each image pixel counts with the area it shares with the rectangle. Colors are weighted by
+/// alpha, or the color of transparent pixels would bleed into the edges.
 fn area_mean(picture: &Picture, columns: [f64; 2], rows: [f64; 2]) -> [f64; 4] {
     let cells = |[from, to]: [f64; 2]| {
         let first = from as u32;
@@ -318,6 +328,10 @@ fn area_mean(picture: &Picture, columns: [f64; 2], rows: [f64; 2]) -> [f64; 4] {
 }
 
 /// Porter–Duff *over*: a premultiplied color over a straight one, as a straight one.
+///
+/// ```text
+///   α = αₐ + α_b (1 − αₐ)        c = (cₐ + c_b α_b (1 − αₐ)) / α
+/// ```
 fn composite_over([r, g, b, alpha]: [f64; 4], below: [u8; 4]) -> [u8; 4] {
     let rest = f64::from(below[3]) * (1.0 - alpha / 255.0);
     let whole = alpha + rest;
@@ -331,6 +345,9 @@ fn composite_over([r, g, b, alpha]: [f64; 4], below: [u8; 4]) -> [u8; 4] {
 }
 
 /// Lines as paths of about `most` points, in pixels of the canvas.
+///
+/// Coordinates are subtracted from the corner of the tile in f64 and only then rounded to f32, as
+/// tiny-skia wants them: far from the origin of a large picture f32 has no subpixel bits left.
 fn skia_paths<'a>(
     lines: impl IntoIterator<Item = &'a Polyline>,
     scale: [f64; 2],

@@ -33,6 +33,30 @@ const AXIS_WIDTH: f64 = 0.13;
 const LEGEND_SAMPLE: f64 = 9.0;
 
 /// A chart: two axes, curves, and marked values.
+///
+/// ```
+/// use drawing::{Axis, Chart, Curve, Spacing, palette};
+/// use glam::DVec2;
+///
+/// let spacing = Spacing::Linear;
+/// let axis = |title: &str, from, to| Axis { title: title.into(), from, to, spacing };
+/// let parabola = (0..=20).map(|n| f64::from(n) / 10.0).map(|x| [x, x * x]).collect();
+/// let chart = Chart {
+///     id: "parabola".into(),
+///     x: axis("x", 0.0, 2.0),
+///     y: axis("x²", 0.0, 4.0),
+///     curves: vec![Curve {
+///         id: "curve".into(),
+///         title: "x²".into(),
+///         ink: palette::BLUE,
+///         dashed: false,
+///         points: parabola,
+///     }],
+///     marks: Vec::new(),
+/// };
+/// let layers = chart.to_layers(DVec2::new(20.0, 20.0), DVec2::new(100.0, 60.0));
+/// assert!(layers.iter().any(|layer| layer.id == "parabola-curve"));
+/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Chart {
     /// An identifier: lower case, hyphens, unique on its page.

@@ -5,8 +5,15 @@
 //! ```
 //!
 //! A hidden edge should meet its ends with dashes, not with gaps (ISO 128-2). The pattern is
-//! stretched or shrunk a little so that a whole number n of periods and one more dash fit: scale =
-//! length / (n · period + dash). On a closed line n whole periods fit.
+//! stretched or shrunk a little so that a whole number n of periods and one more dash fit:
+//!
+//! ```text
+//!   open    length = scale · (n · period + dash)
+//!   closed  length = scale · n · period           n ≥ 2
+//! ```
+//!
+//! n is the nearest integer, so the scale stays within about 0.6 and 1.5; lines too short for that
+//! are drawn without gaps.
 
 use super::page::{Pen, Polyline};
 
@@ -17,6 +24,19 @@ const MIN_PATTERN_SCALE: f64 = 0.6;
 impl Pen {
     /// The lengths of dashes and gaps in millimeters with which this pen draws a line; empty for a
     /// line without gaps.
+    ///
+    /// ```
+    /// use drawing::{IsoLineGroup, LineType, Polyline};
+    /// use glam::DVec2;
+    ///
+    /// let pen = LineType::Dashed.to_pen(0.25, [0; 3], Default::default(), Default::default());
+    /// assert_eq!(pen.dashes, [3.0, 0.75]);
+    /// let line = Polyline::through_points(&[DVec2::ZERO, DVec2::new(10.0, 0.0)], false);
+    /// // Two periods and a dash: 2 · 3.75 + 3 = 10.5, so the pattern is shrunk by 10 / 10.5.
+    /// let dashes = pen.fitted_dashes(&line.expect("two points"));
+    /// assert!((dashes[0] - 3.0 * 10.0 / 10.5).abs() < 1e-12);
+    /// assert_eq!(IsoLineGroup::MM_0_5.narrow_width(), 0.25);
+    /// ```
     #[must_use]
     pub fn fitted_dashes(&self, line: &Polyline) -> Vec<f64> {
         let Some(&dash) = self.dashes.first() else { return Vec::new() };

@@ -69,6 +69,9 @@ impl KeyLight {
 /// Renders faces in one flat color each: an image of their visible parts, transparent where there
 /// is none.
 ///
+/// The image has `fill_scale` pixels for each pixel of the drawing, but no side above
+/// [`MAX_FILL_SIDE`]; nothing is filtered, as its pixels are finer than those of the output.
+///
 /// # Errors
 /// If the image has no viewport, or there are more faces than ids.
 pub(super) fn rasterize_flat_fill(

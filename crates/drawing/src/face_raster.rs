@@ -27,7 +27,7 @@ pub(super) fn rasterize_faces(
 ) -> Result<Vec<Option<u32>>, DrawError> {
     let mut frame = Frame::new(width, height, Samples::One)?;
     let snap = |vertex: ClipVertex| {
-        let position = Point::from_raw(projector.to_screen(vertex.point)?);
+        let position = Point::from_raw(projector.project_to_screen(vertex.point)?);
         ScreenVertex::snap(position, vertex.point.w())
     };
     for (index, vertices) in triangles.enumerate() {

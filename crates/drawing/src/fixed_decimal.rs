@@ -1,9 +1,13 @@
 //! Fixed-point decimals: lengths written exactly with at most three decimals, as short as possible.
 //!
-//! Numbers are formatted from whole thousandths, so nothing is rounded twice and no locale
-//! interferes.
+//! SVG and PDF count in millimeters, pages in micrometers: a number of thousandths is written digit
+//! by digit, so nothing is rounded, no locale interferes, and both formats show the same digits.
+//! Leading and trailing zeros are omitted, as both grammars allow.
 
 /// Writes a number of thousandths: 12500 as `12.5`, −250 as `-.25`.
+///
+/// Zero is `0`; an integer part of zero is omitted otherwise. All of `i64` is written, including
+/// its least value.
 pub(super) fn write_thousandths(out: &mut Vec<u8>, number: i64) {
     if number < 0 {
         out.push(b'-');
@@ -26,6 +30,8 @@ pub(super) fn format_thousandths(number: i64) -> String {
 }
 
 /// A length in millimeters, rounded to the micrometer, as text.
+///
+/// Only sizes and widths that are not on the grid come this way; halves round away from zero.
 pub(super) fn format_millimeters(millimeters: f64) -> String {
     format_thousandths(libm::round(millimeters * 1000.0) as i64)
 }

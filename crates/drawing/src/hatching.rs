@@ -43,8 +43,12 @@ impl HatchPattern {
         Self { normal, spacing }
     }
 
-    /// The pattern of a part by the index of its kind: alternating directions first, then other
-    /// spacings.
+    /// The pattern of a part by its index: alternating directions first, then other spacings.
+    ///
+    /// ```text
+    ///   part      0      1      2        3        4         5         6      7
+    ///   lines     ╱      ╲      ╱ 1.5×   ╲ 1.5×   ╱ 0.75×   ╲ 0.75×   ╱ 2×   ╲ 2×
+    /// ```
     fn for_part(kind: usize, distance: f64) -> Self {
         Self::diagonal_lines(
             kind.is_multiple_of(2),
@@ -54,7 +58,7 @@ impl HatchPattern {
 
     /// The indices of the lines between two positions along the normal; line i is at i · spacing.
     fn line_range(&self, [from, to]: [f64; 2]) -> std::ops::RangeInclusive<i64> {
-        // Casting cuts off at the ends of the range.
+        // A float-to-int cast saturates.
         libm::ceil(from / self.spacing) as i64..=libm::floor(to / self.spacing) as i64
     }
 
@@ -184,9 +188,14 @@ fn assign_cap_patterns(caps: &[(u32, Vec<[DVec3; 3]>)], touching: f64) -> Vec<us
 
 /// Calls `push` with the index and the segment in the world of each line that crosses a triangle.
 ///
-/// Only lines that `is_drawn` accepts, and only those between the extremes of the clipped triangle
-/// on the screen, are computed. The segments themselves reach over the unclipped triangle;
-/// hidden-line removal clips them.
+/// ```text
+///   n·p on the screen   ├── i ── i+1 ── i+2 ──┤     lines between the least and the greatest
+///                       least           greatest    position of the clipped triangle's vertices
+/// ```
+///
+/// A line is the zero set of a linear function of clip coordinates, so its segment is found in the
+/// world without inverting the projection. The segments reach over the unclipped triangle;
+/// hidden-line removal clips them. Lines that `is_drawn` rejects are skipped.
 fn hatch_triangle(
     vertices: [DVec3; 3],
     projector: &Projector,
@@ -197,7 +206,7 @@ fn hatch_triangle(
     let clip = vertices.map(|vertex| projector.world_to_clip_point(vertex));
     let clipped = clip_triangle(clip, &Volume::CHAPTER);
     let positions =
-        clipped.vertices().iter().filter_map(|vertex| projector.to_screen(vertex.point));
+        clipped.vertices().iter().filter_map(|vertex| projector.project_to_screen(vertex.point));
     let extent = positions.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], position| {
         let at = pattern.normal.dot(position.truncate());
         [least.min(at), most.max(at)]
@@ -224,7 +233,7 @@ fn zero_segment(vertices: [DVec3; 3], heights: [f64; 3]) -> Option<[DVec3; 2]> {
         if (one.1 < 0.0) == (other.1 < 0.0) {
             continue;
         }
-        // From the same end whichever way the side runs, so that neighbors meet at the same bits.
+        // Oriented alike for both faces at the side, so that neighbors meet at the same bits.
         let rises = one.0.to_array() < other.0.to_array();
         let ((p, from), (q, to)) = if rises { (one, other) } else { (other, one) };
         let position = p + (q - p) * (from / (from - to));

@@ -1,4 +1,10 @@
-//! Labels: lines of text on a page, as strokes.
+//! Labels: lines of text on a page, as strokes of a pen.
+//!
+//! ```text
+//!    ↑ height
+//!    │  HIM      anchor: the start, middle or end of the text on its baseline
+//!    ●───────►   direction: of the baseline
+//! ```
 
 use super::page::{Ink, Pen, Polyline};
 use super::stroke_font::{CAP_HEIGHT, typeset_line};
@@ -17,6 +23,15 @@ pub enum TextAlign {
 }
 
 /// A line of text on a page.
+///
+/// ```
+/// use drawing::{Label, TextAlign};
+/// use glam::DVec2;
+///
+/// let label = Label::new("150", DVec2::new(100.0, 50.0), 3.5).with_align(TextAlign::Middle);
+/// assert!(label.fit_to_width(5.0).width() <= 5.0 + 1e-9);
+/// assert!(!label.strokes().is_empty());
+/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Label<'a> {
     /// The text; characters that the font lacks become boxes.
@@ -110,7 +125,7 @@ mod tests {
         assert!((high.x - low.x - label.width()).abs() < 1e-3);
         let [low, high] = bounds(&label.with_align(TextAlign::End));
         assert!((high.x - 100.0).abs() < 1e-3 && (low.x - 100.0 + label.width()).abs() < 1e-3);
-        // Upwards: what was above the baseline is at its left.
+        // Upward: above the baseline is at its left.
         let [low, high] = bounds(&label.with_direction(-DVec2::Y).with_align(TextAlign::Middle));
         assert!((low.x - 95.0).abs() < 1e-3 && (high.x - 100.0).abs() < 1e-3);
         assert!((low.y + high.y - 100.0).abs() < 2e-3);

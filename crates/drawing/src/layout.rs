@@ -3,10 +3,17 @@
 //!
 //! ```text
 //!   segments ─► kinds (hidden, depth band, class) ─► overlap removal ─► chains ─► layers
+//!
+//!   kinds by importance       layers in drawing order
+//!   0  visible silhouette     hidden crease
+//!   1  visible boundary       hidden silhouette
+//!   2  visible crease         …
+//!   …  hidden silhouette      visible silhouette    last, so on top
 //! ```
 //!
-//! Kinds are ordered by importance; a layer of a more important kind is drawn over the others, and
-//! its segments win where segments coincide.
+//! The order of kinds has two effects. A layer of a more important kind is drawn over the others,
+//! and where segments coincide on the page only that of the most important kind remains. Layers
+//! have stable ids, such as `hidden-crease`, by which style sheets and scripts can address them.
 
 use super::line_style::{EdgeSelection, HiddenLines, LineStyle};
 use super::line_type::LineType;
@@ -34,8 +41,11 @@ impl Placement {
     pub const PICTURE: Self =
         Self { corner: DVec2::ZERO, scale: DVec2::splat(MILLIMETERS_PER_PIXEL) };
 
-    /// A point of the drawing on the page, in millimeters.
-    fn to_page(&self, pixels: DVec2) -> DVec2 {
+    /// The drawing as a page of its own, 96 pixels to the inch.
+    ///
+    /// `title` is that of the document; `paper` fills the background, and decides between dark and
+    /// light ink if the style has none.
+    fn pixels_to_page(&self, pixels: DVec2) -> DVec2 {
         self.corner + pixels * self.scale
     }
 }
@@ -73,10 +83,13 @@ impl LineDrawing {
     }
 
     /// The flat fill as an image on a page, if the drawing has one.
+    ///
+    /// Its rectangle is that of the whole drawing, rounded to micrometers, so that lines and fill
+    /// stay in register.
     #[must_use]
     pub fn face_fill_image(&self, placement: Placement, prefix: &str) -> Option<PlacedImage> {
         let picture = self.face_fill.clone()?;
-        let (corner, end) = (to_micrometers(placement.corner), placement.to_page(self.size));
+        let (corner, end) = (to_micrometers(placement.corner), placement.pixels_to_page(self.size));
         let end = to_micrometers(end);
         let size = [0, 1].map(|axis| (end[axis] - corner[axis]).max(1));
         Some(PlacedImage { id: format!("{prefix}tone"), corner, size, picture })
@@ -84,6 +97,9 @@ impl LineDrawing {
 
     /// The layers of the drawing, the lowest first; `prefix` begins their ids, so that several
     /// drawings can share a page.
+    ///
+    /// Kinds without lines have no layer. The drawing must be made with the options of the same
+    /// style, see [`LineStyle::to_draw_options`].
     #[must_use]
     pub fn to_layers(
         &self,
@@ -94,10 +110,10 @@ impl LineDrawing {
     ) -> Vec<Layer> {
         let kinds = LineKinds::new(self, style);
         let mut segments = Vec::new();
-        for line in &self.segments {
-            kinds.for_each_segment(line, |kind, ends, object| {
+        for segment in &self.segments {
+            kinds.for_each_segment(segment, |kind, ends, object| {
                 segments.push(PageSegment {
-                    ends: ends.map(|end| placement.to_page(end)),
+                    ends: ends.map(|end| placement.pixels_to_page(end)),
                     layer: kind,
                     object,
                 });
@@ -134,6 +150,8 @@ impl LineDrawing {
 impl Page {
     /// The ink of a style on this page: its own, or a dark or light one that contrasts with the
     /// paper.
+    ///
+    /// Paper is dark if its luma (Rec. 601 weights) is below 118 of 255.
     #[must_use]
     pub fn ink_for_style(&self, style: &LineStyle) -> Ink {
         let is_dark = self.paper.is_some_and(|[r, g, b]| {
@@ -147,7 +165,7 @@ impl Page {
 impl<'a> LineKinds<'a> {
     /// The kinds of lines that a style draws, and the range of depths.
     fn new(drawing: &LineDrawing, style: &'a LineStyle) -> Self {
-        let depths = drawing.segments.iter().flat_map(|line| line.depths);
+        let depths = drawing.segments.iter().flat_map(|segment| segment.depths);
         let nearest = depths.clone().fold(0.0, f64::max);
         let farthest = depths.fold(nearest, f64::min);
         let bands = if style.depth_cue > 0.0 { DEPTH_BANDS } else { 1 };
@@ -159,44 +177,50 @@ impl<'a> LineKinds<'a> {
                 kinds.extend(classes.map(|class| LineKind { hidden, band, class }));
             }
         }
-        // A line that is only there in thought is less than one that is hidden.
+        // Facets are construction lines: even hidden feature edges take precedence over them.
         kinds.sort_by_key(|kind| (kind.class == EdgeClass::Facet, kind.hidden, kind.band));
         Self { style, kinds, depths: [nearest, farthest] }
     }
 
-    /// Calls `hand_on` with each part of a segment that is drawn, and the index of its kind.
-    fn for_each_segment(&self, line: &EdgeSegment, mut hand_on: impl FnMut(u32, [DVec2; 2], u32)) {
-        let hidden = !line.visible && self.style.hidden_lines != HiddenLines::Drawn;
+    /// Calls `push` with each part of a segment that is drawn, and the index of its kind.
+    ///
+    /// Kinds that the style does not draw have no index, and their segments are skipped.
+    fn for_each_segment(&self, segment: &EdgeSegment, mut push: impl FnMut(u32, [DVec2; 2], u32)) {
+        let hidden = !segment.visible && self.style.hidden_lines != HiddenLines::Drawn;
         let kind_index = |band: u32| {
-            let kind = LineKind { hidden, band, class: line.class };
+            let kind = LineKind { hidden, band, class: segment.class };
             self.kinds.iter().position(|other| *other == kind).map(|at| at as u32)
         };
         if self.style.depth_cue == 0.0 {
             let kind = kind_index(0);
-            return kind.into_iter().for_each(|kind| hand_on(kind, line.ends, line.object));
+            return kind.into_iter().for_each(|kind| push(kind, segment.ends, segment.object));
         }
-        for (band, ends) in self.split_by_depth(line) {
-            kind_index(band).into_iter().for_each(|kind| hand_on(kind, ends, line.object));
+        for (band, ends) in self.split_by_depth(segment) {
+            kind_index(band).into_iter().for_each(|kind| push(kind, ends, segment.object));
         }
     }
 
-    /// The parts of a segment in each depth band. Depth is linear on the screen, so bands cut it at
-    /// fixed fractions.
-    fn split_by_depth(&self, line: &EdgeSegment) -> Vec<(u32, [DVec2; 2])> {
+    /// The parts of a segment in each depth band.
+    ///
+    /// Depth is linear on the screen, so band borders cut a segment at fixed fractions: t = (border
+    /// − from) / (to − from).
+    fn split_by_depth(&self, segment: &EdgeSegment) -> Vec<(u32, [DVec2; 2])> {
         let [nearest, farthest] = self.depths;
         let span = nearest - farthest;
         let scaled = |depth: f64| {
             let part = if span > 0.0 { (nearest - depth) / span } else { 0.0 };
             part.clamp(0.0, 1.0) * f64::from(DEPTH_BANDS)
         };
-        let [from, to] = line.depths.map(scaled);
+        let [from, to] = segment.depths.map(scaled);
         let mut cuts = vec![0.0, 1.0];
         if from != to {
             let within = (1..DEPTH_BANDS).map(|border| (f64::from(border) - from) / (to - from));
             cuts.extend(within.filter(|t| *t > 0.0 && *t < 1.0));
             cuts.sort_by(f64::total_cmp);
         }
-        let at = |t: f64| if t == 1.0 { line.ends[1] } else { line.ends[0].lerp(line.ends[1], t) };
+        let at = |t: f64| {
+            if t == 1.0 { segment.ends[1] } else { segment.ends[0].lerp(segment.ends[1], t) }
+        };
         let part = |pair: &[f64]| {
             let middle = from + (to - from) * (pair[0] + pair[1]) * 0.5;
             ((middle as u32).min(DEPTH_BANDS - 1), [at(pair[0]), at(pair[1])])
@@ -236,7 +260,7 @@ fn selects_class(style: &LineStyle, class: EdgeClass, hidden: bool) -> bool {
         EdgeClass::Silhouette | EdgeClass::Boundary => true,
         EdgeClass::Facet => style.edges == EdgeSelection::Facets,
         EdgeClass::Hatching => !hidden && style.edges != EdgeSelection::Silhouette,
-        // What is only there in thought is not drawn where it is hidden.
+        // Tangent edges have no bend to show: hidden ones are left out.
         EdgeClass::Tangent => {
             style.edges == EdgeSelection::Tangents && !hidden
                 || style.edges == EdgeSelection::Facets

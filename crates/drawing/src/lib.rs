@@ -80,3 +80,8 @@ pub use sheet::{Sheet, SheetError, TitleBlockText};
 pub use subject::Subject;
 pub use warning::Warning;
 pub use z_buffer_check::{Agreement, verify_with_z_buffer};
+
+/// The example of the README, compiled as a documentation test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,4 +1,9 @@
 //! Line drawing: the result of hidden-line removal as segments on the screen.
+//!
+//! ```text
+//!   edge 7   ●━━━━━━━━━━●╌╌╌╌╌╌╌●━━━━━━━●     three segments: visible, hidden, visible;
+//!            0         s₁      s₂       1     neighbors share their end points bit for bit
+//! ```
 
 use super::Warning;
 use glam::DVec2;
@@ -57,6 +62,6 @@ pub struct LineDrawing {
     pub segments: Vec<EdgeSegment>,
     /// The flat fill under the lines, if the options ask for it: an image that fills the drawing.
     pub face_fill: Option<Picture>,
-    /// What could not be drawn as it should, each warning once.
+    /// Problems found on the way, each once.
     pub warnings: Vec<Warning>,
 }

@@ -6,6 +6,19 @@ use super::options::{DrawOptions, EdgeClasses, HiddenEdges};
 use super::page::{Cap, Ink, Join, MILLIMETERS_PER_PIXEL};
 
 /// The appearance of a line drawing.
+///
+/// Constants are complete styles; change one with the update syntax:
+///
+/// ```
+/// use drawing::{HiddenLines, IsoLineGroup, LineStyle, LineWidths};
+///
+/// let style = LineStyle {
+///     line_widths: LineWidths::Iso(IsoLineGroup::MM_0_35),
+///     ..LineStyle::TECHNICAL
+/// };
+/// assert_eq!(style.hidden_lines, HiddenLines::Dashed);
+/// assert_eq!(style.line_widths.wide_and_narrow(), [0.35, 0.18]);
+/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct LineStyle {
     /// The edges that are drawn.
@@ -120,7 +133,7 @@ impl LineStyle {
     pub fn to_draw_options(&self) -> DrawOptions {
         DrawOptions {
             classes: match self.edges {
-                // Where surfaces cross there is no side of a triangle.
+                // Intersection edges are not sides of triangles, so a wireframe omits them.
                 EdgeSelection::Facets => EdgeClasses::ALL.without(EdgeClass::Intersection),
                 EdgeSelection::Features => EdgeClasses::FEATURES.without(EdgeClass::Tangent),
                 EdgeSelection::Tangents => EdgeClasses::FEATURES,

@@ -17,6 +17,15 @@ use super::page::{Cap, Ink, Join, Pen};
 const WIDTH_SERIES: [f64; 9] = [0.13, 0.18, 0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0];
 
 /// A line group of ISO 128: a wide, a lettering and a narrow width, named by the wide one.
+///
+/// ```
+/// use drawing::IsoLineGroup;
+///
+/// let group = IsoLineGroup::from_wide_width(0.7).expect("a width of the series");
+/// let widths = [group.wide_width(), group.lettering_width(), group.narrow_width()];
+/// assert_eq!(widths, [0.7, 0.5, 0.35]);
+/// assert_eq!(IsoLineGroup::from_wide_width(0.6), None);
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct IsoLineGroup {
     /// The index of the wide width in the series, at least 2.
@@ -109,7 +118,7 @@ mod tests {
         assert_eq!(of(0.7), Some([0.7, 0.5, 0.35]));
         assert_eq!(of(2.0), Some([2.0, 1.4, 1.0]));
         assert_eq!((of(0.18), of(0.4), of(f64::NAN)), (None, None, None));
-        // The series grows by √2 to the width of a drawing pen, and wide is to narrow as 2 to 1.
+        // The ratio of the series is √2, up to rounding to widths of drawing pens.
         for pair in WIDTH_SERIES.windows(2) {
             assert!((pair[1] / pair[0] - core::f64::consts::SQRT_2).abs() < 0.05, "{pair:?}");
         }

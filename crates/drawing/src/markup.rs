@@ -1,6 +1,6 @@
 //! Markup escaping: text made safe for HTML and XML, in content and in quoted attributes.
 
-/// Escapes `&`, `<`, `>` and `"` as character references, and drops characters that XML 1.0 forbids.
+/// Escapes `&`, `<`, `>` and `"` as references, and drops characters that XML 1.0 forbids.
 ///
 /// The result is safe between tags and in attribute values in double quotes; it is not meant for
 /// single quotes, scripts or style sheets. Control characters other than tab, line feed and

@@ -1,10 +1,14 @@
 //! Options of hidden-line removal: the edge classes, the hidden parts and the faces that go into a
 //! drawing.
+//!
+//! They say what is computed. Pens, widths and the selection of layers are a
+//! [`LineStyle`](crate::LineStyle), which yields fitting options by
+//! [`LineStyle::to_draw_options`](crate::LineStyle::to_draw_options).
 
 use super::page::MILLIMETERS_PER_PIXEL;
 use super::{EdgeClass, FaceFill};
 
-/// What a line drawing contains; its appearance is a [`LineStyle`](crate::LineStyle).
+/// The content of a line drawing; its appearance is a [`LineStyle`](crate::LineStyle).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct DrawOptions {
     /// The edge classes that are drawn.
@@ -82,6 +86,14 @@ impl DrawOptions {
 }
 
 /// A set of edge classes, one bit for each.
+///
+/// ```
+/// use drawing::{EdgeClass, EdgeClasses};
+///
+/// let outlines = EdgeClasses::NONE.with(EdgeClass::Silhouette).with(EdgeClass::Boundary);
+/// assert!(outlines.contains(EdgeClass::Boundary) && !outlines.contains(EdgeClass::Crease));
+/// assert!(!EdgeClasses::FEATURES.contains(EdgeClass::Facet));
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct EdgeClasses(u16);
 

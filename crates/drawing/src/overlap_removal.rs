@@ -97,6 +97,11 @@ fn bounds_center(segments: &[PageSegment]) -> DVec2 {
 
 /// The supporting line of a segment, and its interval on it; `None` for segments without a clear
 /// direction.
+///
+/// Lines are written y = slope · x + height, or with x and y swapped if they are steep, so that
+/// slopes stay within ±1. Slope and height are rounded to a grid: collinear segments from different
+/// computations then share a key. Two collinear segments whose values fall on both sides of a
+/// rounding border are missed, and both are drawn, which does no harm.
 fn support_line(
     segment: &PageSegment,
     center: DVec2,
@@ -142,6 +147,8 @@ struct CoveredIntervals(BTreeMap<i64, LineInterval>);
 
 /// An integer that is ordered as the number is (IEEE 754 total order), so that it can be a key of a
 /// map.
+///
+/// Negative numbers have descending bit patterns; flipping all bits but the sign makes them ascend.
 fn total_order_key(number: f64) -> i64 {
     let bits = number.to_bits() as i64;
     bits ^ (((bits >> 63) as u64) >> 1) as i64
@@ -149,6 +156,8 @@ fn total_order_key(number: f64) -> i64 {
 
 impl CoveredIntervals {
     /// Adds an interval, merged with those it touches.
+    ///
+    /// Merging takes intervals out of the map for good, so the total time is O(n log n).
     fn cover_interval(&mut self, mut interval: LineInterval) {
         while let Some((&at, last)) =
             self.0.range(..=total_order_key(interval.to + GRID_STEP)).next_back()
@@ -168,6 +177,15 @@ impl CoveredIntervals {
     }
 
     /// Pushes the parts of an interval that are not covered and longer than two grid steps.
+    ///
+    /// ```text
+    ///   covered       ├────┤     ├──┤
+    ///   interval   ├───────────────────┤
+    ///   pushed     ├──┤    ├─────┤  ├──┤
+    /// ```
+    ///
+    /// A part begins exactly at the end point of the interval that covers its neighbor, so lines
+    /// meet without a gap.
     fn push_uncovered_parts(
         &self,
         interval: &LineInterval,
@@ -259,7 +277,7 @@ mod tests {
         let many: Vec<PageSegment> =
             (0..count).map(|k| segment(0, count - k, [at(k), 0.0, at(k) + 0.5, 0.0])).collect();
         let rest = remove_overlaps(&many);
-        // The object with the least number is the last: it goes before the one it overlaps, and so on.
+        // Objects are in falling order: each one takes precedence over the one before it.
         assert_eq!(rest.len(), many.len());
         let length: f64 =
             rest.iter().map(|segment| (segment.ends[1] - segment.ends[0]).length()).sum();

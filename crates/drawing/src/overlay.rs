@@ -76,7 +76,7 @@ pub fn overlay_layers(
             Overlay::Horizon => glass.horizon_layers(),
             Overlay::VanishingPoints => glass.vanishing_point_layers(),
             Overlay::Volume(view_projection) => glass.view_volume_layers(view_projection),
-            // They are of the surfaces, and are drawn with them.
+            // Feature edges are drawn with the surfaces, not here.
             Overlay::Edges => Vec::new(),
         };
         layers
@@ -162,6 +162,9 @@ impl PicturePlane {
     }
 
     /// Divides a line of the world into visible and hidden strokes.
+    ///
+    /// Without occluders the whole line is visible. The parts come as fractions of the line in the
+    /// world, and each is clipped to the picture and projected by itself.
     fn divide_line(&self, from: Point<World>, to: Point<World>, strokes: &mut DividedStrokes) {
         let stroke = |[a, b]: [f64; 2]| {
             let [a, b] = [a, b].map(|t| self.project_point(from.lerp(to, t)));
@@ -225,6 +228,9 @@ impl PicturePlane {
     }
 
     /// The ground grid under the models, one cell larger than their bounding box on each side.
+    ///
+    /// Lines are at multiples of the step, so grids of different scenes coincide. A given step is
+    /// raised where it would give more than [`MAX_GRID_LINES`] lines.
     fn grid_layers(&self, step: Option<f64>) -> Vec<Layer> {
         let (min, max) = (self.bounds.min(), self.bounds.max());
         let size = (max.x() - min.x()).max(max.z() - min.z()).max(self.bounds.diagonal() * 0.1);
@@ -248,12 +254,16 @@ impl PicturePlane {
 }
 
 /// The faces of the models as occluders, unless the style draws hidden lines like visible ones.
+///
+/// The third row of the projection is divided by [`DEPTH_RANGE_FACTOR`], which flattens depths
+/// without changing their order: points far before and behind the models stay within the view
+/// volume.
 fn model_occluders(subject: &Subject<'_>, hidden: HiddenLines) -> Option<Occluders> {
     if hidden == HiddenLines::Drawn {
         return None;
     }
     let viewport = subject.viewport().ok()?;
-    // Depth does not decide what is seen beside the models, only its order counts.
+    // Only the order of depths counts, so the range may be extended to hold the overlays.
     let deep = DMat4::from_diagonal(DVec4::new(1.0, 1.0, 1.0 / DEPTH_RANGE_FACTOR, 1.0));
     let view_to_clip = Projective::from_raw(deep * subject.view_projection.view_to_clip.raw());
     let projector =

@@ -35,7 +35,7 @@ pub struct Page {
     pub images: Vec<PlacedImage>,
     /// Layers, each drawn over the ones before.
     pub layers: Vec<Layer>,
-    /// What could not be drawn as it should, each warning once.
+    /// Problems found on the way, each once.
     pub warnings: Vec<Warning>,
 }
 
@@ -79,6 +79,17 @@ pub struct Group {
 }
 
 /// Points joined by straight lines.
+///
+/// ```
+/// use drawing::Polyline;
+/// use glam::DVec2;
+///
+/// let [a, b] = [DVec2::ZERO, DVec2::new(3.0, 4.0)];
+/// let line = Polyline::through_points(&[a, a, b], false).expect("two different points");
+/// assert_eq!((line.points.len(), line.length()), (2, 5.0));
+/// // Nearer than half a micrometer, points coincide on the grid.
+/// assert_eq!(Polyline::through_points(&[a, a + 1e-4], false), None);
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Polyline {
     /// At least two points; neighbors differ.
@@ -177,9 +188,11 @@ impl Polyline {
 }
 
 /// The nearest point of the grid; saturates for points too far away for it.
+///
+/// Ties round away from zero. The grid reaches to ±2147 m, beyond any paper.
 #[must_use]
 pub fn to_micrometers(millimeters: DVec2) -> PagePoint {
-    // Casting is exact for whole numbers and cuts off at the ends of the range.
+    // A float-to-int cast is exact for whole numbers and saturates.
     (millimeters * 1000.0).to_array().map(|c| libm::round(c) as i32)
 }
 

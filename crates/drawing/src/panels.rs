@@ -45,6 +45,21 @@ pub struct Panel {
 }
 
 /// Drawings side by side.
+///
+/// ```
+/// use drawing::{Page, Panel, Panels};
+/// use glam::DVec2;
+///
+/// let panel = |id: &str| Panel {
+///     id: id.to_owned(),
+///     title: id.to_owned(),
+///     notes: Vec::new(),
+///     page: Page::new(DVec2::new(40.0, 30.0), id, None),
+/// };
+/// let panels = Panels::new("four views", ["a", "b", "c", "d"].map(panel).to_vec());
+/// assert_eq!(panels.columns, 2);
+/// assert!(panels.to_page().size.x > 80.0 && panels.to_html().contains("<figure id=\"d\">"));
+/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Panels {
     /// The title of the page.
@@ -107,6 +122,9 @@ impl Panels {
     }
 
     /// All panels on one white page.
+    ///
+    /// Rows and columns are as large as their largest panel; the captions are strokes, so the page
+    /// can be written in every format.
     #[must_use]
     pub fn to_page(&self) -> Page {
         let sizes: Vec<DVec2> = self.panels.iter().map(Panel::outer_size).collect();

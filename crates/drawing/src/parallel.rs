@@ -19,7 +19,9 @@ const CHUNK_SIZE: usize = 512;
 /// Does the work of `count` items with up to `threads` threads, and concatenates what it pushes in
 /// the order of the items.
 ///
-/// Each thread has scratch memory `M` of its own. A panic in `work` is raised again in the caller.
+/// Each thread has scratch memory `M` of its own, made when it starts. The calling thread works
+/// too, so one thread spawns none, and 0 counts as 1. A panic in `work` is raised again in the
+/// caller.
 pub(super) fn map_in_order<M: Default, T: Send>(
     count: usize,
     threads: usize,

@@ -1,8 +1,19 @@
-//! PDF output: pages as a Portable Document Format 1.7 file, in millimeters.
+//! PDF output: pages as a Portable Document Format 1.7 file (ISO 32000-1), in millimeters.
+//!
+//! ```text
+//!   1 catalog ─► 2 page tree ─► 4 page ─► 5 content stream      (two objects for each page)
+//!       │                         │
+//!       │ OCProperties            └─ resources ─► layers, images
+//!       ▼
+//!   optional content groups, one for each layer;  3 document information
+//! ```
 //!
 //! At its beginning each page scales its unit from points to millimeters and flips y; from there on
-//! its ids are those of the SVG. Layers are optional content groups, which a viewer can switch
-//! on and off. The file holds no dates and no random identifiers: equal pages give equal bytes.
+//! its numbers are those of the SVG. Layers are optional content groups, which a viewer can switch
+//! on and off. Streams are compressed by DEFLATE.
+//!
+//! The file holds no dates and no random identifiers: equal pages give equal bytes, on every
+//! machine.
 
 use super::fixed_decimal::write_thousandths;
 use super::page::{Cap, Ink, Join, Layer, Page, PagePoint, Pen, PlacedImage, Polyline};
@@ -55,6 +66,15 @@ impl ObjectIds {
 }
 
 /// The pages as a PDF file; its title is that of the first page.
+///
+/// ```
+/// use drawing::{Page, to_pdf};
+/// use glam::DVec2;
+///
+/// let a4 = Page::new(DVec2::new(210.0, 297.0), "empty", Some([255; 3]));
+/// let file = to_pdf(&[a4]);
+/// assert!(file.starts_with(b"%PDF-1.7"));
+/// ```
 #[must_use]
 pub fn to_pdf(pages: &[Page]) -> Vec<u8> {
     let mut pdf = Pdf::new();
@@ -90,7 +110,8 @@ pub fn to_pdf(pages: &[Page]) -> Vec<u8> {
     pdf.finish()
 }
 
-/// Writes the list of layers into the catalog, in drawing order.
+/// Writes the list of layers into the catalog, in drawing order: `OCProperties` with its required
+/// default configuration `D`.
 fn write_optional_content(catalog: &mut Dict<'_>, layers: impl Iterator<Item = Ref> + Clone) {
     let mut properties = catalog.insert(Name(b"OCProperties")).dict();
     properties.insert(Name(b"OCGs")).array().items(layers.clone());
@@ -99,6 +120,9 @@ fn write_optional_content(catalog: &mut Dict<'_>, layers: impl Iterator<Item = R
 }
 
 /// Writes an image as two XObjects: RGB, and alpha as its soft mask.
+///
+/// PDF has no interleaved alpha, so the channels are compressed apart, which also makes them
+/// smaller.
 fn write_image(pdf: &mut Pdf, [color, mask]: [Ref; 2], picture: &Picture) {
     let (width, height) = (picture.width as i32, picture.height as i32);
     let packed = |bytes: Vec<u8>| miniz_oxide::deflate::compress_to_vec_zlib(&bytes, DEFLATE_LEVEL);
@@ -115,8 +139,10 @@ fn write_image(pdf: &mut Pdf, [color, mask]: [Ref; 2], picture: &Picture) {
     image.filter(Filter::FlateDecode);
 }
 
-/// Writes the page object, its resources and its content stream; `layers` and `pictures` count
-/// those of the pages before.
+/// Writes the page object, its resources and its content stream.
+///
+/// Resource names are local to the page: `L0`, `L1` … for layers and `P0`, `P1` … for images.
+/// `layers` and `pictures` count those of the pages before, for the ids of the objects.
 fn write_page(
     pdf: &mut Pdf,
     ids: &ObjectIds,
@@ -150,6 +176,13 @@ fn write_page(
 }
 
 /// The content stream of a page, uncompressed.
+///
+/// ```text
+///   2.83… 0 0 −2.83… 0 height cm      points to millimeters, y down
+///   1 1 1 rg  0 0 210 297 re f        the paper
+///   q  w 0 0 −h x y+h cm  /P0 Do  Q   an image
+///   /OC /L0 BDC  …  EMC               a layer
+/// ```
 fn page_content(page: &Page) -> Vec<u8> {
     let mut out = ContentStream(Vec::new());
     let height = page.size.y * POINTS_PER_MILLIMETER;
@@ -164,7 +197,7 @@ fn page_content(page: &Page) -> Vec<u8> {
         out.push_text("re f\n");
     }
     for (at, PlacedImage { corner, size, .. }) in page.images.iter().enumerate() {
-        // The unit square of pictures has y up.
+        // PDF maps images to the unit square with y up.
         out.push_text("q ");
         out.push_point([size[0], 0]);
         out.push_point([0, -size[1]]);
@@ -179,7 +212,7 @@ fn page_content(page: &Page) -> Vec<u8> {
     out.0
 }
 
-/// A content stream under construction.
+/// A content stream under construction: operands in postfix order, one operator to a line.
 struct ContentStream(Vec<u8>);
 
 impl ContentStream {
@@ -205,7 +238,8 @@ impl ContentStream {
         self.push_number(y.into());
     }
 
-    /// Sets a color: `RG` for strokes, `rg` for fills.
+    /// Sets a color: `RG` for strokes, `rg` for fills. Channels are rounded to thousandths of 0 to
+    /// 1.
     fn set_color(&mut self, ink: Ink, command: &str) {
         for channel in ink {
             self.push_number((i64::from(channel) * 1000 + 127) / 255);
@@ -215,6 +249,9 @@ impl ContentStream {
     }
 
     /// Draws the strokes and fills of a layer.
+    ///
+    /// All continuous strokes of a group are one path and one `S`; dashed ones are stroked each
+    /// with its own pattern. Fills use the even-odd rule (`f*`).
     fn draw_layer(&mut self, layer: &Layer) {
         self.set_pen(&layer.pen);
         for group in &layer.groups {

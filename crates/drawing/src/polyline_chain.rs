@@ -32,6 +32,8 @@ const COLLINEAR_TOLERANCE: f64 = 1.0;
 const MAX_DROPPED_RUN: usize = 64;
 
 /// Joins segments into chains: by layer, by object, and in the order of their first segments.
+///
+/// Time is O(n log n) for the sort of ends, plus the run limit of [`remove_collinear`].
 pub(super) fn join_into_chains(segments: &[PageSegment]) -> Vec<PolylineChain> {
     let mut order: Vec<&PageSegment> = segments.iter().collect();
     order.sort_by_key(|segment| (segment.layer, segment.object));
@@ -60,27 +62,27 @@ impl SegmentGraph {
     /// Snaps segments to the grid, and drops those without length and duplicates.
     fn new(segments: &[&PageSegment]) -> Self {
         let on_grid = |segment: &&PageSegment| segment.ends.map(to_micrometers);
-        let sides: Vec<_> = segments.iter().map(on_grid).filter(|[a, b]| a != b).collect();
-        let segments = drop_duplicate_segments(&sides);
+        let on_page: Vec<_> = segments.iter().map(on_grid).filter(|[a, b]| a != b).collect();
+        let segments = drop_duplicate_segments(&on_page);
         let mut ends: Vec<_> = (0_u32..)
             .zip(&segments)
-            .flat_map(|(side, [a, b])| [(*a, side, 0), (*b, side, 1)])
+            .flat_map(|(index, [a, b])| [(*a, index, 0), (*b, index, 1)])
             .collect();
         ends.sort_unstable();
         let is_used = vec![false; segments.len()];
-        Self { segments: segments, ends, is_used }
+        Self { segments, ends, is_used }
     }
 
     /// Covers the graph with polylines: each unused segment is extended forward, then backward
     /// unless it closed.
     fn into_polylines(mut self) -> Vec<Polyline> {
         let mut lines = Vec::new();
-        for side in 0..self.segments.len() {
-            if self.is_used[side] {
+        for index in 0..self.segments.len() {
+            if self.is_used[index] {
                 continue;
             }
-            self.is_used[side] = true;
-            let mut points = self.segments[side].to_vec();
+            self.is_used[index] = true;
+            let mut points = self.segments[index].to_vec();
             self.extend_chain(&mut points);
             let closed = points.len() > 3 && points.first() == points.last();
             if closed {
@@ -96,11 +98,13 @@ impl SegmentGraph {
     }
 
     /// Extends a chain from its last point until no segment continues it or it closes.
+    ///
+    /// `points` has at least two points, whose segment is used already.
     fn extend_chain(&mut self, points: &mut Vec<PagePoint>) {
-        while let Some((side, next)) =
+        while let Some((index, next)) =
             self.next_segment(points[points.len() - 2], points[points.len() - 1])
         {
-            self.is_used[side] = true;
+            self.is_used[index] = true;
             points.push(next);
             if next == points[0] {
                 return;
@@ -111,33 +115,39 @@ impl SegmentGraph {
     /// The unused segment that continues a chain from `before` through `here` best, and its far
     /// end.
     ///
-    /// Where only two segments meet the other one is taken whatever the angle; at junctions only
-    /// one that turns by less than 60°.
+    /// ```text
+    ///             ╱ best: the smallest turn
+    ///   before ──● here
+    ///             ╲ also incident: at a junction a candidate only below 60°
+    /// ```
+    ///
+    /// Where only two segments meet, the other one is taken whatever the angle.
     fn next_segment(&self, before: PagePoint, here: PagePoint) -> Option<(usize, PagePoint)> {
         let first = self.ends.partition_point(|(point, ..)| *point < here);
         let incident = self.ends[first..].iter().take_while(|(point, ..)| *point == here);
         let is_crossing = incident.clone().nth(2).is_some();
         let mut best: Option<(f64, usize, PagePoint)> = None;
-        for &(_, side, end) in incident {
-            let (side, next) = (side as usize, self.segments[side as usize][usize::from(1 - end)]);
+        for &(_, index, end) in incident {
+            let (index, next) =
+                (index as usize, self.segments[index as usize][usize::from(1 - end)]);
             let cosine = turn_cosine(before, here, next);
-            let is_way = !self.is_used[side] && (!is_crossing || cosine >= MIN_TURN_COSINE);
-            if is_way && best.is_none_or(|(other, ..)| cosine > other) {
-                best = Some((cosine, side, next));
+            let continues = !self.is_used[index] && (!is_crossing || cosine >= MIN_TURN_COSINE);
+            if continues && best.is_none_or(|(other, ..)| cosine > other) {
+                best = Some((cosine, index, next));
             }
         }
-        best.map(|(_, side, next)| (side, next))
+        best.map(|(_, index, next)| (index, next))
     }
 }
 
 /// The segments without later duplicates, in either direction, in their order.
-fn drop_duplicate_segments(sides: &[[PagePoint; 2]]) -> Vec<[PagePoint; 2]> {
-    let sorted = |side: &[PagePoint; 2]| [side[0].min(side[1]), side[0].max(side[1])];
-    let mut order: Vec<u32> = (0..sides.len() as u32).collect();
-    order.sort_by_key(|&at| (sorted(&sides[at as usize]), at));
-    order.dedup_by_key(|at| sorted(&sides[*at as usize]));
+fn drop_duplicate_segments(segments: &[[PagePoint; 2]]) -> Vec<[PagePoint; 2]> {
+    let sorted = |[a, b]: [PagePoint; 2]| [a.min(b), a.max(b)];
+    let mut order: Vec<u32> = (0..segments.len() as u32).collect();
+    order.sort_by_key(|&at| (sorted(segments[at as usize]), at));
+    order.dedup_by_key(|at| sorted(segments[*at as usize]));
     order.sort_unstable();
-    order.into_iter().map(|at| sides[at as usize]).collect()
+    order.into_iter().map(|at| segments[at as usize]).collect()
 }
 
 /// The vector from one grid point to another, in micrometers.
@@ -154,8 +164,10 @@ fn turn_cosine(a: PagePoint, b: PagePoint, c: PagePoint) -> f64 {
 
 /// Removes points that lie on the segment between the points around them.
 ///
-/// Each removed point must lie within [`COLLINEAR_TOLERANCE`] of the *final* segment, so the error
-/// does not accumulate along a curve of many small steps.
+/// A greedy pass: as long as all points dropped since the last retained one lie within
+/// [`COLLINEAR_TOLERANCE`] of the segment to the next point, the run grows. Since every dropped
+/// point is tested against the *final* segment, the error does not accumulate along a curve of many
+/// small steps, as it would if each were compared only with its neighbors.
 fn remove_collinear(points: Vec<PagePoint>, closed: bool) -> Vec<PagePoint> {
     let mut retained = vec![points[0]];
     let mut dropped: Vec<PagePoint> = Vec::new();
@@ -180,6 +192,9 @@ fn remove_collinear(points: Vec<PagePoint>, closed: bool) -> Vec<PagePoint> {
 }
 
 /// Whether a point lies on the segment from `from` to `to`, up to the tolerance.
+///
+/// With d = to − from and p = point − from it tests 0 ≤ d·p ≤ |d|² and |d × p| ≤ tolerance · |d|,
+/// squared to avoid the root.
 fn lies_on_segment(from: PagePoint, point: PagePoint, to: PagePoint) -> bool {
     let ([dx, dy], [px, py]) = (grid_offset(from, to), grid_offset(from, point));
     let square = dx * dx + dy * dy;

@@ -47,6 +47,20 @@ use view_layout::{PlacedView, ViewLayout};
 use viewport::{DrawingScale, Paper, Rectangle};
 
 /// A drawing sheet: the views on it and their appearance.
+///
+/// ```
+/// use drawing::{Sheet, TitleBlockText};
+/// use viewport::Paper;
+///
+/// let sheet = Sheet {
+///     title_block: TitleBlockText { author: "L. B. Alberti".to_owned(), ..Default::default() },
+///     ..Sheet::for_paper(Paper::A4, "A4")
+/// };
+/// assert!(sheet.dimensions && sheet.scale.is_none());
+/// // Without models there is nothing to draw.
+/// let error = sheet.draw(&[], &[], 1).expect_err("no models");
+/// assert!(error.to_string().contains("nothing to draw"));
+/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Sheet {
     /// The paper in its orientation.
@@ -102,10 +116,9 @@ pub enum SheetError {
         /// The reason.
         reason: String,
     },
-    /// The views are too large for the paper.
     #[error(
-        "the views do not fit on {paper} at {scale}: they need {:.0} x {:.0} mm and there are {:.0} x {:.0} mm{remedy}",
-        need[0], need[1], room[0], room[1]
+        "the views do not fit on {paper} at {scale}: they need {:.0} x {:.0} mm, and {:.0} x {:.0} mm are available{remedy}",
+        need[0], need[1], available[0], available[1]
     )]
     /// The views are too large for the paper.
     TooLarge {
@@ -116,7 +129,7 @@ pub enum SheetError {
         /// Width and height of the views at this scale, in millimeters.
         need: [f64; 2],
         /// Width and height that are available to them, in millimeters.
-        room: [f64; 2],
+        available: [f64; 2],
         /// A change that would make them fit.
         remedy: String,
     },

@@ -42,6 +42,9 @@ pub(super) struct Glyph {
 }
 
 /// A line of text as strokes: x from its beginning, y up from the baseline.
+///
+/// There is no kerning; each character of the text is one glyph, and combining characters become
+/// boxes.
 pub(super) fn typeset_line(text: &str) -> Glyph {
     let mut line = Glyph { width: 0.0, strokes: Vec::new() };
     let mut x = 0.0;
@@ -98,6 +101,9 @@ fn parse_point(word: &str) -> DVec2 {
 }
 
 /// A quarter of an ellipse about `center`, without its first point.
+///
+/// From `from` to `to` it is center + (from − center) cos φ + (to − center) sin φ for φ from 0 to
+/// 90°.
 fn quarter_ellipse(from: DVec2, to: DVec2, center: DVec2) -> impl Iterator<Item = DVec2> {
     (1..=CURVE_STEPS).map(move |step| {
         let angle = core::f64::consts::FRAC_PI_2 * f64::from(step) / f64::from(CURVE_STEPS);

@@ -1,8 +1,23 @@
 //! SVG output: a page as Scalable Vector Graphics 1.1, in millimeters.
 //!
-//! A layer is a `<g>` with its pen as attributes, an object a `<g>` in it with one path; both have
-//! ids and titles. Path data use relative commands (`m`, `l`, `h`, `v`) with steps of whole
-//! micrometers: they are short, and their sums are exact.
+//! ```text
+//!  <svg width="210mm" viewBox="0 0 210 297">      user units are millimeters
+//!    <title>…</title>
+//!    <rect fill="#fff"/>                          the paper, if it has a color
+//!    <image href="data:image/png;base64,…"/>      flat fills
+//!    <g id="visible-crease" stroke="#1a1f26" …>   one group for each layer, with its pen
+//!      <g id="visible-crease.1">                  one group for each object
+//!        <title>cube</title>
+//!        <path d="M10 5h20v20h-20z"/>             one path for all continuous strokes
+//!      </g>
+//!    </g>
+//!  </svg>
+//! ```
+//!
+//! Path data use relative commands (`m`, `l`, `h`, `v`) with steps of whole micrometers. They are
+//! shorter than absolute coordinates, and since each step is an exact decimal their sums have no
+//! error: a closed outline of a thousand points ends where it began. Text is drawn as strokes, so
+//! the file needs no font; names from files are escaped by [`escape_markup`].
 
 use super::fixed_decimal::{format_millimeters, format_thousandths, write_thousandths};
 use super::markup::escape_markup;
@@ -13,6 +28,18 @@ use std::fmt::Write;
 
 impl Page {
     /// The page as the text of an SVG file.
+    ///
+    /// ```
+    /// use drawing::{Group, Layer, Page, Pen, Polyline};
+    /// use glam::DVec2;
+    ///
+    /// let mut page = Page::new(DVec2::new(40.0, 30.0), "a line", None);
+    /// let mut layer = Layer::new("lines", "lines", Pen::solid(0.5, [0, 0, 0]));
+    /// let line = Polyline::through_points(&[DVec2::new(5.0, 5.0), DVec2::new(35.0, 5.0)], false);
+    /// layer.groups.push(Group { strokes: line.into_iter().collect(), ..Group::default() });
+    /// page.layers.push(layer);
+    /// assert!(page.to_svg().contains(r#"<path d="M5 5h30"/>"#));
+    /// ```
     #[must_use]
     pub fn to_svg(&self) -> String {
         let [width, height] = self.size.to_array().map(format_millimeters);
@@ -39,6 +66,9 @@ impl Page {
 }
 
 /// Writes an image element with its pixels as an embedded PNG.
+///
+/// `preserveAspectRatio="none"` stretches the image to its rectangle, which is rounded to
+/// micrometers.
 fn write_image(svg: &mut String, pasted: &PlacedImage) {
     let [x, y, width, height] =
         [pasted.corner[0], pasted.corner[1], pasted.size[0], pasted.size[1]]
@@ -54,6 +84,9 @@ fn write_image(svg: &mut String, pasted: &PlacedImage) {
 }
 
 /// Writes a layer as a group, with a group in it for each object.
+///
+/// Ids are unique because that of an object is prefixed by that of its layer; titles become
+/// tooltips in browsers.
 fn write_layer(svg: &mut String, layer: &Layer) {
     let id = escape_markup(&layer.id);
     let _ = write!(
@@ -80,7 +113,8 @@ fn write_layer(svg: &mut String, layer: &Layer) {
 /// Writes the strokes and fills of a group: one path for all continuous strokes, one for each
 /// dashed stroke.
 ///
-/// A dashed stroke has a dash pattern of its own, which fits its length.
+/// A dashed stroke has a dash pattern of its own, which fits its length. Fills come last, over the
+/// strokes.
 fn write_paths(svg: &mut String, group: &Group, pen: &Pen) {
     let (dashed, whole): (Vec<_>, Vec<_>) = group
         .strokes
@@ -105,7 +139,8 @@ fn write_paths(svg: &mut String, group: &Group, pen: &Pen) {
     }
 }
 
-/// The presentation attributes of a pen; defaults of SVG are left out.
+/// The presentation attributes of a pen; defaults of SVG (butt caps, miter joins with limit 4) are
+/// left out.
 fn pen_attributes(pen: &Pen) -> String {
     let mut words = format!(
         "fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"",
@@ -142,7 +177,7 @@ fn path_data<'a>(lines: impl IntoIterator<Item = &'a Polyline>) -> String {
     String::from_utf8_lossy(&path.out).into_owned()
 }
 
-/// Path data under construction.
+/// Path data under construction, as ASCII bytes.
 struct PathWriter {
     out: Vec<u8>,
     /// The current point in micrometers.
@@ -153,6 +188,9 @@ struct PathWriter {
 
 impl PathWriter {
     /// Appends a subpath.
+    ///
+    /// The first subpath starts with an absolute `M`; later ones with `m`, relative to the current
+    /// point, which after `z` is the start of the closed subpath.
     fn push_polyline(&mut self, line: &Polyline) {
         let [start, rest @ ..] = line.points.as_slice() else { return };
         self.out.push(if self.has_started { b'm' } else { b'M' });
@@ -168,8 +206,13 @@ impl PathWriter {
         }
     }
 
-    /// Appends a straight line with the shortest command, and returns it; a repeated command letter
-    /// is omitted.
+    /// Appends a straight line with the shortest command, and returns that command.
+    ///
+    /// ```text
+    ///   dy = 0   h dx        a command letter equal to the last one is omitted, and so is
+    ///   dx = 0   v dy        the space before a minus sign:  l.5 .5-.5 .5
+    ///   else     l dx dy
+    /// ```
     fn push_line_to(&mut self, to: PagePoint, last: u8) -> u8 {
         let (dx, dy) = (self.relative_step(0, to), self.relative_step(1, to));
         let command = match (dx, dy) {

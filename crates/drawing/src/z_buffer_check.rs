@@ -53,6 +53,11 @@ impl Agreement {
 
 /// Compares a drawing with the z-buffer image of its scene, at points half a pixel apart.
 ///
+/// Each point is unprojected with its depth and compared with the planes of the faces that the
+/// image shows within half a pixel. A visible point is denied if all of them are in front of it; a
+/// hidden one is contradicted if none is. Disagreement below about 0.2 % of the length is normal:
+/// the image resolves a quarter of a pixel.
+///
 /// # Errors
 /// If the image has no pixels or is larger than a z-buffer may be.
 pub fn verify_with_z_buffer(

@@ -5,8 +5,8 @@ use crate::{Affine, Point, Space, Vector};
 /// A closed box along the axes of space `S`, never empty: `min ≤ max` in every coordinate, all of
 /// them finite.
 ///
-/// One point has bounds of size zero; no points have none, which is why [`Bounds::from_points`] returns an
-/// `Option`.
+/// One point has bounds of size zero; no points have none, which is why [`Bounds::from_points`]
+/// returns an `Option`.
 ///
 /// ```
 /// use homog::{Bounds, Point, World};

@@ -1,4 +1,5 @@
-//! Pixel conventions: where pixels have their centers, and whether y runs up or down (VP-1 to VP-4).
+//! Pixel conventions: where pixels have their centers, and whether y runs up or down (VP-1 to
+//! VP-4).
 //!
 //! ```text
 //!   CHAPTER: centers at integers, y up        IMAGE: pixel (i, j) covers [i, i+1) × [j, j+1), y down

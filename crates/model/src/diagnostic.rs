@@ -1,12 +1,12 @@
 //! Diagnostics: one record for everything that the importer or the checker reports about a file.
 //!
 //! ```text
-//!  error[ACCESSOR_INDEX_OOB] /meshes/0/primitives/0/indices: 3 of 36 indices have no vertex; export the file again
-//!  severity code             location                        message                          help
+//!  severity code          location                          message                  help
+//!  error[ACCESSOR_INDEX_OOB] /meshes/0/primitives/0/indices: 3 indices have no vertex; export it again
 //! ```
 //!
 //! The importer's warnings ([`Model::warnings`](crate::Model::warnings)), the reason that a file
-//! could not be loaded ([`ImportError`](crate::ImportError)) and the list of a check are all made of
+//! could not be loaded ([`ImportError`](crate::ImportError)) and the list of a check are made of
 //! these. Severities and, where it has one, codes are those of the Khronos glTF validator.
 
 use std::fmt;
@@ -41,8 +41,8 @@ pub mod codes {
 pub struct Diagnostic {
     /// How bad it is.
     pub severity: Severity,
-    /// The identifier of the rule, for programs: a constant of [`codes`](crate::codes), or the name
-    /// that the Khronos validator gives the issue.
+    /// Identifier of the rule, for programs: a constant of [`codes`], or the name that the Khronos
+    /// validator gives the issue.
     pub code: &'static str,
     /// A JSON pointer (RFC 6901) such as `/meshes/3/primitives/0/attributes/NORMAL`; empty if the
     /// file as a whole is meant.
@@ -120,7 +120,8 @@ impl Diagnostic {
 }
 
 impl fmt::Display for Diagnostic {
-    /// `error[ACCESSOR_INDEX_OOB] /meshes/0/primitives/0/indices: 3 of 36 indices …; export the file again`
+    /// `error[ACCESSOR_INDEX_OOB] /meshes/0/primitives/0/indices: 3 indices have no vertex; export
+    /// it again`
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}[{}] {}", self.severity.name(), self.code, self.sentence())
     }

@@ -1,16 +1,14 @@
-//! From a glTF file to a [`Model`]: nothing in the file is trusted.
+//! Import: reads a file into a [`Model`] without trusting anything in it.
 //!
-//! ```text
-//!  bytes ──container──► JSON ──json──► Root ──scene, material, primitive, …──► Model
-//!                       binary chunk ─┐          │
-//!  other files ──resolver──► buffers ─┴─► accessor, elements, image
-//! ```
+//! Files come from strangers. Every index, length and size is checked before it is used, URIs refer
+//! to files below one folder only, and everything a file can declare has a [limit](Limits). A
+//! [`Diagnostic`](crate::Diagnostic) says where the file is wrong, what is wrong and what to do.
 //!
-//! The `gltf` crate lends its JSON types and nothing else: its own importer panics on malformed files and reads any
-//! file a URI names. Here every index, length and size is checked before it is used, URIs name files below one folder
-//! only, everything a file can declare has a [limit](Limits), and a fault says where it is, what is wrong and what to
-//! do. What makes the shape unreadable refuses the file; what only spoils the look is a [`Warning`](crate::Warning).
-//! A lenient reader has warnings of both, as long as something is left to load. [`check`] tells all that is wrong.
+//! What makes the shape unreadable is an error; what only spoils the look is a
+//! [warning](Model::warnings). With [`ImportOptions::lenient`] most errors become warnings as long
+//! as something is left to load. [`check_file`] lists everything that is wrong.
+//!
+//! The modules here serve every format; `gltf` reads glTF 2.0.
 
 mod error;
 pub(crate) mod gltf;
@@ -36,41 +34,43 @@ use gltf::import_gltf;
 use std::path::{Path, PathBuf};
 use uri_resolver::UriResolver;
 
-/// How a file is loaded.
+/// Options for loading a file.
 #[derive(Clone, Debug, Default)]
 pub struct ImportOptions {
     /// The largest sizes that are accepted.
     pub limits: Limits,
-    /// The folder that all files the glTF file refers to must be below. Default: the folder of the glTF file.
+    /// The folder below which all referenced files must be. Default: the folder of the file itself.
     pub root: Option<PathBuf>,
-    /// Other folders that files may be below: `..` and symbolic links may lead there. Default: none.
+    /// Further folders that may hold referenced files: `..` and symbolic links may lead there.
+    /// Default: none.
     pub allow_outside: Vec<PathBuf>,
-    /// Whether what is broken, missing or unknown is left out with a warning wherever something else is left to load, in place
-    /// of an error. Limits hold all the same. Default: no.
+    /// Whether broken, missing or unknown data is left out with a warning instead of an error, as
+    /// long as something else is left to load. Limits hold all the same. Default: no.
     pub lenient: bool,
-    /// The scene of the file that is shown. Default: its default scene, else its first.
+    /// The active scene. Default: the file's default scene, else its first.
     pub scene: Option<NameOrIndex>,
-    /// The variant of the file that is shown (KHR_materials_variants). Default: none.
+    /// The active material variant (KHR_materials_variants). Default: none.
     pub variant: Option<NameOrIndex>,
-    /// What is done with images.
+    /// Whether images are decoded. Default: those that are visible.
     pub images: ImageLoading,
-    /// What the stages of loading are measured with. Default: not at all.
+    /// Stopwatch for the stages of loading. Default: none.
     pub timings: Timings,
 }
 
-/// What is done with the images of a file.
+/// Treatment of a file's images.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum ImageLoading {
-    /// Those that visible surfaces show are decoded; no other is read.
+    /// Images that visible surfaces use are decoded; no other is read.
     #[default]
     Decode,
-    /// None is decoded, but the headers of all are read.
+    /// No image is decoded, but the headers of all are read.
     Headers,
 }
 
-/// Loads a `.gltf` or `.glb` file; which of the two it is, its content says.
+/// Loads a `.gltf` or `.glb` file; its content decides which of the two it is.
 ///
-/// Soft faults do not stop it: they are in [`Model::warnings`]. A file with nothing to draw loads as well.
+/// Faults that leave something to draw do not stop it: they are in [`Model::warnings`]. A file
+/// without anything to draw loads as well.
 ///
 /// ```no_run
 /// use model::{ImportOptions, load};
@@ -83,21 +83,22 @@ pub enum ImageLoading {
 /// ```
 ///
 /// # Errors
-/// The file, or one it refers to, cannot be read or may not be; is not glTF 2.0 or breaks its rules; requires an
-/// unknown extension; exceeds a limit; has no such scene or variant as the options ask for.
+/// The file, or one it refers to, cannot be read or is forbidden; is not glTF 2.0 or breaks its
+/// rules; requires an unsupported extension; exceeds a limit; has no such scene or variant as the
+/// options ask for.
 pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> {
     let read = || uri_resolver::read_file(path, &options.limits, "");
     let loaded = options.timings.measure("read", read).and_then(|bytes| {
         let resolver = UriResolver::new(path, bytes.len(), options)?;
         import_gltf(path, &bytes, &resolver, options)
     });
-    loaded.map_err(|fault| ImportError { file: path.to_owned(), diagnostic: fault })
+    loaded.map_err(|diagnostic| ImportError { file: path.to_owned(), diagnostic })
 }
 
-/// Loads a model whose file is in memory, as [`load`] does; `name` stands for its path in messages.
+/// Loads a model from a file in memory, as [`load`] does; `name` stands for its path in messages.
 ///
-/// Without a [root](ImportOptions::root) the file must be complete in itself: no other file is read, whatever it says. With
-/// one, the files it names begin at that folder.
+/// Without a [root](ImportOptions::root) the file must be self-contained: no other file is read.
+/// With one, relative URIs are resolved against that folder.
 ///
 /// # Errors
 /// As for [`load`].
@@ -105,5 +106,5 @@ pub fn load_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<M
     let path = Path::new(name);
     let loaded = UriResolver::in_memory(bytes.len(), options)
         .and_then(|resolver| import_gltf(path, bytes, &resolver, options));
-    loaded.map_err(|fault| ImportError { file: path.to_owned(), diagnostic: fault })
+    loaded.map_err(|diagnostic| ImportError { file: path.to_owned(), diagnostic })
 }

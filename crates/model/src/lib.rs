@@ -1,7 +1,8 @@
-//! A model as the pipeline wants it: plain arrays, every index checked, every default decided.
+//! Models: glTF files read into plain arrays, with every index checked and every default decided.
 //!
-//! The importer makes it and promises what the fields say; nobody after the importer looks at a glTF file again.
-//! Positions stay in the mesh's own coordinates; the node tree places them.
+//! [`load`] reads a file into a [`Model`]; [`import::check_file`] validates one as the Khronos glTF
+//! validator does. A model is posed by [`Model::apply_animation`], and its vertices are deformed by
+//! [`Model::skin_primitive`].
 
 mod animation;
 mod camera;

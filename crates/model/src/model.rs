@@ -1,54 +1,64 @@
-//! The model: everything that was read from one file.
+//! The model: everything that was read from one file, as plain arrays with every index checked and
+//! every default decided.
+//!
+//! Positions stay in the coordinates of their mesh; the [scene graph](Node) says where each mesh
+//! is. Nothing after the importer looks at the file again.
 
 use crate::{
     Animation, Diagnostic, Image, ImageInfo, Material, Mesh, ModelCamera, Node, PunctualLight,
     SceneRoots, Skin, Texture, UvTransform,
 };
 
-/// Everything that was read from one glTF file.
+/// One file's meshes, materials, textures, scene graph and animations.
+///
+/// Vectors are indexed as in the file: material 3 of a glTF file is `materials[3]`. Indices that
+/// other fields hold are in range, so that no later stage needs to check them.
 #[derive(Clone, Debug, Default)]
 pub struct Model {
-    /// The file's name without folder and ending, for messages.
+    /// The file's name without folder and extension, for messages.
     pub name: String,
-    /// The meshes, as numbered in the file.
+    /// Meshes, indexed as in the file.
     pub meshes: Vec<Mesh>,
-    /// The materials, as numbered in the file.
+    /// Materials, indexed as in the file.
     pub materials: Vec<Material>,
-    /// The textures, as numbered in the file.
+    /// Textures, indexed as in the file.
     pub textures: Vec<Texture>,
-    /// The images, as numbered in the file; `None` for those that no visible primitive uses (they are not
-    /// decoded) and for broken ones (a warning says so).
-    pub images: Vec<Option<Image>>,
-    /// The nodes, as numbered in the file. They form a forest: the importer has refused cycles.
+    /// Decoded images, indexed as in the file; `None` for those that no visible primitive uses
+    /// (they are not decoded) and for broken ones (a warning says so).
+    ///
+    /// Shared: a clone of a model that is posed differently has the same images.
+    pub images: std::sync::Arc<[Option<Image>]>,
+    /// Nodes of the scene graph, indexed as in the file. They form a forest: the importer refuses
+    /// cycles.
     pub nodes: Vec<Node>,
-    /// The root nodes of the scene that is shown.
+    /// Root nodes of the active scene, in the order of the file.
     pub roots: Vec<usize>,
-    /// The scenes, as numbered in the file.
+    /// All scenes of the file.
     pub scenes: Vec<SceneRoots>,
-    /// The scene that is shown: the one that was asked for, else the file's default scene, else its first. `None` if the file
-    /// has no scenes; all roots are shown then.
+    /// The active scene: the requested one, else the file's default scene, else its first. `None`
+    /// if the file has no scenes; all root nodes are visible then.
     pub active_scene: Option<usize>,
-    /// The skins, as numbered in the file; one that cannot be used has no joints, and no node names it.
+    /// Skins, indexed as in the file; an invalid one has no joints, and no node refers to it.
     pub skins: Vec<Skin>,
-    /// The cameras, as numbered in the file; one whose numbers make no view has a usual lens instead, and no node
-    /// names it.
+    /// Cameras, indexed as in the file; one with invalid parameters has a default projection
+    /// instead, and no node refers to it.
     pub cameras: Vec<ModelCamera>,
-    /// The lights, as numbered in the file (KHR_lights_punctual).
+    /// Punctual lights, indexed as in the file (KHR_lights_punctual).
     pub lights: Vec<PunctualLight>,
-    /// The animations, as numbered in the file; channels that cannot be used are left out.
+    /// Animations, indexed as in the file, without the channels that are invalid.
     pub animations: Vec<Animation>,
-    /// The transforms of textures that animations change.
+    /// Texture transforms that animations change (KHR_texture_transform, KHR_animation_pointer).
     pub uv_transforms: Vec<UvTransform>,
-    /// The names of the variants (KHR_materials_variants).
+    /// Names of the material variants (KHR_materials_variants).
     pub variants: Vec<String>,
-    /// The variant that is shown; `None` for the materials that primitives have without.
+    /// The active material variant; `None` for the materials that primitives have without variants.
     pub active_variant: Option<usize>,
-    /// The extensions the file uses, sorted by name.
+    /// Names of the extensions the file uses, sorted.
     pub extensions_used: Vec<String>,
-    /// Those it requires, sorted by name.
+    /// Names of the extensions the file requires, sorted.
     pub extensions_required: Vec<String>,
-    /// What the file says of its images, as numbered in it.
+    /// Name, URI and header of every image of the file, decoded or not.
     pub image_infos: Vec<ImageInfo>,
-    /// Soft faults: what was wrong or left out, and where.
+    /// Warnings of the importer: everything that was left out, replaced or corrected, and where.
     pub warnings: Vec<Diagnostic>,
 }

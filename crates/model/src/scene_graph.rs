@@ -1,4 +1,8 @@
-//! The scene graph: nodes with transforms, the scenes that list their roots, and skins.
+//! The scene graph: a forest of nodes that carry meshes, skins, cameras and lights.
+//!
+//! Terms and structure are those of glTF 2.0 §3.5: a scene lists root nodes, a node has a local
+//! transform and children, and whatever it carries is drawn at the product of the transforms from
+//! the root down to it.
 
 mod contents;
 mod mesh_instance;
@@ -9,37 +13,40 @@ pub use trs::Trs;
 
 use homog::{Affine, Model as ModelSpace};
 
-/// A node of the tree: a place for a mesh or a camera, and for other nodes.
+/// A node of the scene graph: a transform relative to its parent, and what is attached to it.
 #[derive(Clone, Debug)]
 pub struct Node {
     /// The name in the file, if it has one.
     pub name: Option<String>,
-    /// The node's transform: from its own coordinates to its parent's (the model's, for a root).
+    /// Local transform: from the node's coordinates to its parent's (the model's, for a root).
     pub to_parent: Affine<ModelSpace, ModelSpace>,
-    /// The parts of that transform, which animations change; `None` if the file gives it as a matrix.
+    /// The local transform as translation, rotation and scale, which animations change; `None` if
+    /// the file gives it as a matrix.
     pub trs: Option<Trs>,
-    /// From the node's own coordinates to the model's: the product of the transforms from here up, all of them finite.
+    /// Global transform: from the node's coordinates to the model's, the product of the local
+    /// transforms from the root down to this node. All components are finite.
     pub to_model: Affine<ModelSpace, ModelSpace>,
-    /// The node above it; `None` for a root.
+    /// The parent node; `None` for a root.
     pub parent: Option<usize>,
-    /// The nodes below it.
+    /// The child nodes.
     pub children: Vec<usize>,
-    /// The mesh that is shown here.
+    /// The attached mesh.
     pub mesh: Option<usize>,
-    /// Where the mesh is shown, in the node's own coordinates, if not once and just here.
+    /// Transforms of the instances of the mesh relative to the node (EXT_mesh_gpu_instancing);
+    /// `None` if the mesh is drawn once, at the node itself.
     pub instance_transforms: Option<Vec<Affine<ModelSpace, ModelSpace>>>,
-    /// How much of each morph target of the mesh is shown here, if not as much as the mesh says.
+    /// Weights of the mesh's morph targets at this node; `None` for the weights of the mesh.
     pub morph_weights: Option<Vec<f32>>,
-    /// The skin that bends the mesh.
+    /// The skin that deforms the mesh.
     pub skin: Option<usize>,
-    /// The camera that looks from here along −z with y up.
+    /// The attached camera; it looks along the node's −z with y up.
     pub camera: Option<usize>,
-    /// The light that shines from here, or along −z.
+    /// The attached light; it shines along the node's −z, if it has a direction.
     pub light: Option<usize>,
 }
 
 impl Default for Node {
-    /// A root without content that stands where the model does.
+    /// A root node without content, whose local transform is the identity.
     fn default() -> Self {
         Self {
             name: None,
@@ -58,20 +65,22 @@ impl Default for Node {
     }
 }
 
-/// A scene of the file.
+/// A scene of the file: the list of its root nodes.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct SceneRoots {
     /// The name in the file, if it has one.
     pub name: Option<String>,
-    /// Its root nodes as the file lists them; an entry may name no node of the model unless the scene is shown.
+    /// Root nodes in the order of the file. Only those of the active scene are checked: other
+    /// entries may be out of range.
     pub nodes: Vec<usize>,
 }
 
-/// The joints that bend a mesh.
+/// A skin: the joints that deform a mesh, and the mesh's transform relative to each of them.
 #[derive(Clone, Debug)]
 pub struct Skin {
-    /// The nodes that are joints; a vertex's joint numbers point into this list.
+    /// The nodes that are joints; joint indices of vertices point into this list.
     pub joints: Vec<usize>,
-    /// For each joint, the map from the mesh's coordinates to the joint's in the pose the mesh was made in.
+    /// Inverse bind matrix of each joint: from the mesh's coordinates to the joint's, in the pose
+    /// in which the mesh was modelled (the bind pose).
     pub inverse_bind_matrices: Vec<Affine<ModelSpace, ModelSpace>>,
 }

@@ -1,13 +1,15 @@
-//! Images, and how textures read them.
+//! Textures: decoded images, and the samplers that say how they are wrapped and filtered.
+//!
+//! Names and meaning of the sampler's states are those of glTF 2.0 §3.8.4, which are OpenGL's.
 
-/// A decoded image: 8 bits for each of red, green, blue and alpha, rows from the top, alpha not multiplied in.
+/// A decoded image: 8 bits for each of red, green, blue and alpha, top row first, straight alpha.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Image {
     /// Width in texels, at least 1.
     pub width: u32,
     /// Height in texels, at least 1.
     pub height: u32,
-    /// `width` × `height` texels.
+    /// `width` × `height` texels, row by row.
     pub rgba: Vec<[u8; 4]>,
 }
 
@@ -17,84 +19,86 @@ impl std::fmt::Debug for Image {
     }
 }
 
-/// What a file says of an image.
+/// Metadata of an image of the file, whether it was decoded or not.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct ImageInfo {
     /// The name in the file, if it has one.
     pub name: Option<String>,
-    /// The URI, if it is in a file of its own; `data:` stands for one that is in the URI itself.
+    /// The URI if the image is a file of its own; `data:` stands for one that is embedded in the
+    /// URI.
     pub uri: Option<String>,
-    /// What its first bytes say; `None` if it was not read, or could not be.
+    /// Format and size from the first bytes of the image; `None` if they were not read or are
+    /// invalid.
     pub header: Option<ImageHeader>,
 }
 
-/// What the first bytes of an image say.
+/// Format and size of an encoded image, from its header.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct ImageHeader {
-    /// The name of the format: `png`, `jpeg`, `webp` or `ktx2`.
+    /// Name of the format: `png`, `jpeg`, `webp` or `ktx2`.
     pub format: &'static str,
     /// Width in texels.
     pub width: u32,
     /// Height in texels.
     pub height: u32,
-    /// How many bytes the encoded image has.
+    /// Length of the encoded image in bytes.
     pub bytes: usize,
 }
 
-/// An image with a way to read it.
+/// A texture: an image and the sampler that reads it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Texture {
-    /// The image; `None` if the file names none we can read.
+    /// Index of the image; `None` if the file refers to none that can be read.
     pub image: Option<usize>,
-    /// How it is read.
+    /// Wrapping and filtering.
     pub sampler: Sampler,
 }
 
-/// How a texture is read outside of [0, 1] and between texels.
+/// Sampler state: wrapping outside of [0, 1], and filtering between texels and mip levels.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Sampler {
-    /// What happens left and right of the image.
+    /// Wrapping to the left and right of the image.
     pub wrap_u: WrapMode,
-    /// What happens above and below the image.
+    /// Wrapping above and below the image.
     pub wrap_v: WrapMode,
-    /// Between texels, where the picture shows the texture enlarged.
+    /// Filter where the texture is magnified: a texel covers more than a pixel.
     pub mag_filter: TextureFilter,
-    /// Between texels of one level, where the picture shows the texture reduced.
+    /// Filter within one mip level where the texture is minified.
     pub min_filter: TextureFilter,
-    /// Between the levels of the mip chain, where the picture shows the texture reduced.
+    /// Filter between mip levels where the texture is minified.
     pub mipmap_mode: MipmapMode,
 }
 
-/// What a texture shows outside of [0, 1].
+/// Wrapping of texture coordinates outside of [0, 1].
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum WrapMode {
-    /// The image over and over.
+    /// The image repeats.
     #[default]
     Repeat,
-    /// The image over and over, every second one mirrored.
+    /// The image repeats, every second time mirrored.
     MirroredRepeat,
-    /// The texels of the border.
+    /// The texels of the border continue.
     ClampToEdge,
 }
 
-/// What a texture shows between the centres of texels.
+/// Filter between the centers of texels.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum TextureFilter {
     /// The nearest texel.
     Nearest,
-    /// The four texels around, weighted.
+    /// Bilinear: the four nearest texels, weighted by distance.
     #[default]
     Linear,
 }
 
-/// Which levels of the mip chain a reduced texture shows.
+/// Selection of mip levels for a minified texture.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum MipmapMode {
-    /// The full image only.
+    /// No mipmapping: the full image only.
     None,
-    /// The nearest level.
+    /// The nearest mip level.
     Nearest,
-    /// The two levels around, weighted.
+    /// The two nearest mip levels, weighted; with a bilinear filter this is trilinear filtering.
     #[default]
     Linear,
 }

@@ -4,7 +4,7 @@ use base64::Engine;
 use model::ModelInstance;
 use model::import::{ImportOptions, load_bytes};
 use pipeline::scene::parse_scene;
-use pipeline::{BandedRenderer, Origin, Picture, Scene, Timings, render};
+use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures, render};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -247,9 +247,11 @@ fn a_transparent_picture_laid_over_a_colour_is_the_opaque_one_over_it() {
     };
     // In 16 bits, for where sRGB is steep half a code of an alpha of 8 bits is more than one of colour.
     let clear = test_scene(&parts(), 1.0, &rest("Transparent"));
-    let timings = Timings::default();
-    let mut paint = BandedRenderer::new(&clear, 2, &timings).expect("a scene");
-    let clear: Picture<u16> = paint.render_region(clear.image.pixel_rect()).expect("a picture");
+    let textures = Textures::for_scene(&clear);
+    let context = RenderContext::new(&clear, &textures, 2);
+    let mut picture = Picture::<u16>::default();
+    Renderer::default().render(&context, &mut picture).expect("a picture");
+    let clear = picture;
     for (text, color) in [("#fff", [1.0; 3]), ("#000", [0.0; 3]), ("#ff0000", [1.0, 0.0, 0.0])] {
         let solid = render_parts(&parts(), &rest(&format!("Color(\"{text}\")")));
         for (clear, solid) in clear.pixels.iter().zip(&solid.pixels) {

@@ -65,7 +65,7 @@ fn floor_model() -> Model {
             unlit: true,
             ..Material::default()
         }],
-        images: vec![Some(Image { width: TEXELS, height: TEXELS, rgba })],
+        images: [Some(Image { width: TEXELS, height: TEXELS, rgba })].into(),
         textures: vec![Texture { image: Some(0), sampler }],
         ..Model::default()
     }

@@ -5,7 +5,7 @@ use homog::PixelRect;
 use model::ModelInstance;
 use model::{AlphaMode, Material, Mesh, Model, Node, Primitive};
 use pipeline::scene::parse_scene;
-use pipeline::{BandedRenderer, Origin, Picture, Scene, Timings, render};
+use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures, render};
 use std::sync::Arc;
 
 type Position = [f32; 3];
@@ -375,10 +375,12 @@ fn occlusion_has_no_stripes_beside_sharp_edges() {
         "camera: (view: LookAt(eye: (2.2, 2.6, 3.6), target: (0, 0.3, 0)), projection: Perspective(fov_y_degrees: 32)),
         lights: [Ambient(intensity: 3.14159)], ambient_occlusion: (radius: 1), image: (size: (1920, 1080), samples: 1)",
     );
-    let timings = Timings::default();
-    let mut paint = BandedRenderer::new(&scene, 2, &timings).expect("a scene");
+    let (textures, mut renderer) = (Textures::for_scene(&scene), Renderer::default());
+    let context = RenderContext::new(&scene, &textures, 2);
+    let mut prepared = renderer.prepare(&context).expect("a scene");
     let region = PixelRect { x: 545, y: 570, width: 110, height: 60 };
-    let picture: Picture<u16> = paint.render_region(region).expect("a region");
+    let mut picture = Picture::<u16>::default();
+    prepared.render_region(region, &mut picture).expect("a region");
     let code =
         |x: u32, y: u32| f64::from(picture.pixels[(y * region.width + x) as usize][0]) / 257.0;
     let (mut step, mut back) = (0.0_f64, 0.0_f64);

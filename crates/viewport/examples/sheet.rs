@@ -1,4 +1,5 @@
-//! A drawing sheet: three views of a house to scale on A4, and what their viewports look like in pixels.
+//! A drawing sheet: three views of a house to scale on A4, and what their viewports look like in
+//! pixels.
 //!
 //! Run it with `cargo run -p viewport --example sheet`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]

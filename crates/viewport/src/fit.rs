@@ -35,10 +35,12 @@ pub enum FitPolicy {
 }
 
 impl FitPolicy {
-    /// The rectangle to draw a picture of this size (only its shape counts) on, so that it fits `place`.
+    /// The rectangle to draw a picture of this size (only its shape counts) on, so that it fits
+    /// `place`.
     ///
-    /// `align` says where the spare room goes, as fractions of it on x and y: `[0.5, 0.5]` centres, `[0.0, 0.0]` puts
-    /// the picture at the corner of least coordinates. What [`FitPolicy::Cover`] cuts off is shared out in the same way.
+    /// `align` says where the spare room goes, as fractions of it on x and y: `[0.5, 0.5]` centres,
+    /// `[0.0, 0.0]` puts the picture at the corner of least coordinates. What [`FitPolicy::Cover`]
+    /// cuts off is shared out in the same way.
     ///
     /// ```
     /// use viewport::{FitPolicy, Rectangle};
@@ -72,10 +74,12 @@ impl FitPolicy {
         Rectangle::new(x, y, width, height)
     }
 
-    /// The other way to fit: not the place changes but the window, so that its picture fills `place` without
-    /// distortion. It is the size the camera's window should get instead of `window`.
+    /// The other way to fit: not the place changes but the window, so that its picture fills
+    /// `place` without distortion. It is the size the camera's window should get instead of
+    /// `window`.
     ///
-    /// [`FitPolicy::Contain`] shows more than asked for instead of margins, [`FitPolicy::Cover`] less instead of cutting off.
+    /// [`FitPolicy::Contain`] shows more than asked for instead of margins, [`FitPolicy::Cover`]
+    /// less instead of cutting off.
     ///
     /// ```
     /// use viewport::{FitPolicy, Rectangle};

@@ -15,9 +15,10 @@
 //!                                         y ▼  └───┴───┴───┴───┴───┴───┘
 //! ```
 //!
-//! What is often left unsaid is said here: whether y runs up or down and where pixels have their centres
-//! ([`PixelConvention`](homog::PixelConvention)), and where depth goes ([`DepthRange`]). [`Viewport::image`] is the pipeline's own way,
-//! [`Viewport::chapter`] the textbook's; every other is made from parts.
+//! What is often left unsaid is said here: whether y runs up or down and where pixels have their
+//! centres ([`PixelConvention`](homog::PixelConvention)), and where depth goes ([`DepthRange`]).
+//! [`Viewport::image`] is the pipeline's own way, [`Viewport::chapter`] the textbook's; every other
+//! is made from parts.
 //!
 //! | what | by |
 //! | --- | --- |
@@ -51,8 +52,8 @@
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 //!
-//! Bad parameters are a [`ViewportError`] that names them. Nothing here panics, and nothing that comes out of finite
-//! input is infinite or NaN.
+//! Bad parameters are a [`ViewportError`] that names them. Nothing here panics, and nothing that
+//! comes out of finite input is infinite or NaN.
 #![no_std]
 
 #[cfg(test)]

@@ -54,7 +54,8 @@ impl PointGrid {
         self.columns
     }
 
-    /// The point at an index: x = 2·row/(rows − 1) − 1, z = 2·column/(columns − 1) − 1; `None` beyond the last.
+    /// The point at an index: x = 2·row/(rows − 1) − 1, z = 2·column/(columns − 1) − 1; `None`
+    /// beyond the last.
     #[must_use]
     pub fn xz(&self, row: usize, column: usize) -> Option<[f64; 2]> {
         let inside = row < self.rows && column < self.columns;

@@ -46,8 +46,8 @@ pub fn tiles(
 }
 
 impl Viewport {
-    /// This viewport as an image that is only the tile sees it: moved by whole pixels and otherwise the same, so that
-    /// the parts show together what the whole would have shown.
+    /// This viewport as an image that is only the tile sees it: moved by whole pixels and otherwise
+    /// the same, so that the parts show together what the whole would have shown.
     #[must_use]
     pub fn for_tile(&self, tile: PixelRect) -> Self {
         let (area, part) = (self.area(), Rectangle::from(tile));
@@ -56,7 +56,8 @@ impl Viewport {
         Self::new(moved, self.convention(), self.depth())
     }
 
-    /// The tile's borders in the coordinates of this viewport's convention, for [`Self::pick_matrix`].
+    /// The tile's borders in the coordinates of this viewport's convention, for
+    /// [`Self::pick_matrix`].
     #[must_use]
     pub fn tile_area(&self, tile: PixelRect) -> Rectangle {
         let PixelConvention { centers: centres, .. } = self.convention();

@@ -13,7 +13,8 @@ use crate::{Rectangle, Viewport, ViewportError};
 use glam::{DMat4, DVec4};
 use homog::{Clip, HPoint, Point, Projective, Ray, Screen, Space, Vector};
 
-/// The way back from pixels and depth to a space `S`: that of the world, of a model or of the camera.
+/// The way back from pixels and depth to a space `S`: that of the world, of a model or of the
+/// camera.
 ///
 /// ```
 /// use homog::{Clip, Point, Projective, View};
@@ -36,8 +37,8 @@ pub struct Unprojector<S: Space> {
 /// The ray through one position of the image, between the near and the far plane.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct PickRay<S: Space> {
-    /// The ray away from the viewer, its direction of length 1. It begins at the center of projection,
-    /// or, for a parallel projection, on the near plane.
+    /// The ray away from the viewer, its direction of length 1. It begins at the center of
+    /// projection, or, for a parallel projection, on the near plane.
     pub ray: Ray<S>,
     /// The point on the near plane.
     pub near: Point<S>,
@@ -55,17 +56,17 @@ impl Viewport {
         Projective::from_raw(self.ndc_to_screen().raw() * source_to_clip.raw())
     }
 
-    /// The way back, given the inverse of the chain up to clip space. The closed-form inverses of camera and projection
-    /// lose the fewest digits.
+    /// The way back, given the inverse of the chain up to clip space. The closed-form inverses of
+    /// camera and projection lose the fewest digits.
     #[must_use]
     pub fn unprojector<S: Space>(&self, clip_to_source: Projective<Clip, S>) -> Unprojector<S> {
         let raw = clip_to_source.raw() * self.screen_to_ndc().raw();
         Unprojector { viewport: *self, screen_to_source: Projective::from_raw(raw) }
     }
 
-    /// The map to put after the projection so that `area`, in pixels of this viewport's convention, fills the whole
-    /// view: a pick matrix, as gluPickMatrix makes it, or the sub-view of a tile. What is outside of the area is
-    /// outside of the volume then.
+    /// The map to put after the projection so that `area`, in pixels of this viewport's convention,
+    /// fills the whole view: a pick matrix, as gluPickMatrix makes it, or the sub-view of a tile.
+    /// What is outside of the area is outside of the volume then.
     ///
     /// # Errors
     /// If the area is so small against the viewport that the factors are no finite numbers.
@@ -103,14 +104,16 @@ impl<S: Space> Unprojector<S> {
         divide_point(self.screen_to_source.transform_point(screen))
     }
 
-    /// The centre of projection. With w = 0 it is at infinity: the projection is parallel, and this is its direction.
+    /// The centre of projection. With w = 0 it is at infinity: the projection is parallel, and this
+    /// is its direction.
     #[must_use]
     pub fn center_of_projection(&self) -> HPoint<S> {
         self.screen_to_source.transform_direction(Vector::Z)
     }
 
-    /// The ray of a place in the picture (UN-2), given the canonical depths of the near and the far plane: `[1.0,
-    /// -1.0]` in the chapter's volume, `[-1.0, 1.0]` in OpenGL's, `[0.0, 1.0]` in Direct3D's.
+    /// The ray of a place in the picture (UN-2), given the canonical depths of the near and the far
+    /// plane: `[1.0, -1.0]` in the chapter's volume, `[-1.0, 1.0]` in OpenGL's, `[0.0, 1.0]` in
+    /// Direct3D's.
     ///
     /// `None` where there is no such ray: the map is singular or something is not finite.
     #[must_use]

@@ -1,5 +1,5 @@
-//! Exercises of the chapter and misprints of the sources that belong to viewports: the printed form fails, the right
-//! one passes.
+//! Exercises of the chapter and misprints of the sources that belong to viewports: the printed form
+//! fails, the right one passes.
 
 use glam::{DMat3, DMat4, DVec2, DVec4};
 use homog::{Affine, HPoint2, Homography, Ndc, PixelConvention, Point, Projective, Vector, View};
@@ -49,7 +49,8 @@ fn exercise_2_viewport_and_box_make_one_windowing() {
     assert!(product.raw().abs_diff_eq(expected, 1e-12), "{}", product.raw());
 }
 
-/// M18, WV-2: with +yw min in the first translation the lower border of the window does not go to that of the viewport.
+/// M18, WV-2: with +yw min in the first translation the lower border of the window does not go to
+/// that of the viewport.
 #[test]
 fn misprint_m18_the_chain_moves_the_window_to_the_origin_by_minus_and_minus() {
     let window = Limits { x: [-1.0, 3.0], y: [2.0, 4.0] };
@@ -65,8 +66,9 @@ fn misprint_m18_the_chain_moves_the_window_to_the_origin_by_minus_and_minus() {
     );
 }
 
-/// M21: gluOrtho2D takes the four borders of a window; the box of six is glOrtho's. With near −1 and far 1 they are
-/// the same map up to depth, and with any other near and far they differ in depth only.
+/// M21: gluOrtho2D takes the four borders of a window; the box of six is glOrtho's. With near −1
+/// and far 1 they are the same map up to depth, and with any other near and far they differ in
+/// depth only.
 #[test]
 fn misprint_m21_four_borders_make_a_window_and_six_a_box() {
     let flat = orthographic([-2.0, 4.0], [-1.0, 2.0], [1.0, -1.0]);
@@ -80,7 +82,8 @@ fn misprint_m21_four_borders_make_a_window_and_six_a_box() {
     assert_ne!(deep.transform_point(p).z(), p.z());
 }
 
-/// M22, C100, DP-1: (1 − Z)/2 takes the chapter's near plane (+1) to 0; on OpenGL's (−1) it gives 1, and (1 + Z)/2 is due.
+/// M22, C100, DP-1: (1 − Z)/2 takes the chapter's near plane (+1) to 0; on OpenGL's (−1) it gives
+/// 1, and (1 + Z)/2 is due.
 #[test]
 fn misprint_m22_which_depth_formula_fits_depends_on_where_near_is() {
     let (chapter_near, opengl_near) = (1.0, -1.0);
@@ -94,7 +97,8 @@ fn misprint_m22_which_depth_formula_fits_depends_on_where_near_is() {
     );
 }
 
-/// M23, C98, WV-4: rows divide by rows − 1 and columns by columns − 1, and the last index is one less than the count.
+/// M23, C98, WV-4: rows divide by rows − 1 and columns by columns − 1, and the last index is one
+/// less than the count.
 #[test]
 fn misprint_m23_counts_are_not_paired_crosswise() {
     let (rows, columns) = (3, 5);
@@ -122,7 +126,8 @@ fn several_viewports_on_one_image() {
     );
 }
 
-/// A parallel projection has its centre at infinity: rays start on the near plane and all run the same way.
+/// A parallel projection has its centre at infinity: rays start on the near plane and all run the
+/// same way.
 #[test]
 fn rays_of_a_parallel_projection_are_parallel() {
     let to_ndc = orthographic([-2.0, 4.0], [-1.0, 2.0], [-1.0, -5.0]).raw();

@@ -32,8 +32,8 @@ fn c5_pixels_have_their_centres_at_integers() {
     }
 }
 
-/// A window twice as wide as high is squeezed into the square; an image of the same aspect stretches
-/// it back, and any other leaves circles as ellipses.
+/// A window twice as wide as high is squeezed into the square; an image of the same aspect
+/// stretches it back, and any other leaves circles as ellipses.
 #[test]
 fn c59_an_image_of_the_windows_aspect_undoes_the_squeeze() {
     let window = [2.0, 1.0];

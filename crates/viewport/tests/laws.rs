@@ -1,4 +1,5 @@
-//! Laws of viewports: what goes to the screen comes back, conventions convert into each other, parts make the whole.
+//! Laws of viewports: what goes to the screen comes back, conventions convert into each other,
+//! parts make the whole.
 
 use glam::{DMat4, DVec4};
 use homog::{Clip, HPoint, Ndc, PixelConvention, PixelRect, Point, Projective, Screen, View};
@@ -60,7 +61,8 @@ proptest! {
         prop_assert_eq!(upwards, viewport.convention().y == homog::YAxis::Up);
     }
 
-    /// VP-4: a viewport on the whole image, in one convention and then converted, is the viewport in the other.
+    /// VP-4: a viewport on the whole image, in one convention and then converted, is the viewport
+    /// in the other.
     #[test]
     fn conventions_convert_into_each_other(
         size in (1..4000_u32, 1..4000_u32),
@@ -112,8 +114,8 @@ proptest! {
         prop_assert!(times.iter().all(|&times| times == 1));
     }
 
-    /// In a tile a point has the pixel position it has in the whole, less the tile's corner; and the pick matrix of
-    /// the tile with a viewport of the tile's size gives the same.
+    /// In a tile a point has the pixel position it has in the whole, less the tile's corner; and
+    /// the pick matrix of the tile with a viewport of the tile's size gives the same.
     #[test]
     fn a_tile_shows_its_part_of_the_whole(
         p in ndc(),
@@ -134,7 +136,8 @@ proptest! {
         prop_assert!((by_pick - in_tile).length() < 1e-9, "{by_pick:?} is not {in_tile:?}");
     }
 
-    /// C26, UN-1 and UN-2: what is unprojected projects back, and the ray of a pixel runs from the eye through it.
+    /// C26, UN-1 and UN-2: what is unprojected projects back, and the ray of a pixel runs from the
+    /// eye through it.
     #[test]
     fn rays_run_from_the_eye_through_their_pixel(
         viewport in viewport(),

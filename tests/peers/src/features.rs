@@ -1,13 +1,12 @@
-//! What each feature of the shading costs: the flight helmet at 1080p, lit by the studio, and the same with one thing more or less.
+//! What each feature of the shading costs: the flight helmet at 1080p, lit by the studio, and the
+//! same with one thing more or less.
 //!
-//! One scene a feature, all rendered in this process by one thread, by turns; the base is the program's usual picture: four samples,
-//! every map of the materials, an environment, no shadows.
+//! One scene a feature, all rendered in this process by one thread, by turns; the base is the
+//! program's usual picture: four samples, every map of the materials, an environment, no shadows.
 
 use crate::measure::{Contestant, Series, rounds};
-use model::{
-    Anisotropy, Clearcoat, Iridescence, MaterialExtensions, Sheen, Transmission, Volume,
-};
-use pipeline::scene::{ResolveOptions, Scene, parse};
+use model::{Anisotropy, Clearcoat, Iridescence, MaterialExtensions, Sheen, Transmission, Volume};
+use pipeline::scene::{ResolveOptions, Scene, parse_scene};
 use pipeline::{Origin, Picture, Renderer, Textures, Timings};
 use std::path::Path;
 use std::sync::Arc;
@@ -15,7 +14,8 @@ use std::sync::Arc;
 /// The name of the base, which the others are compared with.
 pub const BASE: &str = "usual picture";
 
-/// Each feature with what of the scene is other than in the base: lights and the like, fields of the image, and materials.
+/// Each feature with what of the scene is other than in the base: lights and the like, fields of
+/// the image, and materials.
 const FEATURES: [(&str, &str, &str, Change); 19] = [
     (BASE, "", "", AS_IT_IS),
     ("flat style", "style: Flat", "", AS_IT_IS),
@@ -88,8 +88,8 @@ fn scene(fields: &str, image: &str, folder: &Path) -> Result<Scene, String> {
         "Scene(models: [(path: \"FlightHelmet.gltf\")], {environment}{fields}{} image: (size: (1920, 1080), {image}))",
         if fields.is_empty() { "" } else { "," }
     );
-    let file = parse("feature.ron", &text).map_err(|error| error.to_string())?;
-    let origin = Origin::of_text("feature.ron", text, folder.to_owned());
+    let file = parse_scene("feature.ron", &text).map_err(|error| error.to_string())?;
+    let origin = Origin::from_text("feature.ron", text, folder.to_owned());
     Scene::resolve(&origin, &file, &ResolveOptions::default()).map_err(|error| error.to_string())
 }
 
@@ -97,7 +97,7 @@ fn scene(fields: &str, image: &str, folder: &Path) -> Result<Scene, String> {
 fn frames(scene: Scene) -> Result<Box<dyn FnMut()>, String> {
     // As long as the process: there are few.
     let scene: &'static Scene = Box::leak(Box::new(scene));
-    let textures = Textures::of(&scene.models);
+    let textures = Textures::for_models(&scene.models);
     let mut renderer = Renderer::default();
     let mut picture: Picture = Picture::default();
     let silent = Timings::default();

@@ -1,9 +1,25 @@
-//! Chart axes: scales and round ticks.
+//! Chart axes: linear and logarithmic scales, and round ticks.
+//!
+//! ```text
+//!   linear       position = (v − from) / (to − from)
+//!   logarithmic  position = log(v / from) / log(to / from)
+//! ```
+//!
+//! Ticks are round numbers, few enough to label (Heckbert, *Nice Numbers for Graph Labels*, 1990):
+//! multiples of 1, 2 or 5 times a power of ten.
 
 /// The most ticks of an axis.
 const MAX_TICKS: usize = 9;
 
 /// An axis of a chart.
+///
+/// ```
+/// use drawing::{Axis, Spacing};
+///
+/// let axis = Axis { title: "w".into(), from: 1.0, to: 100.0, spacing: Spacing::Logarithmic };
+/// assert_eq!(axis.ticks(), [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0]);
+/// assert_eq!(axis.fraction_at(10.0), 0.5);
+/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Axis {
     /// The quantity it shows.
@@ -58,11 +74,11 @@ impl Axis {
         let steps = [power - 1, power].into_iter().flat_map(|n| [1.0, 2.0, 5.0].map(|d| (d, n)));
         for (digit, power) in steps {
             let step = nearest_decimal(digit, power);
-            // Half a thousandth of a step beside the ends is at the ends.
+            // Ticks within half a thousandth of a step of the ends are at the ends.
             let first = libm::ceil(self.from / step - 5e-4) as i64;
             let last = libm::floor(self.to / step + 5e-4) as i64;
             if last - first < MAX_TICKS as i64 {
-                // By a quotient where the step is a fraction: 3 / 10 is the number that 0.3 is written as.
+                // A quotient where the step is a fraction: 3 / 10 has the bits of the literal 0.3.
                 let value = |n: i64| match power {
                     ..0 => n as f64 * digit / power_of_ten(-power),
                     _ => n as f64 * step,

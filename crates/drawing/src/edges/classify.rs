@@ -104,7 +104,7 @@ impl<'a> EdgeClassifier<'a> {
         if let &[one, other] = sides {
             return self.class_between(one, other);
         }
-        // A third face of an object makes more than a surface of it.
+        // Three faces of one object at an edge are not a manifold surface.
         let of_object = |object| {
             sides.iter().filter(move |&&side| self.face_of_half_edge(side).object == object)
         };
@@ -130,10 +130,13 @@ impl<'a> EdgeClassifier<'a> {
 
     /// The class of the edge between two faces: silhouette, crease, tangent (materials differ) or
     /// facet.
+    ///
+    /// With both normals taken along the edge, those of a smooth surface are opposite: n·(−m) is
+    /// the cosine of the dihedral angle, and facing flags that *agree* mark a silhouette.
     fn class_between(&self, one: HalfEdge, other: HalfEdge) -> EdgeClass {
         let ((n, is_front), (m, other_is_front)) =
             (self.normals.normal_along(one), self.normals.normal_along(other));
-        // As if both ran along the rising edge: then one of the normals of a smooth surface points inwards.
+        // Both normals are taken along the rising edge: on a smooth surface they are opposite.
         if is_front == other_is_front {
             EdgeClass::Silhouette
         } else if n.dot(-m) < self.crease_cosine {

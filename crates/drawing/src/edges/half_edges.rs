@@ -31,6 +31,9 @@ pub(super) struct HalfEdges {
 
 impl HalfEdges {
     /// Builds the table of faces whose vertex indices are below `points`.
+    ///
+    /// A counting sort: count the half-edges of each lower end, sum up to starts, place each
+    /// half-edge, then sort the run of each vertex.
     pub(super) fn new(faces: &[Face], points: usize) -> Self {
         let mut starts = vec![0_u32; points + 2];
         let low = |[a, b]: [u32; 2]| a.min(b) as usize;

@@ -1,10 +1,20 @@
 //! Section caps: nesting of the loops of a cut into outlines and holes, and their triangulation.
 //!
+//! ```text
+//!   ┌──────────────┐ ↺ outline, area > 0
+//!   │  ┌────────┐  │
+//!   │  │ ↻ hole │  │   area < 0: belongs to the smallest outline around it
+//!   │  │ ┌────┐ │  │
+//!   │  │ │ ↺  │ │  │   an island is an outline again
+//!   │  │ └────┘ │  │
+//!   │  └────────┘  │
+//!   └──────────────┘
+//! ```
+//!
 //! Loops of a consistently oriented surface run counterclockwise around matter and clockwise around
-//! holes. Each hole is given to the smallest outline around it, and each outline is capped by
-//! itself: bodies of one object that overlap, as in many game models, are capped one over the
-//! other, and no part of one makes a hole in the other. An even-odd rule over all loops would do
-//! that.
+//! holes. Each outline is capped by itself: bodies of one
+//! object that overlap, as in many game models, are capped one over the other, and no part of one
+//! makes a hole in the other. An even-odd rule over all loops would do that.
 
 use clip::Outline;
 use homog::{Plane, Point, World};
@@ -42,7 +52,7 @@ fn group_holes_with_outlines(
     let mut outer: Vec<(f64, Vec<SectionLoop>)> = Vec::new();
     let mut holes: Vec<SectionLoop> = Vec::new();
     let areas: Vec<f64> = loops.iter().map(|points| axes.doubled_area(points)).collect();
-    // A surface that is turned inside out as a whole, by a mirror say.
+    // A negative total area: the surface is inside out, by a reflection for example.
     let sign = if areas.iter().sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
     for (points, area) in loops.into_iter().zip(areas) {
         if area * sign < 0.0 {
@@ -57,7 +67,7 @@ fn group_holes_with_outlines(
             outer.iter_mut().find(|(_, region)| axes.loop_contains_point(&region[0], hole[0]));
         match around {
             Some((_, region)) => region.push(hole),
-            // A hole in nothing is matter turned inside out.
+            // A hole outside every outline is a body modeled inside out.
             None => outer.push((f64::INFINITY, vec![hole])),
         }
     }

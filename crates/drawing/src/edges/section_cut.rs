@@ -28,9 +28,15 @@ type CutEdge = ([Point<World>; 2], u32);
 
 /// Cuts a mesh by a plane, retains its positive side, and caps what the cut opens.
 ///
-/// `fillings`, the slivers of T-junctions, are cut along with the faces for the sake of closed
-/// loops, and then dropped. New points are appended and not welded; the caller welds. Open and too
-/// complex sections are added to `warnings`.
+/// 1. Each face is clipped by the plane; the edge on the plane becomes a cut edge.
+/// 2. So are the slivers of T-junctions (`fillings`), for the sake of closed loops; what is left of
+///    them is dropped.
+/// 3. Lines are clipped.
+/// 4. Cut edges are joined to loops, loops are nested and triangulated, and the triangles become
+///    faces with a `cap_section`.
+///
+/// New points are appended and not welded; the caller welds. Open and too complex sections are
+/// added to `warnings`.
 pub(super) fn cut_mesh(
     mesh: &mut WorldMesh,
     fillings: &[Face],
@@ -84,6 +90,8 @@ fn add_point(mesh: &mut WorldMesh, point: Point<World>) -> u32 {
 
 /// Cuts one face: pushes what is left as a fan of triangles, and the edge on the plane if there is
 /// one.
+///
+/// A vertex that the plane leaves keeps its index, so that uncut neighbors still share it.
 fn cut_face(
     mesh: &mut WorldMesh,
     face: &Face,
@@ -147,6 +155,12 @@ fn cut_line_edges(mesh: &mut WorldMesh, plane: Plane<World>) {
 }
 
 /// Joins cut edges to loops: first within each object, then what remains open across objects.
+///
+/// ```text
+///   object 1  ┌───────        object 2  ───────┐        together  ┌──────────────┐
+///             │                                │                  │              │
+///             └───────                  ───────┘                  └──────────────┘
+/// ```
 ///
 /// A body modeled in several objects closes only with all of them. A loop of several objects goes
 /// to the first one that contributed. Each object with a curve that stays open adds a warning.
@@ -265,7 +279,7 @@ mod tests {
         let cylinder = || solid_of_revolution(&CYLINDER, 60);
         let round = closed_cap_area(cylinder(), [0.0, 1.3, 0.0], [0.0, -1.0, 0.0]);
         assert!((round - regular_polygon_area(2.0, 60)).abs() < 1e-12, "{round}");
-        // Along the axis through two edges, and beside it: the chord of the polygon there.
+        // Along the axis through two edges, then off the axis: the chord of the polygon there.
         let along = closed_cap_area(cylinder(), [0.0; 3], [0.0, 0.0, 1.0]);
         assert!((along - 12.0).abs() < 1e-12, "{along}");
         let (sine, cosine) = libm::sincos(TAU / 60.0 * 5.0);

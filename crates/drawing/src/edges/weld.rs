@@ -11,7 +11,13 @@ use glam::DVec3;
 
 /// Gives all points with exactly equal coordinates one index, that of the first of them.
 ///
-/// Faces that lose a vertex by it, and duplicates of other faces, are removed.
+/// ```text
+///   points   0 A   1 B   2 A   3 C   4 B         representative  0  1  0  3  1
+/// ```
+///
+/// Faces that lose a vertex by it, and duplicates of other faces, are removed. Negative and
+/// positive zero are equal coordinates but not neighbors in the total order; such points stay apart
+/// until near welding.
 pub(super) fn weld_equal_vertices(mesh: &mut WorldMesh) {
     let sorted_order = sort_by_position(&mesh.points);
     let mut representative: Vec<u32> = (0..mesh.points.len() as u32).collect();

@@ -167,6 +167,9 @@ impl Bvh {
     }
 
     /// Builds the subtree over a range of `order`, in place, and appends its nodes depth first.
+    ///
+    /// A node is pushed as a leaf first and turned into an inner node when the index of its second
+    /// child is known.
     fn build_node(
         &mut self,
         boxes: &[Aabb],
@@ -205,7 +208,9 @@ impl Bvh {
 /// Partitions items where the sum of the children's costs times their counts is least; returns the
 /// size of the left part.
 ///
-/// `None` if all centers coincide or the best split leaves a side empty.
+/// Items are binned by their centers along the longest axis of the centers' box, not of the items'
+/// box, so that one large item does not waste bins. `None` if all centers coincide or the best
+/// split leaves a side empty.
 fn partition_by_sah(
     boxes: &[Aabb],
     items: &mut [u32],

@@ -92,7 +92,7 @@ pub(crate) struct OcclusionScratch {
     hidden: OcclusionIntervals,
     /// Where the edge runs exactly behind a side with its face on the left.
     face_left: OcclusionIntervals,
-    /// The same parts with the face on the right.
+    /// Where the edge runs exactly behind a side with its face on the right.
     face_right: OcclusionIntervals,
     /// Nodes of the hierarchy that are still to be visited.
     node_stack: Vec<u32>,
@@ -206,9 +206,16 @@ impl Occluders {
 /// The interval of s in which an edge passes over a box on the screen and is not wholly in front of
 /// it.
 ///
+/// ```text
+///         ┌──────┐
+///   a ────┼──────┼──── b      s of the sides along x and along y: the greatest entry and the
+///         └──────┘            least exit bound the interval
+///          s₀    s₁
+/// ```
+///
 /// A slab test in x and y (Kay and Kajiya 1986), then one comparison of depth: where even the
 /// farthest point of the edge is nearer than the nearest point of the box, nothing in the box can
-/// hide it.
+/// hide it. Depth is linear in s, so its extremes are at the ends.
 fn interval_behind_box(edge: &ProjectedEdge, bounds: &Aabb) -> Option<[f64; 2]> {
     let [a, b] = edge.screen;
     let mut interval = [0.0_f64, 1.0];
@@ -255,7 +262,8 @@ fn push_occluders(
     let normal = normal * towards.signum();
     let offset = normal.dot(a);
     let mut push_clipped = |points: [HPoint<Clip>; 3]| {
-        let [Some(a), Some(b), Some(c)] = points.map(|point| projector.to_screen(point)) else {
+        let [Some(a), Some(b), Some(c)] = points.map(|point| projector.project_to_screen(point))
+        else {
             return;
         };
         let bounds = Aabb::from_points([a, b, c]);

@@ -40,7 +40,10 @@ impl ProjectedEdge {
     /// exactly.
     pub(crate) fn clip_and_project(ends: [DVec3; 2], projector: &Projector) -> Option<Self> {
         let clipped = projector.clip_edge(ends)?;
-        let [a, b] = [projector.to_screen(clipped.start)?, projector.to_screen(clipped.end)?];
+        let [a, b] = [
+            projector.project_to_screen(clipped.start)?,
+            projector.project_to_screen(clipped.end)?,
+        ];
         let position = |t: f64| match t {
             0.0 => ends[0],
             1.0 => ends[1],

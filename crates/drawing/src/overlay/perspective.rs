@@ -29,7 +29,7 @@ impl PicturePlane {
         line.groups.push(Group { strokes, ..Group::default() });
         let mut text = overlay_layer("horizon-text", "horizon: text", BROWN);
         let along = (ends[1] - ends[0]).normalize_or(DVec2::X);
-        // Below the line, for the names of vanishing points stand above it.
+        // Below the line: the names of vanishing points are above it.
         let (height, below) = (0.8 * LETTER_HEIGHT, DVec2::new(-along.y, along.x));
         let at = ends[0] + along * 2.0 + below * (height + 0.8);
         let label = Label::new("horizon", at, height);
@@ -39,6 +39,11 @@ impl PicturePlane {
     }
 
     /// The points where the horizon enters and leaves the picture, from left to right.
+    ///
+    /// The horizon is the line through the vanishing points of x and z. In homogeneous coordinates
+    /// of the picture plane a line through two points is their cross product (a, b, c), with a x +
+    /// b y + c = 0; its foot from the center is −c (a, b) / (a² + b²), and the line is clipped to
+    /// the picture from there.
     fn horizon_ends(&self) -> Option<[DVec2; 2]> {
         let [x, z] = [Vector::X, Vector::Z].map(|direction| self.project_direction(direction));
         if x.z.max(z.z) <= ZERO_TOLERANCE * x.length().max(z.length()) {
@@ -48,7 +53,7 @@ impl PicturePlane {
         let line = x.cross(z);
         let normal = line.truncate();
         let foot = normal * (-line.z / normal.length_squared());
-        // Straight down there is none, or only one far beyond the picture.
+        // A camera that looks straight down has no horizon, or one far beyond the picture.
         let half_length = foot.length() + 4.0;
         if !half_length.is_finite() || half_length > 1e6 {
             return None;
@@ -61,6 +66,9 @@ impl PicturePlane {
 
     /// Rings around the vanishing points of the axes, and lines to them from the corners of the
     /// models' bounding box.
+    ///
+    /// An axis parallel to the picture plane has no finite vanishing point (w = 0 but for rounding)
+    /// and is left out.
     pub(super) fn vanishing_point_layers(&self) -> Vec<Layer> {
         let mut layers = Vec::new();
         for (direction, name, ink) in AXES {

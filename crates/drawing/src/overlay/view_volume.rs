@@ -1,4 +1,14 @@
 //! View volume overlay: the frustum of another camera, with its eye (C61 to C64).
+//!
+//! ```text
+//!               ╱│         │╲
+//!       eye ───╱ │ near    │ ╲ far        edges of the volume, and rays from the eye
+//!          ╲───╲ │         │ ╱            to the corners of the near plane
+//!               ╲│─────────│╱
+//! ```
+//!
+//! The corners are those of the clip-space cube, taken back to the world by the inverse projection,
+//! so any projection can be shown: an oblique one is a sheared box, one without an eye has no rays.
 
 use super::{LETTER_HEIGHT, PicturePlane, overlay_layer};
 use crate::palette::BLUE;
@@ -10,6 +20,9 @@ use projection::{Convention, ViewVolume};
 
 impl PicturePlane {
     /// The twelve edges, and the rays from the eye to the near plane.
+    ///
+    /// Corners at infinity, of a volume without a far plane, have no image; their edges are left
+    /// out.
     pub(super) fn view_volume_layers(&self, view_projection: &ViewProjection) -> Vec<Layer> {
         let volume = ViewVolume::new(view_projection.view_to_clip, Convention::CHAPTER);
         let view_to_world = view_projection.camera.view_to_world();

@@ -1,4 +1,8 @@
 //! HTML output of panels: one self-contained page of figures, with searchable text.
+//!
+//! Drawings are inline SVG, captions are HTML text. The page loads nothing: no scripts, fonts or
+//! images from elsewhere, so it can be mailed and archived. Figures wrap to the width of the
+//! window.
 
 use super::{Page, Panel, Panels};
 use crate::markup::escape_markup;
@@ -31,8 +35,11 @@ impl Panels {
 }
 
 /// Appends a panel as a `<figure>` with its drawing as inline SVG.
+///
+/// Ids within a page of HTML are shared by all figures, so those of layers are prefixed by the id
+/// of the panel.
 fn push_figure(html: &mut String, panel: &Panel) {
-    // Names are unique on the page only with that of the panel before them.
+    // Ids are unique on the page only with that of the panel as a prefix.
     let mut page = Page::new(panel.page.size, panel.title.clone(), panel.page.paper);
     page.paste_page(&panel.page, DVec2::ZERO, &format!("{}-", panel.id));
     let (id, svg, title) = (escape_markup(&panel.id), page.to_svg(), escape_markup(&panel.title));

@@ -90,7 +90,7 @@ fn overall_dimensions(layout: &ViewLayout<'_>, side: NamedView) -> Vec<LinearDim
             length: scale.to_object_length(area.height()),
         })
     };
-    // What has no extent has no dimension either.
+    // A flat object has no dimension across.
     let all = [horizontal(NamedView::Front), vertical(NamedView::Front), horizontal(side)];
     all.into_iter().flatten().filter(|dimension| dimension.length > 1e-3).collect()
 }
@@ -125,6 +125,9 @@ impl LinearDimension {
     }
 
     /// Extension lines, dimension line and arrowheads.
+    ///
+    /// Arrows that do not fit between the extension lines point inward from outside, and the
+    /// dimension line is extended to them, and on to a text that stands beside it.
     fn line_group(&self, height: f64, text: &str) -> Group {
         let [start, end] = self.dimension_line(height);
         let (along, arrow) = (self.line_direction(), ARROW_LENGTH * height);
@@ -167,7 +170,7 @@ impl LinearDimension {
     fn text_strokes(&self, height: f64, text: &str) -> Vec<Polyline> {
         let [start, end] = self.dimension_line(height);
         let along = self.line_direction();
-        // Above the line as the text reads: to the left of its direction.
+        // Above the line in reading direction is to the left of it.
         let above = DVec2::new(along.y, -along.x) * (TEXT_GAP * height);
         let label = self.unplaced_label(height, text);
         let label = if self.is_text_outside(height, text) {

@@ -58,6 +58,9 @@ impl PlacedView<'_> {
 }
 
 /// The section lines and names for all sections that a principal view shows, lettered from A.
+///
+/// Three layers, for three pens: the chain line, its wide ends, and arrows with letters. A plane
+/// that no principal view faces is shown by no name; only the axonometric view is cut by it.
 pub(super) fn section_line_layers(
     sheet: &Sheet,
     sections: &[Plane<World>],
@@ -127,12 +130,15 @@ struct SectionLine {
 
 impl SectionLine {
     /// The line of a plane in a view; `None` if the plane is not edge-on, or misses the object.
+    ///
+    /// A slab test over the area of the object gives the interval of the line, which is extended by
+    /// [`OVERHANG`] at both ends.
     fn in_view(placed: &PlacedView<'_>, plane: Plane<World>) -> Option<Self> {
         let (point, retained) = placed.section_trace(plane)?;
         let area = placed.object_area();
         let half = DVec2::new(area.width(), area.height()) * 0.5;
         let along = DVec2::new(-retained.y, retained.x);
-        // From where to where the line is within the area of the view.
+        // Slab test: the interval of the line within the area of the view.
         let mut span = [f64::NEG_INFINITY, f64::INFINITY];
         for axis in 0..2 {
             let from = point[axis] - placed.center[axis];

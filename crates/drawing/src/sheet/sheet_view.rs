@@ -1,4 +1,13 @@
 //! Sheet view: one orthographic view of a sheet, with its size in millimeters of the object.
+//!
+//! ```text
+//!   points of the models ─frame─► camera, depths, size      (SheetView::frame_points)
+//!   camera, window ─draw─► LineDrawing of 8192 pixels       (draw)
+//!   drawing, scale ─placement─► millimeters on the sheet    (placement)
+//! ```
+//!
+//! The drawing is made at a fixed resolution and scaled when it is laid out: pixels are only a
+//! unit, as coordinates are f64.
 
 use super::{Placement, SheetError};
 use crate::draw::draw_surface;

@@ -49,6 +49,9 @@ pub(super) fn title_block_area(frame: Rectangle) -> Rectangle {
 }
 
 /// The borders, the lettering in its three widths, and the projection symbol.
+///
+/// Text that is too wide for its field is reduced in height. On small paper the block shrinks, and
+/// letters with it.
 pub(super) fn title_block_layers(
     sheet: &Sheet,
     title: &str,
@@ -92,6 +95,8 @@ pub(super) fn title_block_layers(
 const PROJECTION_FIELD: &str = "Projection";
 
 /// The fields in reading order.
+///
+/// Columns and rows are fractions of the block, so that it scales with narrow paper.
 fn title_block_fields<'a>(
     sheet: &Sheet,
     title: &str,

@@ -51,6 +51,9 @@ pub(super) struct ViewLayout<'a> {
 impl<'a> ViewLayout<'a> {
     /// Arranges the views at the sheet's scale, or at the largest standard scale that fits.
     ///
+    /// Views must stay clear of title block and scale bar. Where the axonometric view finds no free
+    /// corner, it is left out.
+    ///
     /// # Errors
     /// [`SheetError::TooLarge`] if they do not fit; it names a scale that would, if there is one.
     pub(super) fn arrange_views(
@@ -111,6 +114,14 @@ impl PlacedView<'_> {
 
 /// The free corner of the grid, beside the top view and opposite the side view, without the title
 /// block; `None` if too small.
+///
+/// ```text
+///   ┌───────┬──────┐        ┌───────┬──────┐
+///   │ front │ side │        │  top  │ ████ │      █ the free corner: first angle, third angle
+///   ├───────┼──────┤        ├───────┼──────┤
+///   │  top  │ ████ │        │ front │ side │
+///   └───────┴──────┘        └───────┴──────┘
+/// ```
 fn free_corner_area(
     placed: &[PlacedView<'_>],
     area: Rectangle,
@@ -177,7 +188,7 @@ impl<'a> ViewGrid<'a> {
     /// third-angle projection on that side.
     fn new(sheet: &Sheet, [front, top, side]: [&'a SheetView; 3]) -> Self {
         let first = sheet.projection_angle == SheetAngle::First;
-        // In first angle a view stands on the side opposite to the one it is seen from.
+        // First angle: the view from the left is drawn on the right.
         let side_is_right = first == (side.name == NamedView::Left);
         let (front_column, front_row) = (usize::from(!side_is_right), usize::from(!first));
         let views = [
@@ -254,16 +265,10 @@ impl<'a> ViewGrid<'a> {
         let scale = sheet.scale.unwrap_or(smallest);
         let remedy = match fitting {
             Some(fitting) => format!("; {fitting} fits"),
-            None => "; take larger paper, or say what a unit of the model is".to_owned(),
+            None => "; use larger paper, or set the unit of the model".to_owned(),
         };
         let need = self.total_size().map(|size| scale.to_paper_length(size));
         let available = self.available_size(area).map(|side| side.max(0.0));
-        SheetError::TooLarge {
-            paper: sheet.paper_name.clone(),
-            scale,
-            need,
-            room: available,
-            remedy,
-        }
+        SheetError::TooLarge { paper: sheet.paper_name.clone(), scale, need, available, remedy }
     }
 }

@@ -1,43 +1,48 @@
-//! Curves: values at key times, and what they are between two of them, which the interpolation says (glTF 2.0
-//! appendix C):
+//! Animation curves: keyframes and their interpolation (glTF 2.0 appendix C).
 //!
 //! ```text
 //!  Step                Linear              CubicSpline
-//!        ┌───•              •                  ╭─•      a value and two tangents at each key: the curve leaves a key
-//!  •─────┘               ╱                   ╱          along the one and arrives along the other
-//!                     •                   •─╯
+//!        ┌───•              •                  ╭─•      a value and two tangents at each keyframe: the
+//!  •─────┘               ╱                   ╱          curve leaves along the out-tangent and arrives
+//!                     •                   •─╯           along the in-tangent
 //! ```
 //!
-//! Before the first key and after the last the values stand still. Rotations turn at constant speed about one axis.
+//! Values are constant before the first keyframe and after the last. Rotations are interpolated
+//! spherically (slerp): at constant angular velocity about one axis.
 
-/// Values at key times. All numbers are finite.
+/// A keyframe curve (glTF's animation sampler). All numbers are finite.
 #[derive(Clone, PartialEq, Debug)]
 pub struct AnimationCurve {
-    /// What the values are between the keys.
+    /// Interpolation between keyframes.
     pub interpolation: Interpolation,
-    /// The times of the keys in seconds, rising; at least one.
+    /// Times of the keyframes in seconds, strictly increasing; at least one.
     pub times: Vec<f32>,
-    /// `width` numbers for each key; for cubic splines three times as many: tangent before, value, tangent behind.
+    /// `components` numbers for each keyframe. Cubic splines have three times as many: in-tangent,
+    /// value, out-tangent.
     pub values: Vec<f32>,
-    /// The numbers of one value.
+    /// Number of components of one value.
     pub components: usize,
 }
 
-/// What the values of a curve are between two keys.
+/// Interpolation between two keyframes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Interpolation {
-    /// That of the earlier key.
+    /// The value of the earlier keyframe.
     Step,
-    /// On the straight way from one to the other.
+    /// Linear interpolation.
     Linear,
-    /// Of rotations: on the shorter arc from one to the other. Files call it LINEAR too.
+    /// Spherical linear interpolation of quaternions, along the shorter arc. Files call it LINEAR
+    /// too.
     Spherical,
-    /// On a cubic Hermite spline.
+    /// Cubic Hermite spline.
     CubicSpline,
 }
 
 impl AnimationCurve {
-    /// The value at a time; a rotation is a quaternion of any length but 0, or 0 where two opposite ones meet.
+    /// The value at a time in seconds.
+    ///
+    /// A rotation is a quaternion of any length but 0, or 0 halfway between two opposite ones,
+    /// which have no shorter arc.
     #[must_use]
     pub fn sample(&self, seconds: f64) -> Vec<f64> {
         let after = self.times.partition_point(|&time| f64::from(time) <= seconds);
@@ -46,15 +51,15 @@ impl AnimationCurve {
             return self.key_value(from);
         }
         let [start, end] = [from, to].map(|key| f64::from(self.times[key]));
-        let (length, part) = (end - start, (seconds - start) / (end - start));
+        let (length, t) = (end - start, (seconds - start) / (end - start));
         match self.interpolation {
             Interpolation::Step => self.key_value(from),
-            Interpolation::Spherical => slerp(&self.key_value(from), &self.key_value(to), part),
+            Interpolation::Spherical => slerp(&self.key_value(from), &self.key_value(to), t),
             Interpolation::Linear => {
-                weighted_sum(&[(1.0 - part, self.key_value(from)), (part, self.key_value(to))])
+                weighted_sum(&[(1.0 - t, self.key_value(from)), (t, self.key_value(to))])
             }
             Interpolation::CubicSpline => {
-                let (t, t2, t3) = (part, part * part, part * part * part);
+                let (t2, t3) = (t * t, t * t * t);
                 weighted_sum(&[
                     (2.0 * t3 - 3.0 * t2 + 1.0, self.key_value(from)),
                     (length * (t3 - 2.0 * t2 + t), self.stored_row(3 * from + 2)),
@@ -65,7 +70,7 @@ impl AnimationCurve {
         }
     }
 
-    /// The value at a key.
+    /// The value at a keyframe, without its tangents.
     fn key_value(&self, key: usize) -> Vec<f64> {
         match self.interpolation {
             Interpolation::CubicSpline => self.stored_row(3 * key + 1),
@@ -73,35 +78,37 @@ impl AnimationCurve {
         }
     }
 
+    /// The `row`-th group of `components` numbers in `values`.
     fn stored_row(&self, row: usize) -> Vec<f64> {
         let numbers = self.values.get(row * self.components..).unwrap_or(&[]);
         numbers.iter().take(self.components).map(|&number| f64::from(number)).collect()
     }
 }
 
+/// Sum of the rows, each times its weight; as many components as the shortest row has.
 fn weighted_sum(rows: &[(f64, Vec<f64>)]) -> Vec<f64> {
     let width = rows.iter().map(|(_, row)| row.len()).min().unwrap_or(0);
     (0..width).map(|at| rows.iter().map(|(weight, row)| weight * row[at]).sum()).collect()
 }
 
-/// The rotation at a part of the shorter way from one to another, at constant speed.
-fn slerp(from: &[f64], to: &[f64], part: f64) -> Vec<f64> {
+/// Spherical linear interpolation along the shorter arc (Shoemake 1985), at `t` in [0, 1].
+fn slerp(from: &[f64], to: &[f64], t: f64) -> Vec<f64> {
     let unit = |q: &[f64]| {
         let length = libm::sqrt(q.iter().map(|x| x * x).sum());
         q.iter().map(|x| if length > 0.0 { x / length } else { 0.0 }).collect::<Vec<_>>()
     };
     let (from, to) = (unit(from), unit(to));
     let cosine: f64 = from.iter().zip(&to).map(|(a, b)| a * b).sum();
-    let side = if cosine < 0.0 { -1.0 } else { 1.0 };
+    let sign = if cosine < 0.0 { -1.0 } else { 1.0 };
     let angle = libm::acos(cosine.abs().min(1.0));
     let sine = libm::sin(angle);
     // Where both are nearly the same the straight way is as good, and there is no division by nearly nothing.
     let (first, second) = if sine < 1e-6 {
-        (1.0 - part, part)
+        (1.0 - t, t)
     } else {
-        (libm::sin(angle * (1.0 - part)) / sine, libm::sin(angle * part) / sine)
+        (libm::sin(angle * (1.0 - t)) / sine, libm::sin(angle * t) / sine)
     };
-    weighted_sum(&[(first, from), (side * second, to)])
+    weighted_sum(&[(first, from), (sign * second, to)])
 }
 
 #[cfg(test)]
@@ -123,8 +130,9 @@ mod tests {
         }
     }
 
-    fn nearly_equal(found: &[f64], due: &[f64]) -> bool {
-        found.len() == due.len() && found.iter().zip(due).all(|(a, b)| (a - b).abs() < 1e-7)
+    fn nearly_equal(actual: &[f64], expected: &[f64]) -> bool {
+        actual.len() == expected.len()
+            && actual.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-7)
     }
 
     #[test]
@@ -165,9 +173,9 @@ mod tests {
         for sign in [1.0, -1.0] {
             // From rest to a quarter about y, written as one quaternion and as its opposite.
             let values = [0.0, 0.0, 0.0, 1.0, 0.0, sign * s, 0.0, sign * c];
-            let turn = curve(Interpolation::Spherical, &[0.0, 2.0], &values, 4);
-            let due = [0.0, libm::sin(FRAC_PI_8), 0.0, libm::cos(FRAC_PI_8)];
-            assert!(nearly_equal(&turn.sample(1.0), &due), "{sign}");
+            let rotation = curve(Interpolation::Spherical, &[0.0, 2.0], &values, 4);
+            let expected = [0.0, libm::sin(FRAC_PI_8), 0.0, libm::cos(FRAC_PI_8)];
+            assert!(nearly_equal(&rotation.sample(1.0), &expected), "{sign}");
         }
         let still =
             curve(Interpolation::Spherical, &[0.0, 1.0], &[0.0, 0.0, 0.6, 0.8].repeat(2), 4);

@@ -1,32 +1,34 @@
-//! Fields: the numbers of materials, lights and cameras that animations can change, by the names that files have for them.
+//! Animatable properties of materials, lights and cameras, by their JSON pointers (glTF Object
+//! Model).
 //!
-//! The same table says where the importer finds the numbers of the KHR_materials extensions and within which bounds
-//! they must be.
+//! KHR_animation_pointer names its targets by these pointers. The table also tells the importer
+//! where the numbers of the KHR_materials extensions are, and the bounds they must be within.
 
 use crate::{AlphaMode, CameraProjection, LightKind, Material, PunctualLight};
 use std::f32::consts::FRAC_PI_2;
 use std::f64::consts::PI;
 
-/// Some numbers of a material, light or camera.
+/// An animatable property of a material, light or camera: an index into the table of its numbers.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ObjectProperty {
-    /// Of a material: a place in the table of its numbers.
+    /// A property of a material.
     Material(usize),
-    /// Of a light: a place in the table of its numbers.
+    /// A property of a light.
     Light(usize),
-    /// Of a camera: a place in the table of its numbers.
+    /// A property of a camera.
     Camera(usize),
 }
 
-/// A row of a table: the numbers' place in the file's object, how many they are, and their least and greatest value.
+/// A row of a property table: pointer, number of components, bounds and access to the numbers.
 pub(crate) struct PropertyRow<T> {
-    /// A JSON pointer without the first slash.
+    /// JSON pointer into the object, without the leading slash.
     pub(crate) path: &'static str,
-    /// How many numbers.
+    /// Number of components.
     pub(crate) component_count: usize,
     /// The least and the greatest value.
     pub(crate) bounds: [f32; 2],
-    /// The numbers; `None` where the object has no such part.
+    /// Access to the numbers; `None` where the object lacks the extension or texture they belong
+    /// to.
     pub(crate) numbers_mut: fn(&mut T) -> Option<&mut [f32]>,
 }
 
@@ -42,16 +44,16 @@ const fn property_row<T>(
 const UNIT_RANGE: [f32; 2] = [0.0, 1.0];
 const NON_NEGATIVE: [f32; 2] = [0.0, f32::MAX];
 const UNBOUNDED: [f32; 2] = [f32::MIN, f32::MAX];
-/// A light that gives off more is a mistake, and would leave the range of numbers.
+/// A larger strength is a mistake, and products with it would overflow.
 const EMISSIVE_STRENGTH_RANGE: [f32; 2] = [0.0, 1e6];
-/// What is above zero is at least this.
+/// Zero itself is excluded: the smallest normal number stands for it.
 const STRICTLY_POSITIVE: [f32; 2] = [f32::MIN_POSITIVE, f32::MAX];
 
 fn single_number(number: &mut f32) -> Option<&mut [f32]> {
     Some(std::slice::from_mut(number))
 }
 
-/// The numbers of materials.
+/// Animatable properties of materials.
 #[rustfmt::skip]
 pub(crate) static MATERIAL_PROPERTIES: [PropertyRow<Material>; 30] = [
     property_row("pbrMetallicRoughness/baseColorFactor", 4, UNIT_RANGE, |m| Some(&mut m.base_color)),
@@ -89,7 +91,7 @@ pub(crate) static MATERIAL_PROPERTIES: [PropertyRow<Material>; 30] = [
     property_row("extensions/KHR_materials_anisotropy/anisotropyRotation", 1, UNBOUNDED, |m| single_number(&mut m.extensions.anisotropy.as_mut()?.rotation)),
 ];
 
-/// The numbers of lights.
+/// Animatable properties of lights.
 #[rustfmt::skip]
 pub(crate) static LIGHT_PROPERTIES: [PropertyRow<PunctualLight>; 5] = [
     property_row("color", 3, UNIT_RANGE, |light| Some(&mut light.color)),
@@ -108,7 +110,7 @@ pub(crate) static LIGHT_PROPERTIES: [PropertyRow<PunctualLight>; 5] = [
     }),
 ];
 
-/// The numbers of cameras, one each.
+/// Animatable properties of cameras, one number each; the first four are for perspective cameras.
 const CAMERA_PROPERTIES: [&str; 8] = [
     "perspective/yfov",
     "perspective/aspectRatio",
@@ -121,57 +123,66 @@ const CAMERA_PROPERTIES: [&str; 8] = [
 ];
 
 impl ObjectProperty {
-    /// The field of a material at a JSON pointer (without the first slash) into it.
+    /// The property of a material at a JSON pointer (without the leading slash) into it.
     #[must_use]
     pub fn for_material(path: &str) -> Option<Self> {
         MATERIAL_PROPERTIES.iter().position(|row| row.path == path).map(Self::Material)
     }
 
-    /// The field of a light at a JSON pointer (without the first slash) into it.
+    /// The property of a light at a JSON pointer (without the leading slash) into it.
     #[must_use]
     pub fn for_light(path: &str) -> Option<Self> {
         LIGHT_PROPERTIES.iter().position(|row| row.path == path).map(Self::Light)
     }
 
-    /// The field of a camera at a JSON pointer (without the first slash) into it.
+    /// The property of a camera at a JSON pointer (without the leading slash) into it.
     #[must_use]
     pub fn for_camera(path: &str) -> Option<Self> {
         CAMERA_PROPERTIES.iter().position(|row| *row == path).map(Self::Camera)
     }
 
-    /// The JSON pointer to the field of the material, light or camera with this number.
+    /// JSON pointer to this property of the material, light or camera with an index.
     #[must_use]
     pub fn json_pointer(self, of: usize) -> String {
         let (list, path) = match self {
-            Self::Material(at) => ("materials", MATERIAL_PROPERTIES.get(at).map(|row| row.path)),
-            Self::Light(at) => (
+            Self::Material(row_index) => {
+                ("materials", MATERIAL_PROPERTIES.get(row_index).map(|row| row.path))
+            }
+            Self::Light(row_index) => (
                 "extensions/KHR_lights_punctual/lights",
-                LIGHT_PROPERTIES.get(at).map(|row| row.path),
+                LIGHT_PROPERTIES.get(row_index).map(|row| row.path),
             ),
-            Self::Camera(at) => ("cameras", CAMERA_PROPERTIES.get(at).copied()),
+            Self::Camera(row_index) => ("cameras", CAMERA_PROPERTIES.get(row_index).copied()),
         };
         format!("/{list}/{of}/{}", path.unwrap_or_default())
     }
 
-    /// How many numbers it has.
+    /// Number of components.
     #[must_use]
     pub fn component_count(self) -> usize {
         match self {
-            Self::Material(at) => MATERIAL_PROPERTIES.get(at).map_or(0, |row| row.component_count),
-            Self::Light(at) => LIGHT_PROPERTIES.get(at).map_or(0, |row| row.component_count),
+            Self::Material(row_index) => {
+                MATERIAL_PROPERTIES.get(row_index).map_or(0, |row| row.component_count)
+            }
+            Self::Light(row_index) => {
+                LIGHT_PROPERTIES.get(row_index).map_or(0, |row| row.component_count)
+            }
             Self::Camera(_) => 1,
         }
     }
 }
 
-/// Sets numbers of a table, each brought within its bounds. Nothing happens where the object has none, or not so many.
+/// Sets the numbers of a property, each clamped to its bounds.
+///
+/// `None` where the object lacks the property; values that are not finite or of another length
+/// change nothing.
 fn set_clamped<T>(
     table: &[PropertyRow<T>],
-    at: usize,
+    row_index: usize,
     object: &mut T,
     value: &[f64],
 ) -> Option<()> {
-    let row = table.get(at)?;
+    let row = table.get(row_index)?;
     let numbers = (row.numbers_mut)(object)?;
     if numbers.len() == value.len() && value.iter().all(|x| x.is_finite()) {
         for (number, &value) in numbers.iter_mut().zip(value) {
@@ -182,33 +193,34 @@ fn set_clamped<T>(
 }
 
 impl Material {
-    /// Sets the numbers of a field, brought within their bounds.
-    pub(crate) fn set_property(&mut self, at: usize, value: &[f64]) {
-        set_clamped(&MATERIAL_PROPERTIES, at, self, value);
+    /// Sets a property, clamped to its bounds.
+    pub(crate) fn set_property(&mut self, row_index: usize, value: &[f64]) {
+        set_clamped(&MATERIAL_PROPERTIES, row_index, self, value);
         self.update_derived();
     }
 
-    /// Brings what follows from other numbers in step with them.
+    /// Recomputes fields that follow from others: emitted radiance, valid indices of refraction,
+    /// and the metallic-roughness approximation of specular-glossiness.
     pub(crate) fn update_derived(&mut self) {
         self.emissive = self.emission.scaled_color();
         if self.extensions.ior > 0.0 {
             self.extensions.ior = self.extensions.ior.max(1.0);
         }
-        if let Some(older) = &self.extensions.specular_glossiness {
+        if let Some(spec_gloss) = &self.extensions.specular_glossiness {
             self.metallic = 0.0;
-            self.roughness = 1.0 - older.glossiness;
+            self.roughness = 1.0 - spec_gloss.glossiness;
         }
     }
 }
 
 impl PunctualLight {
-    /// Sets the numbers of a field, brought within their bounds.
-    pub(crate) fn set_property(&mut self, at: usize, value: &[f64]) {
-        set_clamped(&LIGHT_PROPERTIES, at, self, value);
+    /// Sets a property, clamped to its bounds.
+    pub(crate) fn set_property(&mut self, row_index: usize, value: &[f64]) {
+        set_clamped(&LIGHT_PROPERTIES, row_index, self, value);
         self.order_cone_angles();
     }
 
-    /// Keeps the inner angle of a cone below the outer one.
+    /// Restores the invariant inner < outer of a spot light's cone angles.
     pub(crate) fn order_cone_angles(&mut self) {
         if let LightKind::Spot { inner_cone_angle: inner, outer_cone_angle: outer, .. } =
             &mut self.kind
@@ -220,10 +232,10 @@ impl PunctualLight {
 }
 
 impl CameraProjection {
-    /// Sets a number, unless the camera would make no view then.
-    pub(crate) fn set_property(&mut self, at: usize, value: f64) {
+    /// Sets a number, unless the projection would become invalid.
+    pub(crate) fn set_property(&mut self, row_index: usize, value: f64) {
         let mut changed = *self;
-        match (&mut changed, at) {
+        match (&mut changed, row_index) {
             (Self::Perspective { fov_y, .. }, 0) => *fov_y = value,
             (Self::Perspective { aspect, .. }, 1) => *aspect = Some(value),
             (Self::Perspective { near, .. }, 2) | (Self::Orthographic { near, .. }, 6) => {
@@ -241,15 +253,16 @@ impl CameraProjection {
         }
     }
 
-    /// Whether a number of the camera is one of its kind.
+    /// Whether the property belongs to this type of projection.
     pub(crate) fn has_property(&self, field: ObjectProperty) -> bool {
         match (self, field) {
-            (Self::Perspective { .. }, ObjectProperty::Camera(at)) => at < 4,
-            (Self::Orthographic { .. }, ObjectProperty::Camera(at)) => at >= 4,
+            (Self::Perspective { .. }, ObjectProperty::Camera(row_index)) => row_index < 4,
+            (Self::Orthographic { .. }, ObjectProperty::Camera(row_index)) => row_index >= 4,
             _ => false,
         }
     }
 
+    /// Whether the parameters define a view volume.
     fn is_valid(&self) -> bool {
         match *self {
             Self::Perspective { fov_y, aspect, near, far } => {
@@ -274,21 +287,20 @@ mod tests {
     #[test]
     fn every_row_has_as_many_numbers_as_it_says() {
         let mut material = Material::default();
-        let more = &mut material.extensions;
-        more.specular = Some(Box::default());
-        more.volume = Some(Box::new(Volume::default()));
-        more.iridescence = Some(Box::default());
+        let extensions = &mut material.extensions;
+        extensions.specular = Some(Box::default());
+        extensions.volume = Some(Box::new(Volume::default()));
+        extensions.iridescence = Some(Box::default());
         for PropertyRow {
             path,
             component_count: width,
-            bounds: [least, greatest],
+            bounds: [min, max],
             numbers_mut: numbers,
         } in &MATERIAL_PROPERTIES
         {
             if let Some(numbers) = numbers(&mut material) {
                 assert_eq!(numbers.len(), *width, "{path}");
-                let inside =
-                    numbers.iter().all(|x| x >= least && (x <= greatest || x.is_infinite()));
+                let inside = numbers.iter().all(|x| x >= min && (x <= max || x.is_infinite()));
                 assert!(inside, "{path}: the default is out of bounds");
             }
         }
@@ -307,7 +319,7 @@ mod tests {
     fn numbers_stay_within_their_bounds_and_in_step() {
         let mut material = Material::default();
         let field = |path| match ObjectProperty::for_material(path) {
-            Some(ObjectProperty::Material(at)) => at,
+            Some(ObjectProperty::Material(row_index)) => row_index,
             _ => panic!("{path}"),
         };
         material.set_property(field("emissiveFactor"), &[0.5, 2.0, -1.0]);
@@ -332,7 +344,8 @@ mod tests {
         lens.set_property(2, 3.0);
         lens.set_property(3, f64::NAN);
         lens.set_property(7, 9.0);
-        let due = CameraProjection::Perspective { fov_y: 0.5, aspect: None, near: 1.0, far: 2.0 };
-        assert_eq!(lens, due);
+        let expected =
+            CameraProjection::Perspective { fov_y: 0.5, aspect: None, near: 1.0, far: 2.0 };
+        assert_eq!(lens, expected);
     }
 }

@@ -2,12 +2,12 @@
 //!
 //! ```text
 //!  bytes ──container──► JSON ──document──► Root ──model_builder──► Model
-//!                       binary chunk ─┐           │
+//!                       binary chunk ─┐             │
 //!  other files ──uri_resolver──► buffers ─┴─► accessor, elements, images
 //! ```
 //!
-//! The `gltf` crate lends its JSON types and nothing else: its own importer panics on malformed files
-//! and reads any file that a URI names. Here every index, length and size is checked before it is used.
+//! Of the `gltf` crate only the JSON types are used: its own importer panics on malformed files and
+//! reads any file that a URI names.
 
 mod accessor;
 mod animation;
@@ -51,7 +51,8 @@ use container::Container;
 use document::GltfDocument;
 use std::path::Path;
 
-/// Imports a glTF file whose bytes have been read; `path` gives the model its name.
+/// Imports a glTF file whose bytes have been read; the file name in `path` becomes the model's
+/// name.
 pub(crate) fn import_gltf(
     path: &Path,
     bytes: &[u8],

@@ -1,13 +1,13 @@
-//! How much memory the arrays that a file asks for may take.
+//! Memory budget for the arrays that a file asks for: the defense against decompression bombs.
 
 use super::limits::Limits;
 use crate::diagnostic::{Diagnostic, codes};
 use std::cell::Cell;
 
-/// Arrays may take so many bytes however small the files are.
+/// Bytes that arrays may take however small the files are.
 const FREE_ARRAY_BYTES: u64 = 16 << 20;
 
-/// Counts the bytes of all arrays; see [`Limits::array_bytes`] and [`Limits::array_growth`].
+/// Running total of array bytes; see [`Limits::array_bytes`] and [`Limits::array_growth`].
 #[derive(Debug)]
 pub(crate) struct MemoryBudget<'a> {
     limits: &'a Limits,
@@ -19,8 +19,10 @@ impl<'a> MemoryBudget<'a> {
         Self { limits, allocated: Cell::new(0) }
     }
 
-    /// Counts an array that is about to be made. `pointer` is the member that says how long it is, `files` the bytes of
-    /// all files that have been read.
+    /// Counts an array before it is allocated.
+    ///
+    /// `pointer` is the location that declares its length, `files` the bytes of all files read so
+    /// far. The error is [`codes::LIMIT_EXCEEDED`].
     pub(crate) fn charge_bytes(
         &self,
         pointer: &str,
@@ -35,9 +37,9 @@ impl<'a> MemoryBudget<'a> {
             return Err(Diagnostic::limit_exceeded(pointer, &what, "array_bytes", array_bytes));
         }
         if made.saturating_sub(FREE_ARRAY_BYTES) > files.saturating_mul(array_growth) {
-            let problem = format!("{what}, more than {array_growth} times the files");
-            let remedy = Diagnostic::raise_limit_help("array_growth");
-            return Err(Diagnostic::error(codes::LIMIT_EXCEEDED, pointer, problem, &remedy));
+            let message = format!("{what}, more than {array_growth} times the files");
+            let help = Diagnostic::raise_limit_help("array_growth");
+            return Err(Diagnostic::error(codes::LIMIT_EXCEEDED, pointer, message, &help));
         }
         Ok(())
     }

@@ -1,19 +1,20 @@
-//! Selection of a scene or a variant of a file by its name or its index.
+//! Selection of a scene or a variant of a file, by name or by index.
 
 use crate::diagnostic::{Diagnostic, codes};
 
-/// A thing of a file, by name or by number.
+/// A name or an index that selects one of several items.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum NameOrIndex {
-    /// By its place in the file, from 0.
+    /// The index in the file, from 0.
     Index(usize),
-    /// By its name.
+    /// The name in the file.
     Name(String),
 }
 
 impl NameOrIndex {
-    /// The number of the chosen one among things with these names, or why there is none. A number that is too large may
-    /// be a name all the same.
+    /// The index of the selected item among items with these names, or an error that lists them.
+    ///
+    /// An index that is out of range may still be a name made of digits.
     pub(super) fn find_among(
         &self,
         names: &[Option<&str>],
@@ -21,23 +22,23 @@ impl NameOrIndex {
         pointer: &str,
     ) -> Result<usize, Diagnostic> {
         let named = |wanted: &str| names.iter().position(|name| *name == Some(wanted));
-        let (found, wanted) = match self {
+        let (selected, wanted) = match self {
             Self::Index(at) if *at < names.len() => (Some(*at), at.to_string()),
             Self::Index(at) => (named(&at.to_string()), at.to_string()),
             Self::Name(name) => (named(name), name.clone()),
         };
-        found.ok_or_else(|| {
-            let known = names.iter().enumerate().map(|(at, name)| match name {
+        selected.ok_or_else(|| {
+            let available = names.iter().enumerate().map(|(at, name)| match name {
                 Some(name) => format!("{at} `{name}`"),
                 None => at.to_string(),
             });
-            let known: Vec<String> = known.collect();
-            let problem = format!("there is no {what} `{wanted}`");
-            let remedy = match known.as_slice() {
+            let available: Vec<String> = available.collect();
+            let message = format!("there is no {what} `{wanted}`");
+            let help = match available.as_slice() {
                 [] => format!("leave it out: the file has no {what}s"),
-                known => format!("choose one of {}", known.join(", ")),
+                available => format!("choose one of {}", available.join(", ")),
             };
-            Diagnostic::error(codes::NO_SUCH_ITEM, pointer, problem, &remedy)
+            Diagnostic::error(codes::NO_SUCH_ITEM, pointer, message, &help)
         })
     }
 }
@@ -53,11 +54,11 @@ mod tests {
         assert_eq!(among(NameOrIndex::Index(1)), Ok(1));
         assert_eq!(among(NameOrIndex::Index(7)), Ok(2), "a name of digits");
         assert_eq!(among(NameOrIndex::Name("day".to_owned())), Ok(0));
-        let fault = among(NameOrIndex::Name("night".to_owned())).unwrap_err();
-        assert_eq!(fault.code, codes::NO_SUCH_ITEM);
-        assert_eq!(fault.message, "there is no scene `night`");
-        assert_eq!(fault.help.unwrap(), "choose one of 0 `day`, 1, 2 `7`");
-        let fault = NameOrIndex::Index(0).find_among(&[], "variant", "/v").unwrap_err();
-        assert_eq!(fault.help.unwrap(), "leave it out: the file has no variants");
+        let diagnostic = among(NameOrIndex::Name("night".to_owned())).unwrap_err();
+        assert_eq!(diagnostic.code, codes::NO_SUCH_ITEM);
+        assert_eq!(diagnostic.message, "there is no scene `night`");
+        assert_eq!(diagnostic.help.unwrap(), "choose one of 0 `day`, 1, 2 `7`");
+        let diagnostic = NameOrIndex::Index(0).find_among(&[], "variant", "/v").unwrap_err();
+        assert_eq!(diagnostic.help.unwrap(), "leave it out: the file has no variants");
     }
 }

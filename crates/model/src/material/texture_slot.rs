@@ -1,52 +1,52 @@
-//! All places of a material that can have a texture, by name.
+//! Texture slots: every property of a material that can have a texture.
 
 use crate::{Material, TextureInfo};
 
-/// A place of a material that can have a texture.
+/// A property of a material that can have a texture.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum TextureSlot {
-    /// The base colour.
+    /// Base color.
     BaseColor,
     /// Metalness and roughness.
     MetallicRoughness,
-    /// Slopes of the surface.
+    /// Normal map.
     Normal,
-    /// Ambient light that arrives.
+    /// Ambient occlusion.
     Occlusion,
-    /// Light that is given off.
+    /// Emitted light.
     Emissive,
-    /// The strength of highlights.
+    /// Strength of the specular reflection.
     Specular,
-    /// The colour of highlights.
+    /// Color of the specular reflection.
     SpecularColor,
-    /// The diffuse colour of the older model, which is the base colour.
+    /// Diffuse color of the specular-glossiness workflow, stored as the base color.
     Diffuse,
-    /// Reflection and gloss of the older model.
+    /// Specular color and glossiness of the specular-glossiness workflow.
     SpecularGlossiness,
-    /// The share of the clear layer.
+    /// Coverage of the clearcoat.
     Clearcoat,
-    /// The roughness of the clear layer.
+    /// Roughness of the clearcoat.
     ClearcoatRoughness,
-    /// The slopes of the clear layer.
+    /// Normal map of the clearcoat.
     ClearcoatNormal,
-    /// The colour of fibres.
+    /// Color of the sheen.
     SheenColor,
-    /// The roughness of fibres.
+    /// Roughness of the sheen.
     SheenRoughness,
-    /// The share of light that passes.
+    /// Fraction of transmitted light.
     Transmission,
-    /// The thickness of the body.
+    /// Thickness of the volume.
     Thickness,
-    /// The share of the thin film.
+    /// Coverage of the thin film.
     Iridescence,
-    /// The thickness of the thin film.
+    /// Thickness of the thin film.
     IridescenceThickness,
-    /// The direction and strength of long highlights.
+    /// Direction and strength of the anisotropy.
     Anisotropy,
 }
 
 impl TextureSlot {
-    /// Every slot, each with its place in a glTF material: a JSON pointer without the first slash.
+    /// Every slot with its location in a glTF material: a JSON pointer without the leading slash.
     pub const PATHS: [(Self, &'static str); 19] = [
         (Self::BaseColor, "pbrMetallicRoughness/baseColorTexture"),
         (Self::MetallicRoughness, "pbrMetallicRoughness/metallicRoughnessTexture"),
@@ -75,7 +75,7 @@ impl TextureSlot {
         (Self::Anisotropy, "extensions/KHR_materials_anisotropy/anisotropyTexture"),
     ];
 
-    /// Whether the texture's red, green and blue are sRGB codes; alpha never is, nor are numbers that are no colours.
+    /// Whether red, green and blue of the texture are sRGB encoded; alpha never is.
     #[must_use]
     pub const fn is_srgb(self) -> bool {
         matches!(
@@ -89,7 +89,7 @@ impl TextureSlot {
         )
     }
 
-    /// Its place in a glTF material: a JSON pointer without the first slash.
+    /// The slot's location in a glTF material: a JSON pointer without the leading slash.
     #[must_use]
     pub fn json_path(self) -> &'static str {
         Self::PATHS.iter().find(|(slot, _)| *slot == self).map_or("", |(_, path)| path)
@@ -104,8 +104,8 @@ impl Material {
         slots.filter_map(move |slot| Some((slot, *copy.texture_mut(slot)?)))
     }
 
-    /// The textures that the surface shows, each with its slot: their images are decoded. Without light there is only the base
-    /// colour to see, and where a body has no depth, its depth is not.
+    /// Textures that affect the image, each with its slot: only their images are decoded. An unlit
+    /// material shows nothing but its base color.
     pub fn visible_textures(&self) -> impl Iterator<Item = (TextureSlot, TextureInfo)> {
         let unlit = self.unlit;
         self.all_textures().filter(move |(slot, _)| match slot {
@@ -114,36 +114,40 @@ impl Material {
         })
     }
 
-    /// The texture in a slot.
+    /// The texture in a slot, to be changed.
     pub fn texture_mut(&mut self, slot: TextureSlot) -> Option<&mut TextureInfo> {
-        let more = &mut self.extensions;
+        let extensions = &mut self.extensions;
         // The diffuse texture of the older model stands in the place of the base colour's.
-        let older = more.specular_glossiness.is_some();
+        let is_spec_gloss = extensions.specular_glossiness.is_some();
         match slot {
-            TextureSlot::BaseColor => self.base_color_texture.as_mut().filter(|_| !older),
-            TextureSlot::Diffuse => self.base_color_texture.as_mut().filter(|_| older),
+            TextureSlot::BaseColor => self.base_color_texture.as_mut().filter(|_| !is_spec_gloss),
+            TextureSlot::Diffuse => self.base_color_texture.as_mut().filter(|_| is_spec_gloss),
             TextureSlot::MetallicRoughness => self.metallic_roughness_texture.as_mut(),
             TextureSlot::Normal => self.normal_texture.as_mut().map(|normal| &mut normal.texture),
             TextureSlot::Occlusion => self.occlusion_texture.as_mut().map(|used| &mut used.texture),
             TextureSlot::Emissive => self.emissive_texture.as_mut(),
-            TextureSlot::Specular => more.specular.as_mut()?.texture.as_mut(),
-            TextureSlot::SpecularColor => more.specular.as_mut()?.color_texture.as_mut(),
-            TextureSlot::SpecularGlossiness => more.specular_glossiness.as_mut()?.texture.as_mut(),
-            TextureSlot::Clearcoat => more.clearcoat.as_mut()?.texture.as_mut(),
-            TextureSlot::ClearcoatRoughness => more.clearcoat.as_mut()?.roughness_texture.as_mut(),
+            TextureSlot::Specular => extensions.specular.as_mut()?.texture.as_mut(),
+            TextureSlot::SpecularColor => extensions.specular.as_mut()?.color_texture.as_mut(),
+            TextureSlot::SpecularGlossiness => {
+                extensions.specular_glossiness.as_mut()?.texture.as_mut()
+            }
+            TextureSlot::Clearcoat => extensions.clearcoat.as_mut()?.texture.as_mut(),
+            TextureSlot::ClearcoatRoughness => {
+                extensions.clearcoat.as_mut()?.roughness_texture.as_mut()
+            }
             TextureSlot::ClearcoatNormal => {
-                let normal = more.clearcoat.as_mut()?.normal_texture.as_mut();
+                let normal = extensions.clearcoat.as_mut()?.normal_texture.as_mut();
                 normal.map(|normal| &mut normal.texture)
             }
-            TextureSlot::SheenColor => more.sheen.as_mut()?.color_texture.as_mut(),
-            TextureSlot::SheenRoughness => more.sheen.as_mut()?.roughness_texture.as_mut(),
-            TextureSlot::Transmission => more.transmission.as_mut()?.texture.as_mut(),
-            TextureSlot::Thickness => more.volume.as_mut()?.thickness_texture.as_mut(),
-            TextureSlot::Iridescence => more.iridescence.as_mut()?.texture.as_mut(),
+            TextureSlot::SheenColor => extensions.sheen.as_mut()?.color_texture.as_mut(),
+            TextureSlot::SheenRoughness => extensions.sheen.as_mut()?.roughness_texture.as_mut(),
+            TextureSlot::Transmission => extensions.transmission.as_mut()?.texture.as_mut(),
+            TextureSlot::Thickness => extensions.volume.as_mut()?.thickness_texture.as_mut(),
+            TextureSlot::Iridescence => extensions.iridescence.as_mut()?.texture.as_mut(),
             TextureSlot::IridescenceThickness => {
-                more.iridescence.as_mut()?.thickness_texture.as_mut()
+                extensions.iridescence.as_mut()?.thickness_texture.as_mut()
             }
-            TextureSlot::Anisotropy => more.anisotropy.as_mut()?.texture.as_mut(),
+            TextureSlot::Anisotropy => extensions.anisotropy.as_mut()?.texture.as_mut(),
         }
     }
 }

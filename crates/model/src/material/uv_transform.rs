@@ -1,35 +1,36 @@
-//! How a texture lies on its coordinates (KHR_texture_transform), in the parts that animations change.
+//! Texture transforms (KHR_texture_transform): offset, rotation and scale of texture coordinates.
 
 use crate::{TextureInfo, TextureSlot};
 
-/// The transform of the texture in a slot of a material: scale, then rotate, then move.
+/// Transform of the texture in one slot of a material: scale, then rotate, then translate.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct UvTransform {
-    /// The material.
+    /// Index of the material.
     pub material: usize,
-    /// Its slot.
+    /// The slot of the material.
     pub slot: TextureSlot,
-    /// The translation.
+    /// Translation.
     pub offset: [f32; 2],
-    /// The rotation in radians, counter-clockwise in an image whose v points down.
+    /// Rotation in radians, counter-clockwise in an image whose v points down.
     pub rotation: f32,
-    /// The factors.
+    /// Scale factors.
     pub scale: [f32; 2],
 }
 
-/// A part of a [`UvTransform`].
+/// An animatable property of a [`UvTransform`].
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum UvTransformPart {
-    /// The translation, two numbers.
+    /// Translation, two numbers.
     Offset,
-    /// The rotation, one number.
+    /// Rotation, one number.
     Rotation,
-    /// The factors, two numbers.
+    /// Scale factors, two numbers.
     Scale,
 }
 
 impl UvTransform {
-    /// The map it makes: [`TextureUse::uv_map`]. The identity if a number is not finite.
+    /// The composed transform, for [`TextureInfo::uv_matrix`]; the identity if a number is not
+    /// finite.
     #[must_use]
     pub fn to_matrix(&self) -> [[f32; 3]; 2] {
         let ([u, v], [width, height]) = (self.offset, self.scale);
@@ -43,7 +44,7 @@ impl UvTransform {
         }
     }
 
-    /// Sets a part; values of another number of components change nothing.
+    /// Sets a property; a value with the wrong number of components changes nothing.
     pub fn set_part(&mut self, part: UvTransformPart, value: &[f64]) {
         match (part, value) {
             (UvTransformPart::Offset, &[u, v]) => self.offset = [u as f32, v as f32],

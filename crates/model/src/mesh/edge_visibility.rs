@@ -1,43 +1,45 @@
-//! Which edges of a primitive its maker wants to see (EXT_mesh_primitive_edge_visibility, CESIUM_primitive_outline): for
-//! drawings, which otherwise find edges from the shape.
+//! Edge visibility: the edges that a file marks for line drawings
+//! (EXT_mesh_primitive_edge_visibility, CESIUM_primitive_outline).
+//!
+//! Drawings find feature edges from the shape where a file marks none.
 
-/// The edges of the triangles of a primitive.
+/// Marked edges of the triangles of a primitive.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct PrimitiveEdges {
-    /// For each triangle of [`Primitive::indices`](crate::Primitive::indices) its edges from the first corner to the second,
-    /// the second to the third, the third to the first. `None` if the file names visible edges only by `lines`.
+    /// For each triangle of [`Primitive::indices`](crate::Primitive::indices) the visibility of its
+    /// edges 0–1, 1–2 and 2–0. `None` if the file marks edges by `lines` only.
     pub visibility: Option<Vec<[EdgeVisibility; 3]>>,
-    /// Edges that are always seen, as pairs of vertices: outlines and line strings.
+    /// Edges that are always drawn, as pairs of vertices: outlines and line strings.
     pub lines: Vec<EdgeList>,
-    /// The material of the edges; `None` for that of the primitive.
+    /// Material of the edges; `None` for that of the primitive.
     pub material: Option<usize>,
 }
 
-/// Edges with one material.
+/// Always visible edges with one material.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct EdgeList {
-    /// Two vertices for each edge.
+    /// Two vertex indices for each edge.
     pub vertex_pairs: Vec<[u32; 2]>,
-    /// The material; `None` for that of all edges.
+    /// The material; `None` for that of [`PrimitiveEdges::material`].
     pub material: Option<usize>,
 }
 
-/// When an edge is seen, from the least to the most.
+/// Condition under which an edge is drawn, from the least visible to the most.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
 pub enum EdgeVisibility {
     /// Never.
     #[default]
     Hidden,
-    /// Where it parts a triangle that faces the eye from one that does not.
+    /// Where it separates a front face from a back face.
     Silhouette,
     /// Always.
     Hard,
-    /// Always, and another triangle has the same edge as [`Hard`](Self::Hard).
+    /// Always; another triangle has the same edge as [`Hard`](Self::Hard).
     RepeatedHard,
 }
 
 impl EdgeVisibility {
-    /// The visibility that the lowest two bits of a number stand for.
+    /// Decodes the lowest two bits of a byte (EXT_mesh_primitive_edge_visibility).
     #[must_use]
     pub const fn from_bits(bits: u8) -> Self {
         match bits & 3 {

@@ -1,9 +1,12 @@
-//! Tangents of primitives whose file has none, by MikkTSpace, as the specification demands (glTF 2.0 §3.7.2.1).
+//! Tangent generation by MikkTSpace, as glTF 2.0 §3.7.2.1 demands for primitives without tangents.
 //!
-//! The algorithm belongs to triangles and not to vertices: two triangles that share a vertex may need two tangents there
-//! (at a seam of the texture, or where it is mirrored). So there is one for each corner.
-//! Source: M. S. Mikkelsen, *Simulation of Wrinkled Surfaces Revisited*, 2008, in the crate `bevy_mikktspace`, which
-//! works in single precision; its one arccosine is `libm`'s here, so that all machines have the same bits.
+//! Tangents belong to the vertices of triangles and not to shared vertices: two triangles that
+//! share a vertex may need two tangents there, at a seam of the texture or where it is mirrored. So
+//! there is one for each index.
+//!
+//! Source: M. S. Mikkelsen, *Simulation of Wrinkled Surfaces Revisited*, 2008, by the crate
+//! `bevy_mikktspace`, which works in single precision; its one arccosine is `libm`'s here, so that
+//! all machines compute equal bits.
 
 use crate::{Primitive, Topology};
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
@@ -12,33 +15,36 @@ use std::borrow::Cow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 impl Primitive {
-    /// For each corner of each triangle, in the order of [`indices`](Self::indices), the unit tangent and in w the side of the
-    /// bitangent (1 or −1), for a texture that uses a set of texture coordinates.
+    /// Unit tangents for the tangent frame of a normal map, one for each of the
+    /// [`indices`](Self::indices), with the handedness of the bitangent (1 or −1) in w.
     ///
-    /// Flat normals stand in for missing ones. `None` for points and lines, if there is no such set, and for shapes that the
-    /// algorithm gives up on. Those for one set are kept with the primitive: pictures of a film share them.
+    /// `uv_set` is the set of texture coordinates that the normal map uses. Flat normals replace
+    /// missing ones. `None` for points and lines, without such a set, and for shapes that the
+    /// algorithm gives up on. The result for the first set that is asked for is cached with the
+    /// primitive, so that the frames of an animation share it.
     #[must_use]
     pub fn mikktspace_tangents(&self, uv_set: usize) -> Option<Cow<'_, [[f32; 4]]>> {
-        let (kept_set, kept) =
+        let (cached_set, cached) =
             self.derived.tangents.get_or_init(|| (uv_set, self.run_mikktspace(uv_set)));
-        if *kept_set == uv_set {
-            return kept.as_deref().map(Cow::Borrowed);
+        if *cached_set == uv_set {
+            return cached.as_deref().map(Cow::Borrowed);
         }
         self.run_mikktspace(uv_set).map(Cow::Owned)
     }
 
+    /// Runs the algorithm; a panic inside it counts as failure.
     fn run_mikktspace(&self, uv_set: usize) -> Option<Vec<[f32; 4]>> {
         let uvs = self.uvs.get(uv_set).filter(|_| self.topology == Topology::Triangles)?;
         // What has no direction in the texture keeps this one.
         let tangents = vec![[1.0, 0.0, 0.0, 1.0]; self.indices.len()];
-        let mut corners = MikktspaceInput { primitive: self, uvs, tangents };
+        let mut input = MikktspaceInput { primitive: self, uvs, tangents };
         // The crate trusts shapes more than a stranger's file deserves.
-        let done = catch_unwind(AssertUnwindSafe(|| generate_tangents(&mut corners).is_ok()));
-        done.unwrap_or(false).then_some(corners.tangents)
+        let done = catch_unwind(AssertUnwindSafe(|| generate_tangents(&mut input).is_ok()));
+        done.unwrap_or(false).then_some(input.tangents)
     }
 }
 
-/// A primitive as MikkTSpace asks for it.
+/// Adapter that presents a primitive to `bevy_mikktspace` and collects its tangents.
 struct MikktspaceInput<'a> {
     primitive: &'a Primitive,
     uvs: &'a [[f32; 2]],
@@ -46,10 +52,12 @@ struct MikktspaceInput<'a> {
 }
 
 impl MikktspaceInput<'_> {
+    /// The vertex of a triangle's corner 0, 1 or 2.
     fn vertex_index(&self, face: usize, corner: usize) -> usize {
         self.primitive.indices[3 * face + corner] as usize
     }
 
+    /// Geometric normal of a triangle; +z for a degenerate one.
     fn face_normal(&self, face: usize) -> [f32; 3] {
         let corner = |k| self.primitive.positions[self.vertex_index(face, k)].map(f64::from);
         let [a, b, c] = [0, 1, 2].map(|k| DVec3::from(corner(k)));
@@ -75,8 +83,8 @@ impl Geometry<PortableMath> for MikktspaceInput<'_> {
         self.primitive.normals.as_ref().map_or_else(|| self.face_normal(face), |all| all[vertex])
     }
 
-    /// MikkTSpace has v upwards, glTF downwards; with the sign turned, bitangents point up in the image, as normal
-    /// textures mean them.
+    /// MikkTSpace has v upwards, glTF downwards: with v negated, bitangents point up in the image,
+    /// as normal maps mean them.
     fn tex_coord(&self, face: usize, corner: usize) -> [f32; 2] {
         let [u, v] = self.uvs[self.vertex_index(face, corner)];
         [u, -v]
@@ -89,7 +97,7 @@ impl Geometry<PortableMath> for MikktspaceInput<'_> {
     }
 }
 
-/// The functions that have the same bits on all machines.
+/// Square root and arccosine with equal bits on all machines.
 struct PortableMath;
 
 impl Ops for PortableMath {
@@ -133,9 +141,9 @@ mod tests {
         ] {
             let square = textured_square(uvs);
             let tangents = square.mikktspace_tangents(0).unwrap();
-            for found in tangents.iter() {
-                let near = found.iter().zip(tangent).all(|(a, b): (_, f32)| (a - b).abs() < 1e-6);
-                assert!(near, "{uvs:?}: {found:?}");
+            for actual in tangents.iter() {
+                let near = actual.iter().zip(tangent).all(|(a, b): (_, f32)| (a - b).abs() < 1e-6);
+                assert!(near, "{uvs:?}: {actual:?}");
             }
             assert_eq!(tangents.len(), 6);
             let derived = DerivedData::default();
@@ -158,7 +166,7 @@ mod tests {
             Primitive { uvs: vec![along_x.to_vec(), along_y.to_vec()], ..textured_square(along_x) };
         let first = both.mikktspace_tangents(0).unwrap();
         assert!(
-            matches!(both.mikktspace_tangents(0), Some(Cow::Borrowed(kept)) if kept == &*first)
+            matches!(both.mikktspace_tangents(0), Some(Cow::Borrowed(cached)) if cached == &*first)
         );
         assert_eq!(both.mikktspace_tangents(1), textured_square(along_y).mikktspace_tangents(0));
         assert_ne!(both.mikktspace_tangents(1).unwrap(), first);

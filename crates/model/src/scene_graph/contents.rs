@@ -1,15 +1,17 @@
-//! What the shown scene of a model consists of, and how much room it takes.
+//! Contents of the active scene: primitives, points and bounding boxes, after skinning and
+//! morphing.
 
 use crate::{MeshInstance, Model, Primitive, SceneRoots, SkinnedPrimitive};
 use glam::DVec3;
 use homog::{Bounds, Model as ModelSpace, Point};
 
 impl Model {
-    /// The primitives of the shown scene, as often as they are shown, each with its place.
+    /// The primitives of the active scene, each once for every instance of its mesh.
     pub fn scene_primitives(&self) -> impl Iterator<Item = (MeshInstance, &Primitive)> {
         self.primitives_below(&self.roots)
     }
 
+    /// Primitives of the meshes at the given nodes and their descendants.
     fn primitives_below(
         &self,
         roots: &[usize],
@@ -21,7 +23,7 @@ impl Model {
         })
     }
 
-    /// The places of all vertices that some shown point, line or triangle uses, as the nodes stand.
+    /// Positions of all vertices that a visible point, line or triangle uses, in the current pose.
     #[must_use]
     pub fn scene_points(&self) -> Vec<Point<ModelSpace>> {
         let mut points = Vec::new();
@@ -29,11 +31,13 @@ impl Model {
         points
     }
 
-    /// Calls `visit` with each of the [`shown_points`](Self::shown_points), in their order, without a list of them all.
+    /// Calls `visit` with each of the [`scene_points`](Self::scene_points), without collecting
+    /// them.
     pub fn for_each_scene_point(&self, visit: impl FnMut(Point<ModelSpace>)) {
         self.for_each_point_below(&self.roots, visit);
     }
 
+    /// Calls `visit` with the deformed position of every used vertex at the given nodes and below.
     fn for_each_point_below(&self, roots: &[usize], mut visit: impl FnMut(Point<ModelSpace>)) {
         for (instance, primitive) in self.primitives_below(roots) {
             let SkinnedPrimitive { positions, to_model, .. } =
@@ -45,13 +49,17 @@ impl Model {
         }
     }
 
-    /// The box around everything that is shown, along the model's axes; `None` if nothing is.
+    /// Axis-aligned bounding box of the active scene in model space; `None` if nothing is visible.
     #[must_use]
     pub fn bounds(&self) -> Option<Bounds<ModelSpace>> {
         self.bounds_below(&self.roots)
     }
 
-    /// The box around a scene of the file, as the nodes stand.
+    /// Axis-aligned bounding box of a scene of the file in the current pose; `None` if it shows
+    /// nothing.
+    ///
+    /// Unlike [`bounds`](Self::bounds) this works for scenes that are not active, whose root
+    /// indices have not been checked: those out of range are skipped.
     #[must_use]
     pub fn scene_bounds(&self, scene: &SceneRoots) -> Option<Bounds<ModelSpace>> {
         let exists = |node: &usize| *node < self.nodes.len();
@@ -59,6 +67,7 @@ impl Model {
         self.bounds_below(&roots)
     }
 
+    /// Bounding box of everything at the given nodes and below.
     fn bounds_below(&self, roots: &[usize]) -> Option<Bounds<ModelSpace>> {
         let mut extent: Option<[DVec3; 2]> = None;
         self.for_each_point_below(roots, |point| {
@@ -69,7 +78,7 @@ impl Model {
     }
 }
 
-/// For each vertex of a primitive, whether some item uses it.
+/// For each vertex of a primitive, whether some index refers to it.
 fn used_vertices(primitive: &Primitive) -> Vec<bool> {
     let mut used = vec![false; primitive.positions.len()];
     for &index in &primitive.indices {

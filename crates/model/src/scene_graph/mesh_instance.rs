@@ -1,65 +1,69 @@
-//! Instances: the nodes of the shown scene, each with its place in the model.
+//! Mesh instances: traversal of the active scene's nodes with their global transforms.
 
 use crate::Model;
 use homog::{Affine, Model as ModelSpace};
 
-/// A node of the shown scene with the product of all transforms above it.
+/// A node of the active scene with its global transform: one occurrence of the mesh, camera or
+/// light that the node carries.
 #[derive(Clone, Copy, Debug)]
 pub struct MeshInstance {
-    /// The node's number.
+    /// Index of the node in [`Model::nodes`].
     pub node: usize,
-    /// From the node's coordinates to the model's.
+    /// From the node's coordinates to the model's; for an instanced mesh, from the instance's.
     pub node_to_model: Affine<ModelSpace, ModelSpace>,
 }
 
 impl Model {
-    /// All nodes of the shown scene, parents before their children, in the order of the file.
+    /// All nodes of the active scene, parents before their children, otherwise in the order of the
+    /// file.
     ///
-    /// The walk keeps its own stack, so that no depth of the tree can exhaust the program's.
+    /// The traversal keeps its own stack, so that a deep hierarchy cannot exhaust the thread's.
     #[must_use]
     pub fn node_instances(&self) -> Vec<MeshInstance> {
         self.instances_below(&self.roots)
     }
 
-    /// These nodes and all below them.
+    /// The given nodes and all their descendants.
     pub(super) fn instances_below(&self, roots: &[usize]) -> Vec<MeshInstance> {
-        let mut found = Vec::new();
-        let mut open: Vec<MeshInstance> =
+        let mut instances = Vec::new();
+        let mut stack: Vec<MeshInstance> =
             roots.iter().rev().map(|&node| self.child_instance(node, Affine::IDENTITY)).collect();
-        while let Some(instance) = open.pop() {
+        while let Some(instance) = stack.pop() {
             let children = &self.nodes[instance.node].children;
-            open.extend(
+            stack.extend(
                 children.iter().rev().map(|&n| self.child_instance(n, instance.node_to_model)),
             );
-            found.push(instance);
+            instances.push(instance);
         }
-        found
+        instances
     }
 
-    /// The instances of nodes with meshes, one for each time that a mesh is shown.
+    /// Nodes of the active scene that have a mesh, once for each instance of the mesh
+    /// (EXT_mesh_gpu_instancing).
     pub fn mesh_instances(&self) -> impl Iterator<Item = MeshInstance> {
         self.mesh_instances_below(&self.roots)
     }
 
-    /// The instances of nodes with meshes among these nodes and those below them, one for each time that a mesh is shown.
+    /// Mesh instances among the given nodes and their descendants.
     pub(super) fn mesh_instances_below(
         &self,
         roots: &[usize],
     ) -> impl Iterator<Item = MeshInstance> {
         let instances = self.instances_below(roots).into_iter();
         let meshes = instances.filter(|at| self.nodes[at.node].mesh.is_some());
-        meshes.flat_map(|here| {
-            let places = self.nodes[here.node].instance_transforms.as_deref();
-            let once = places.is_none().then_some(here);
-            let often = places.unwrap_or(&[]).iter();
-            once.into_iter().chain(often.map(move |place| MeshInstance {
-                node_to_model: place.then(here.node_to_model),
-                ..here
+        meshes.flat_map(|node_instance| {
+            let transforms = self.nodes[node_instance.node].instance_transforms.as_deref();
+            let single = transforms.is_none().then_some(node_instance);
+            let instanced = transforms.unwrap_or(&[]).iter();
+            single.into_iter().chain(instanced.map(move |transform| MeshInstance {
+                node_to_model: transform.then(node_instance.node_to_model),
+                ..node_instance
             }))
         })
     }
 
-    fn child_instance(&self, node: usize, above: Affine<ModelSpace, ModelSpace>) -> MeshInstance {
-        MeshInstance { node, node_to_model: self.nodes[node].to_parent.then(above) }
+    /// The node with its local transform concatenated to that of its parent.
+    fn child_instance(&self, node: usize, parent: Affine<ModelSpace, ModelSpace>) -> MeshInstance {
+        MeshInstance { node, node_to_model: self.nodes[node].to_parent.then(parent) }
     }
 }

@@ -1,21 +1,22 @@
-//! A node's transform in the parts that animations move.
+//! TRS properties: a node's local transform as translation, rotation and scale.
 
 use glam::DVec3;
 use homog::{Affine, Model as ModelSpace, Vector};
 
-/// Scale, then rotate, then move.
+/// Translation, rotation and scale, applied as M = T · R · S: scale first, then rotate, then
+/// translate (glTF 2.0 §3.5.2).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Trs {
-    /// The translation.
+    /// Translation along x, y and z.
     pub translation: [f64; 3],
-    /// The rotation as a quaternion x, y, z, w.
+    /// Rotation as a quaternion x, y, z, w; it need not be normalized.
     pub rotation: [f64; 4],
-    /// The factors along the axes.
+    /// Scale factors along x, y and z.
     pub scale: [f64; 3],
 }
 
 impl Trs {
-    /// The map they make together; `None` if the quaternion is no rotation or a number is not finite.
+    /// The composed transform; `None` if the quaternion is zero or the result is not finite.
     #[must_use]
     pub fn to_affine(&self) -> Option<Affine<ModelSpace, ModelSpace>> {
         let [x, y, z] = self.scale;

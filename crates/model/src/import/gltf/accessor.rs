@@ -1,9 +1,10 @@
-//! Accessors: where the numbers of an attribute lie, checked once so that reading them cannot fail.
+//! Accessors: typed views into buffers, checked once so that reading their elements cannot fail.
 //!
-//! An accessor says: from this byte on, so many elements, each of so many components of such a type, one element every
-//! so many bytes. All of that is the file's claim. [`Source::elements`] checks it in 64-bit arithmetic against the
-//! bytes there are. Arrays are made by [`Source::floats`] and its like, which count what they make: an accessor without
-//! bytes (zeros, by the specification), or the same bytes used a thousand times, must not take all memory.
+//! An accessor claims: from this byte on, so many elements of such a type, one every so many bytes
+//! (glTF 2.0 §3.6.2). [`AccessorReader::resolve_accessor`] checks the claim in 64-bit arithmetic
+//! against the bytes there are. Arrays are made by [`AccessorReader::read_floats`] and its
+//! siblings, which charge the memory budget: an accessor without bytes (zeros, by the
+//! specification), or the same bytes used a thousand times, must not exhaust memory.
 
 use super::buffers::{Buffers, checked_slice};
 use super::elements::{ResolvedAccessor, SparseElements, StridedBytes};
@@ -13,7 +14,7 @@ use gltf::json::Root;
 use gltf::json::accessor::{Accessor, ComponentType, IndexComponentType, Type, sparse};
 use gltf::json::validation::Checked;
 
-/// The file's accessors.
+/// Reader of the file's accessors.
 pub(super) struct AccessorReader<'a> {
     pub(super) root: &'a Root,
     pub(super) buffers: &'a Buffers<'a>,
@@ -25,7 +26,10 @@ impl<'a> AccessorReader<'a> {
         Self { root, buffers, limits }
     }
 
-    /// The elements of an accessor. `user` is the pointer to the member that names it.
+    /// Resolves an accessor to its bytes. `user` is the pointer to the member that refers to it.
+    ///
+    /// # Errors
+    /// The accessor does not exist, has an invalid type, or its elements are not all in the buffer.
     pub(super) fn resolve_accessor(
         &self,
         accessor: usize,
@@ -45,14 +49,14 @@ impl<'a> AccessorReader<'a> {
         let block =
             ElementLayout { pointer: &pointer, count, size: element_size(component, shape) };
         let offset = json.byte_offset.unwrap_or_default().0;
-        let run = json
+        let data = json
             .buffer_view
             .map(|view| self.strided_bytes(view.value(), offset, block))
             .transpose()?;
         let sparse = json.sparse.as_ref().map(|json| self.resolve_sparse(json, accessor, block));
         Ok(ResolvedAccessor {
             accessor,
-            data: run,
+            data,
             sparse: sparse.transpose()?,
             first: 0,
             count,
@@ -62,7 +66,7 @@ impl<'a> AccessorReader<'a> {
         })
     }
 
-    /// Whether an accessor exists and has no bytes.
+    /// Whether an accessor exists and has no bytes: neither a buffer view nor sparse values.
     pub(super) fn has_no_data(&self, accessor: usize) -> bool {
         let json = self.root.accessors.get(accessor);
         json.is_some_and(|json| json.buffer_view.is_none() && json.sparse.is_none())
@@ -71,28 +75,31 @@ impl<'a> AccessorReader<'a> {
     /// The first `N` components of every element as floats.
     pub(super) fn read_floats<const N: usize>(
         &self,
-        of: &ResolvedAccessor<'_>,
+        elements: &ResolvedAccessor<'_>,
     ) -> Result<Vec<[f32; N]>, Diagnostic> {
-        self.charge_array(of.accessor, of.count, 4 * N)?;
-        Ok(of.to_floats())
+        self.charge_array(elements.accessor, elements.count, 4 * N)?;
+        Ok(elements.to_floats())
     }
 
     /// The first `N` components of every element as unsigned shorts.
     pub(super) fn read_u16s<const N: usize>(
         &self,
-        of: &ResolvedAccessor<'_>,
+        elements: &ResolvedAccessor<'_>,
     ) -> Result<Vec<[u16; N]>, Diagnostic> {
-        self.charge_array(of.accessor, of.count, 2 * N)?;
-        Ok(of.to_u16s())
+        self.charge_array(elements.accessor, elements.count, 2 * N)?;
+        Ok(elements.to_u16s())
     }
 
     /// The elements as indices.
-    pub(super) fn read_indices(&self, of: &ResolvedAccessor<'_>) -> Result<Vec<u32>, Diagnostic> {
-        self.charge_array(of.accessor, of.count, 4)?;
-        Ok(of.to_indices())
+    pub(super) fn read_indices(
+        &self,
+        elements: &ResolvedAccessor<'_>,
+    ) -> Result<Vec<u32>, Diagnostic> {
+        self.charge_array(elements.accessor, elements.count, 4)?;
+        Ok(elements.to_indices())
     }
 
-    /// Counts an array that is about to be made of an accessor.
+    /// Charges the memory budget for an array that is about to be made of an accessor.
     pub(super) fn charge_array(
         &self,
         accessor: usize,
@@ -103,7 +110,7 @@ impl<'a> AccessorReader<'a> {
         self.buffers.charge_bytes(&format!("/accessors/{accessor}/count"), bytes)
     }
 
-    /// The bytes of a block from an offset in a buffer view on.
+    /// The bytes of elements that begin at an offset in a buffer view.
     fn strided_bytes(
         &self,
         view: usize,
@@ -113,8 +120,8 @@ impl<'a> AccessorReader<'a> {
         let view = self.buffers.buffer_view(view, &format!("{}/bufferView", block.pointer))?;
         let stride = view.stride.unwrap_or(block.size);
         if stride < block.size && block.count > 1 {
-            let problem = format!("the stride is {stride}, an element has {} bytes", block.size);
-            return Err(Diagnostic::invalid(&format!("{}/byteStride", view.pointer), problem));
+            let message = format!("the stride is {stride}, an element has {} bytes", block.size);
+            return Err(Diagnostic::invalid(&format!("{}/byteStride", view.pointer), message));
         }
         let stride = stride.max(block.size);
         let gaps = (block.count as u64).saturating_sub(1).saturating_mul(stride as u64);
@@ -122,16 +129,17 @@ impl<'a> AccessorReader<'a> {
         match checked_slice(view.bytes, offset, length) {
             Some(bytes) => Ok(StridedBytes { bytes, stride }),
             None => {
-                let (count, pointer, there) = (block.count, view.pointer, view.bytes.len());
-                let problem = format!(
-                    "{count} elements from byte {offset} on need {length} bytes, and {pointer} has {there}"
+                let (count, pointer, available) = (block.count, view.pointer, view.bytes.len());
+                let message = format!(
+                    "{count} elements from byte {offset} on need {length} bytes, and {pointer} has {available}"
                 );
-                Err(Diagnostic::invalid(block.pointer, problem))
+                Err(Diagnostic::invalid(block.pointer, message))
             }
         }
     }
 
-    /// The elements that replace some of the `base`.
+    /// Resolves a sparse accessor: indices and values of the elements that replace some of the
+    /// `base` (glTF 2.0 §3.6.2.3).
     fn resolve_sparse(
         &self,
         json: &sparse::Sparse,
@@ -141,8 +149,8 @@ impl<'a> AccessorReader<'a> {
         let count = usize::try_from(json.count.0).unwrap_or(usize::MAX);
         let pointer = format!("{}/sparse/indices", base.pointer);
         let Checked::Valid(IndexComponentType(component)) = json.indices.component_type else {
-            let problem = "the component type is not one of 5121, 5123 and 5125";
-            return Err(Diagnostic::invalid(&format!("{pointer}/componentType"), problem));
+            let message = "the component type is not one of 5121, 5123 and 5125";
+            return Err(Diagnostic::invalid(&format!("{pointer}/componentType"), message));
         };
         let block = ElementLayout { pointer: &pointer, count, size: component.size() };
         let (view, offset) = (json.indices.buffer_view.value(), json.indices.byte_offset.0);
@@ -157,8 +165,8 @@ impl<'a> AccessorReader<'a> {
             normalized: false,
         })?;
         if let Some(&index) = indices.iter().find(|&&index| index as usize >= base.count) {
-            let problem = format!("element {index} is to be replaced and there are {}", base.count);
-            return Err(Diagnostic::invalid(&pointer, problem));
+            let message = format!("element {index} is to be replaced and there are {}", base.count);
+            return Err(Diagnostic::invalid(&pointer, message));
         }
         let pointer = format!("{}/sparse/values", base.pointer);
         let block = ElementLayout { pointer: &pointer, count, size: base.size };
@@ -167,7 +175,8 @@ impl<'a> AccessorReader<'a> {
     }
 }
 
-/// What a run must hold: so many elements of such a size; `pointer` says who wants them.
+/// Number and size of the elements that must be present; `pointer` is the location that declares
+/// them.
 #[derive(Clone, Copy)]
 struct ElementLayout<'a> {
     pointer: &'a str,
@@ -175,20 +184,21 @@ struct ElementLayout<'a> {
     size: usize,
 }
 
+/// Component type and element type.
 fn accessor_format(json: &Accessor, pointer: &str) -> Result<(ComponentType, Type), Diagnostic> {
     let Checked::Valid(component) = json.component_type else {
-        let problem = "the component type is not one of 5120, 5121, 5122, 5123, 5125 and 5126";
-        return Err(Diagnostic::invalid(&format!("{pointer}/componentType"), problem));
+        let message = "the component type is not one of 5120, 5121, 5122, 5123, 5125 and 5126";
+        return Err(Diagnostic::invalid(&format!("{pointer}/componentType"), message));
     };
     let Checked::Valid(shape) = json.type_ else {
-        let problem = "the type is not one of SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 and MAT4";
-        return Err(Diagnostic::invalid(&format!("{pointer}/type"), problem));
+        let message = "the type is not one of SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 and MAT4";
+        return Err(Diagnostic::invalid(&format!("{pointer}/type"), message));
     };
     Ok((component.0, shape))
 }
 
-/// The bytes of an element. Columns of matrices begin at multiples of four (glTF 2.0 §3.6.2.4), which makes a
-/// difference for small matrices of small integers.
+/// Size of an element in bytes. Columns of matrices begin at multiples of four (glTF 2.0 §3.6.2.4),
+/// which makes a difference for small matrices of small integers.
 fn element_size(component: ComponentType, shape: Type) -> usize {
     let column = |rows: usize| (rows * component.size()).next_multiple_of(4);
     match shape {

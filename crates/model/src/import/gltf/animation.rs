@@ -1,4 +1,5 @@
-//! Animations: key times and values become curves. A channel that cannot be used is left out with a warning.
+//! Animations: channels and samplers become keyframe curves; invalid channels are left out with a
+//! warning.
 
 use super::accessor::AccessorReader;
 use super::animation_pointer::{self, ChannelValueKind};
@@ -17,7 +18,7 @@ use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::animation::{Interpolation as JsonInterpolation, Property as JsonProperty};
 use gltf::json::validation::Checked;
 
-/// What channels can change, and where textures get their transforms from.
+/// Objects that channels can change, and the list of texture transforms that they need.
 pub(super) struct AnimatedObjects<'a> {
     pub(super) nodes: &'a [Node],
     pub(super) materials: &'a mut [Material],
@@ -38,8 +39,8 @@ pub(super) fn import_animations(
         let mut channels = Vec::with_capacity(json.channels.len());
         let reader = AnimationReader { source, samplers: &json.samplers, animation: at };
         let mut keep = |read: Result<AnimationChannel, Diagnostic>| match read {
-            Err(fault) if fault.is_downgradable() => {
-                warnings.downgrade(&fault, "the channel is left out");
+            Err(diagnostic) if diagnostic.is_downgradable() => {
+                warnings.downgrade(&diagnostic, "the channel is left out");
                 Ok(())
             }
             read => read.map(|channel| channels.push(channel)),
@@ -58,6 +59,7 @@ pub(super) fn import_animations(
     Ok(animations)
 }
 
+/// Reader of the channels of one animation.
 struct AnimationReader<'a> {
     source: &'a AccessorReader<'a>,
     samplers: &'a [json::animation::Sampler],
@@ -65,6 +67,7 @@ struct AnimationReader<'a> {
 }
 
 impl AnimationReader<'_> {
+    /// Reads a channel that targets a node.
     fn read_channel(
         &self,
         nodes: &[Node],
@@ -87,15 +90,15 @@ impl AnimationReader<'_> {
             }
         };
         if property != NodeProperty::Weights && target.trs.is_none() {
-            let problem = format!("node {node} has a matrix, which cannot be animated");
-            return Err(Diagnostic::invalid(&format!("{pointer}/target/node"), problem));
+            let message = format!("node {node} has a matrix, which cannot be animated");
+            return Err(Diagnostic::invalid(&format!("{pointer}/target/node"), message));
         }
         let kind = ChannelValueKind::for_property(property);
         let curve = self.read_sampler(json.sampler.value(), kind, &format!("{pointer}/sampler"))?;
         Ok(AnimationChannel { target: AnimationTarget::Node { node, property }, curve })
     }
 
-    /// A channel that names its target by a pointer.
+    /// Reads a channel that names its target by a JSON pointer (KHR_animation_pointer).
     fn read_pointer_channel(
         &self,
         targets: &mut AnimatedObjects<'_>,
@@ -106,14 +109,14 @@ impl AnimationReader<'_> {
             animation_pointer::resolve_pointer(self.source.root, targets, &json.target)
         else {
             let pointer = format!("{pointer}/target/extensions/KHR_animation_pointer/pointer");
-            let problem = format!("\"{}\" is nothing that can be animated here", json.target);
-            return Err(Diagnostic::invalid(&pointer, problem));
+            let message = format!("\"{}\" is nothing that can be animated here", json.target);
+            return Err(Diagnostic::invalid(&pointer, message));
         };
         let curve = self.read_sampler(json.sampler, kind, &format!("{pointer}/sampler"))?;
         Ok(AnimationChannel { target, curve })
     }
 
-    /// The curve of a sampler; `pointer` is the member that names it.
+    /// The curve of a sampler; `pointer` is the member that refers to it.
     fn read_sampler(
         &self,
         sampler: usize,
@@ -131,6 +134,7 @@ impl AnimationReader<'_> {
         self.read_curve(json, kind, &format!("/animations/{}/samplers/{sampler}", self.animation))
     }
 
+    /// Reads keyframes and values, and checks that their numbers agree.
     fn read_curve(
         &self,
         json: &json::animation::Sampler,
@@ -176,17 +180,17 @@ impl AnimationReader<'_> {
             ChannelValueKind::Numbers(width) => width,
         };
         if values.len() != rows * width || width == 0 {
-            let problem = format!(
+            let message = format!(
                 "{} numbers are not enough, or too many, for {} keys",
                 values.len(),
                 times.len()
             );
-            return Err(Diagnostic::invalid(&pointer, problem));
+            return Err(Diagnostic::invalid(&pointer, message));
         }
         Ok(AnimationCurve { interpolation, times, values, components: width })
     }
 
-    /// The times of the keys: at least one, finite, rising.
+    /// Times of the keyframes: at least one, finite, strictly increasing.
     fn read_key_times(&self, accessor: usize, pointer: &str) -> Result<Vec<f32>, Diagnostic> {
         let elements = self.source.resolve_accessor(accessor, pointer)?;
         if (elements.element_type, elements.component_type) != (Type::Scalar, ComponentType::F32) {
@@ -200,6 +204,7 @@ impl AnimationReader<'_> {
         Ok(times)
     }
 
+    /// Values as one flat array of finite numbers.
     fn read_values<const N: usize>(
         &self,
         accessor: usize,

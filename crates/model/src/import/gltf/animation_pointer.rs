@@ -1,5 +1,7 @@
-//! What a JSON pointer of an animation means (KHR_animation_pointer): a node's transform or weights, a number of a
-//! material, light or camera, the transform of a texture.
+//! Animation pointers (KHR_animation_pointer): resolves a JSON pointer to the property it animates.
+//!
+//! Supported are transforms and weights of nodes, numbers of materials, lights and cameras, and
+//! texture transforms.
 
 use super::animation::AnimatedObjects;
 use super::material::texture_transform;
@@ -7,21 +9,21 @@ use crate::animation::object_model::{LIGHT_PROPERTIES, MATERIAL_PROPERTIES};
 use crate::{AnimationTarget, NodeProperty, ObjectProperty, TextureSlot, UvTransformPart};
 use gltf::json::Root;
 
-/// What the values of a channel are.
+/// Type of a channel's values.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum ChannelValueKind {
-    /// Translations or scales.
+    /// Three floats.
     TranslationOrScale,
     /// Quaternions.
     Rotation,
-    /// As many weights as there are.
+    /// All morph weights, as many as there are.
     Weights,
-    /// So many numbers.
+    /// A fixed number of components.
     Numbers(usize),
 }
 
 impl ChannelValueKind {
-    /// What the values of a property of a node are.
+    /// The type of the values of a node's property.
     pub(super) fn for_property(property: NodeProperty) -> Self {
         match property {
             NodeProperty::Translation | NodeProperty::Scale => Self::TranslationOrScale,
@@ -31,7 +33,8 @@ impl ChannelValueKind {
     }
 }
 
-/// The target of a pointer and what its values are; `None` if there is no such thing, or none that changes here.
+/// The target of a pointer and the type of its values; `None` if nothing that can be animated is
+/// there.
 pub(super) fn resolve_pointer(
     root: &Root,
     targets: &mut AnimatedObjects<'_>,
@@ -39,34 +42,34 @@ pub(super) fn resolve_pointer(
 ) -> Option<(AnimationTarget, ChannelValueKind)> {
     let lights = pointer.strip_prefix("/extensions/KHR_lights_punctual");
     let mut steps = lights.unwrap_or(pointer).strip_prefix('/')?.splitn(3, '/');
-    let (list, at, path) = (steps.next()?, parse_index(steps.next()?)?, steps.next()?);
+    let (list, index, path) = (steps.next()?, parse_index(steps.next()?)?, steps.next()?);
     match (list, lights) {
-        ("nodes", None) => node_target(root, targets, at, path),
+        ("nodes", None) => node_target(root, targets, index, path),
         ("meshes", None) => {
-            let target = morph_target_index(root, at, path)?;
+            let target = morph_target_index(root, index, path)?;
             let kind = if target.is_some() {
                 ChannelValueKind::Numbers(1)
             } else {
                 ChannelValueKind::Weights
             };
-            Some((AnimationTarget::MeshMorphWeights { mesh: at, target }, kind))
+            Some((AnimationTarget::MeshMorphWeights { mesh: index, target }, kind))
         }
-        ("materials", None) => material_target(targets, at, path)
-            .or_else(|| texture_transform_target(root, targets, at, path)),
+        ("materials", None) => material_target(targets, index, path)
+            .or_else(|| texture_transform_target(root, targets, index, path)),
         ("cameras", None) => {
             let field = ObjectProperty::for_camera(path)?;
-            let kind = &targets.cameras.get(at)?.projection;
+            let kind = &targets.cameras.get(index)?.projection;
             kind.has_property(field).then_some((
-                AnimationTarget::ObjectProperty { property: field, index: at },
+                AnimationTarget::ObjectProperty { property: field, index },
                 ChannelValueKind::Numbers(1),
             ))
         }
         ("lights", Some(_)) => {
             let field = ObjectProperty::for_light(path)?;
             let ObjectProperty::Light(row) = field else { return None };
-            (LIGHT_PROPERTIES.get(row)?.numbers_mut)(&mut targets.lights.get(at)?.clone())?;
+            (LIGHT_PROPERTIES.get(row)?.numbers_mut)(&mut targets.lights.get(index)?.clone())?;
             Some((
-                AnimationTarget::ObjectProperty { property: field, index: at },
+                AnimationTarget::ObjectProperty { property: field, index },
                 ChannelValueKind::Numbers(field.component_count()),
             ))
         }
@@ -74,18 +77,19 @@ pub(super) fn resolve_pointer(
     }
 }
 
-/// A number of a JSON pointer: digits only.
+/// An index in a JSON pointer: digits only.
 fn parse_index(step: &str) -> Option<usize> {
     step.bytes().all(|byte| byte.is_ascii_digit()).then(|| step.parse().ok())?
 }
 
+/// A property or a single morph weight of a node.
 fn node_target(
     root: &Root,
     targets: &AnimatedObjects<'_>,
-    at: usize,
+    index: usize,
     path: &str,
 ) -> Option<(AnimationTarget, ChannelValueKind)> {
-    let node = targets.nodes.get(at)?;
+    let node = targets.nodes.get(index)?;
     let property = match path {
         "translation" => NodeProperty::Translation,
         "rotation" => NodeProperty::Rotation,
@@ -94,19 +98,19 @@ fn node_target(
         _ => {
             let target = morph_target_index(root, node.mesh?, path)??;
             return Some((
-                AnimationTarget::NodeMorphWeight { node: at, target },
+                AnimationTarget::NodeMorphWeight { node: index, target },
                 ChannelValueKind::Numbers(1),
             ));
         }
     };
     let fits = property == NodeProperty::Weights || node.trs.is_some();
     fits.then_some((
-        AnimationTarget::Node { node: at, property },
+        AnimationTarget::Node { node: index, property },
         ChannelValueKind::for_property(property),
     ))
 }
 
-/// The morph target of a mesh that `weights/N` means, or all of them for `weights`.
+/// Morph target of `weights/N`, or `None` inside for `weights`, which means all of them.
 fn morph_target_index(root: &Root, mesh: usize, path: &str) -> Option<Option<usize>> {
     let mesh = root.meshes.get(mesh)?;
     if path == "weights" {
@@ -118,25 +122,27 @@ fn morph_target_index(root: &Root, mesh: usize, path: &str) -> Option<Option<usi
     (target < count).then_some(Some(target))
 }
 
+/// A numeric property of a material.
 fn material_target(
     targets: &mut AnimatedObjects<'_>,
-    at: usize,
+    index: usize,
     path: &str,
 ) -> Option<(AnimationTarget, ChannelValueKind)> {
     let field = ObjectProperty::for_material(path)?;
     let ObjectProperty::Material(row) = field else { return None };
-    (MATERIAL_PROPERTIES.get(row)?.numbers_mut)(targets.materials.get_mut(at)?)?;
+    (MATERIAL_PROPERTIES.get(row)?.numbers_mut)(targets.materials.get_mut(index)?)?;
     Some((
-        AnimationTarget::ObjectProperty { property: field, index: at },
+        AnimationTarget::ObjectProperty { property: field, index },
         ChannelValueKind::Numbers(field.component_count()),
     ))
 }
 
-/// A part of the transform of a texture. The transform is noted, once for all its parts.
+/// A property of a texture transform. The transform is added to the list, once for all its
+/// properties.
 fn texture_transform_target(
     root: &Root,
     targets: &mut AnimatedObjects<'_>,
-    at: usize,
+    index: usize,
     path: &str,
 ) -> Option<(AnimationTarget, ChannelValueKind)> {
     let (path, part) = path.split_once("/extensions/KHR_texture_transform/")?;
@@ -146,14 +152,14 @@ fn texture_transform_target(
         "scale" => (UvTransformPart::Scale, 2),
         _ => return None,
     };
-    let (slot, _) = *TextureSlot::PATHS.iter().find(|(_, of)| *of == path)?;
-    targets.materials.get_mut(at)?.texture_mut(slot)?;
-    let same = |of: &crate::UvTransform| of.material == at && of.slot == slot;
-    let known = targets.uv_transforms.iter().position(same);
-    let transform = match known {
-        Some(known) => known,
+    let (slot, _) = *TextureSlot::PATHS.iter().find(|(_, known)| *known == path)?;
+    targets.materials.get_mut(index)?.texture_mut(slot)?;
+    let is_same = |known: &crate::UvTransform| known.material == index && known.slot == slot;
+    let existing = targets.uv_transforms.iter().position(is_same);
+    let transform = match existing {
+        Some(existing) => existing,
         None => {
-            targets.uv_transforms.push(texture_transform(root, at, slot)?);
+            targets.uv_transforms.push(texture_transform(root, index, slot)?);
             targets.uv_transforms.len() - 1
         }
     };

@@ -1,4 +1,4 @@
-//! Attributes of vertices: the formats each may have, and reading those that the picture can do without.
+//! Vertex attributes: the formats each may have, and reading of those that are optional.
 
 use super::accessor::AccessorReader;
 use super::draco::DracoData;
@@ -9,7 +9,8 @@ use gltf::json::accessor::ComponentType::{self, F32, I8, I16, U8, U16, U32};
 use gltf::json::accessor::Type;
 use std::ops::Range;
 
-/// The formats an attribute of vertices or instances, or the values of an animation, may have, those of KHR_mesh_quantization among them.
+/// Element and component types that an attribute or the values of an animation may have, including
+/// those of KHR_mesh_quantization.
 pub(super) struct AllowedFormats {
     element_types: &'static [Type],
     component_types: &'static [ComponentType],
@@ -43,6 +44,7 @@ pub(super) const VEC3_VALUES: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec3], ..SCALAR_VALUES };
 
 impl AllowedFormats {
+    /// Checks that an accessor has one of the formats.
     pub(super) fn check_elements(
         &self,
         elements: &ResolvedAccessor<'_>,
@@ -56,17 +58,18 @@ impl AllowedFormats {
         let shapes: Vec<&str> = self.element_types.iter().map(|&shape| type_name(shape)).collect();
         let components: Vec<String> =
             self.component_types.iter().map(|c| c.as_gl_enum().to_string()).collect();
-        let problem = format!(
+        let message = format!(
             "must be {} of component type {}, not {} of {}",
             shapes.join(" or "),
             components.join(" or "),
             type_name(elements.element_type),
             elements.component_type.as_gl_enum()
         );
-        Err(Diagnostic::invalid(pointer, problem))
+        Err(Diagnostic::invalid(pointer, message))
     }
 }
 
+/// The name of an element type in JSON.
 fn type_name(shape: Type) -> &'static str {
     match shape {
         Type::Scalar => "SCALAR",
@@ -79,25 +82,26 @@ fn type_name(shape: Type) -> &'static str {
     }
 }
 
-/// The vertices of a primitive, and which of them are used.
+/// The range of a primitive's vertices that its indices use.
 pub(super) struct VertexRange {
-    /// How many the file has.
+    /// Number of vertices in the file.
     pub(super) vertices: usize,
-    /// Which ones the indices use.
+    /// The vertices between the lowest and the highest index.
     pub(super) used: Range<usize>,
 }
 
-/// Reads the attributes of one primitive.
+/// Reader of the attributes of one primitive.
 pub(super) struct AttributeReader<'a, 'w> {
     pub(super) source: &'a AccessorReader<'a>,
     pub(super) range: VertexRange,
-    /// What the primitive has in a compressed stream. An accessor without bytes then is not zeros.
+    /// Decoded attributes of a Draco-compressed primitive. An accessor without bytes then means
+    /// that the attribute is absent, not that it is zero.
     pub(super) draco: Option<&'a DracoData>,
     pub(super) warnings: &'w mut ImportWarnings,
 }
 
 impl AttributeReader<'_, '_> {
-    /// An attribute that the picture can do without: one that cannot be read is left out with a warning.
+    /// Reads an optional attribute: one that is invalid is left out with a warning.
     pub(super) fn read_attribute<T>(
         &mut self,
         accessor: Option<usize>,
@@ -122,20 +126,20 @@ impl AttributeReader<'_, '_> {
             if elements.count == *vertices {
                 return read(self.source, elements.slice_range(used.clone()));
             }
-            let problem = format!("{} values for {vertices} vertices", elements.count);
-            Err(Diagnostic::invalid(pointer, problem))
+            let message = format!("{} values for {vertices} vertices", elements.count);
+            Err(Diagnostic::invalid(pointer, message))
         });
         match checked {
-            Err(fault) if fault.is_downgradable() => {
+            Err(diagnostic) if diagnostic.is_downgradable() => {
                 let name = pointer.rsplit('/').next().unwrap_or(pointer);
-                self.warnings.downgrade(&fault, &format!("the attribute {name} is left out"));
+                self.warnings.downgrade(&diagnostic, &format!("the attribute {name} is left out"));
                 Ok(None)
             }
             values => values.map(Some),
         }
     }
 
-    /// Texture coordinates, finite.
+    /// Reads a set of texture coordinates; those that are not finite become 0.
     pub(super) fn read_texcoords(
         &mut self,
         accessor: Option<usize>,
@@ -144,20 +148,20 @@ impl AttributeReader<'_, '_> {
         let read =
             self.read_attribute(accessor, pointer, &TEXCOORD, |source, e| source.read_floats(&e))?;
         let Some(mut uvs) = read else { return Ok(None) };
-        let is_lost = |uv: &[f32; 2]| !(uv[0].is_finite() && uv[1].is_finite());
-        let mut lost = 0;
-        for uv in uvs.iter_mut().filter(|uv| is_lost(uv)) {
+        let is_nonfinite = |uv: &[f32; 2]| !(uv[0].is_finite() && uv[1].is_finite());
+        let mut nonfinite = 0;
+        for uv in uvs.iter_mut().filter(|uv| is_nonfinite(uv)) {
             *uv = [0.0; 2];
-            lost += 1;
+            nonfinite += 1;
         }
-        if lost > 0 {
-            let message = format!("coordinates are no numbers; they are 0 (vertices: {lost})");
+        if nonfinite > 0 {
+            let message = format!("coordinates are no numbers; they are 0 (vertices: {nonfinite})");
             self.warnings.push_warning(pointer, message);
         }
         Ok(Some(uvs))
     }
 
-    /// Colours of three or four components as four, each in [0, 1].
+    /// Reads colors of three or four components as four, each clamped to [0, 1].
     pub(super) fn read_colors(
         &mut self,
         accessor: Option<usize>,

@@ -1,4 +1,4 @@
-//! The bytes of the file's buffers and buffer views, each read, and decompressed, once and when it is first needed.
+//! Buffers and buffer views: read, and decompressed by meshopt, once and on first use.
 
 use super::meshopt::CompressedView;
 use crate::diagnostic::{Diagnostic, codes};
@@ -8,16 +8,18 @@ use crate::import::uri_resolver::UriResolver;
 use gltf::json::Root;
 use std::sync::OnceLock;
 
-/// The buffers of a file.
+/// The buffers of a file, loaded lazily.
 pub(super) struct Buffers<'a> {
     root: &'a Root,
+    /// Reads the files and data URIs of buffers.
     pub(super) resolver: &'a UriResolver<'a>,
-    /// The binary chunk of the file itself.
+    /// The binary chunk of a GLB file, which is buffer 0.
     binary_chunk: Option<&'a [u8]>,
-    /// What has been read from elsewhere.
+    /// Buffers that have been read from elsewhere.
     loaded: Vec<OnceLock<Vec<u8>>>,
-    /// The views that have been decompressed.
+    /// Buffer views that have been decompressed.
     decompressed: Vec<OnceLock<Vec<u8>>>,
+    /// Memory that arrays and decompressed views may take.
     budget: MemoryBudget<'a>,
 }
 
@@ -40,12 +42,13 @@ impl<'a> Buffers<'a> {
         }
     }
 
-    /// Counts an array that is about to be made; `pointer` is the member that says how long it is.
+    /// Charges the memory budget for an array; `pointer` is the location that declares its length.
     pub(super) fn charge_bytes(&self, pointer: &str, bytes: u64) -> Result<(), Diagnostic> {
         self.budget.charge_bytes(pointer, bytes, self.resolver.total_bytes())
     }
 
-    /// The bytes of a buffer view, and its stride if it has one. `user` is the pointer to the member that names it.
+    /// The bytes of a buffer view, decompressed if need be. `user` is the pointer to the member
+    /// that refers to it.
     pub(super) fn buffer_view(
         &self,
         view: usize,
@@ -66,7 +69,8 @@ impl<'a> Buffers<'a> {
         Ok(BufferView { bytes, stride: json.byte_stride.map(|stride| stride.0), pointer })
     }
 
-    /// The bytes of a compressed view. The buffer that the view itself names need not have any.
+    /// The bytes of a compressed view. The buffer that the view itself refers to need not have any:
+    /// it is the fallback for readers without the extension.
     fn decompressed_view(&self, view: usize, packed: &CompressedView) -> Result<&[u8], Diagnostic> {
         let slot = &self.decompressed[view];
         if let Some(bytes) = slot.get() {
@@ -79,7 +83,7 @@ impl<'a> Buffers<'a> {
         Ok(slot.get_or_init(|| bytes))
     }
 
-    /// So many bytes of a buffer; `user` is the pointer to what names it.
+    /// `length` bytes of a buffer from `start` on; `user` is the location that refers to them.
     fn buffer_range(
         &self,
         buffer: usize,
@@ -89,14 +93,15 @@ impl<'a> Buffers<'a> {
     ) -> Result<&[u8], Diagnostic> {
         let bytes = self.buffer_bytes(buffer, user)?;
         checked_slice(bytes, start, length).ok_or_else(|| {
-            let there = bytes.len();
-            let problem = format!(
-                "bytes {start} to {start} + {length} are not all in buffer {buffer}, which has {there}"
+            let available = bytes.len();
+            let message = format!(
+                "bytes {start} to {start} + {length} are not all in buffer {buffer}, which has {available}"
             );
-            Diagnostic::invalid(user, problem)
+            Diagnostic::invalid(user, message)
         })
     }
 
+    /// The bytes of a whole buffer, read on first use.
     fn buffer_bytes(&self, buffer: usize, view: &str) -> Result<&[u8], Diagnostic> {
         let (Some(json), Some(read)) = (self.root.buffers.get(buffer), self.loaded.get(buffer))
         else {
@@ -111,14 +116,14 @@ impl<'a> Buffers<'a> {
         let all = match (&json.uri, self.binary_chunk) {
             (None, Some(chunk)) if buffer == 0 => chunk,
             (None, _) => {
-                let problem = "the buffer has no data: no URI, and no binary chunk for it";
-                return Err(Diagnostic::missing_data(&format!("/buffers/{buffer}"), problem));
+                let message = "the buffer has no data: no URI, and no binary chunk for it";
+                return Err(Diagnostic::missing_data(&format!("/buffers/{buffer}"), message));
             }
             (Some(uri), _) => match read.get() {
                 Some(bytes) => bytes,
                 None => {
                     let bytes = self.resolver.read_uri(uri, &format!("/buffers/{buffer}/uri"));
-                    let bytes = bytes.map_err(|fault| self.soften_missing_file(fault))?;
+                    let bytes = bytes.map_err(|diagnostic| self.soften_missing_file(diagnostic))?;
                     read.get_or_init(|| bytes)
                 }
             },
@@ -129,23 +134,25 @@ impl<'a> Buffers<'a> {
 }
 
 impl Buffers<'_> {
-    /// A file that is missing is no reason to stop for a reader who is lenient: its data is missing, and no more.
-    fn soften_missing_file(&self, fault: Diagnostic) -> Diagnostic {
-        let is_file = matches!(fault.code, codes::IO_ERROR | codes::FORBIDDEN_PATH);
-        let code = if self.resolver.lenient && is_file { codes::MISSING_DATA } else { fault.code };
-        Diagnostic { code, ..fault }
+    /// Reading leniently, a missing file means missing data, which costs what uses it and no more.
+    fn soften_missing_file(&self, diagnostic: Diagnostic) -> Diagnostic {
+        let is_file = matches!(diagnostic.code, codes::IO_ERROR | codes::FORBIDDEN_PATH);
+        let code =
+            if self.resolver.lenient && is_file { codes::MISSING_DATA } else { diagnostic.code };
+        Diagnostic { code, ..diagnostic }
     }
 }
 
-/// A part of a buffer.
+/// A buffer view: part of a buffer.
 pub(super) struct BufferView<'a> {
     pub(super) bytes: &'a [u8],
+    /// Stride between elements, if the view declares one.
     pub(super) stride: Option<usize>,
-    /// Where it is declared.
+    /// JSON pointer to its declaration.
     pub(super) pointer: String,
 }
 
-/// The `length` bytes from `start` on, if they are all there.
+/// The `length` bytes from `start` on, if they all exist.
 pub(super) fn checked_slice(bytes: &[u8], start: u64, length: u64) -> Option<&[u8]> {
     let start = usize::try_from(start).ok()?;
     let length = usize::try_from(length).ok()?;

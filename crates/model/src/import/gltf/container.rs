@@ -1,21 +1,21 @@
-//! The outermost layer: is this glTF at all, and where in it are the JSON and the binary chunk?
+//! GLB container: locates the JSON and the binary chunk of a `.gltf` or `.glb` file.
 //!
-//! What a file is, its first bytes say; its name is not asked. A binary file is
+//! The first bytes decide which of the two it is; the file's name is ignored. A binary file is
 //!
 //! ```text
 //!  0      4        8        12       16      20                 20+n
-//!  ┌──────┬────────┬────────┬────────┬───────┬───────────────────┬──── … more chunks: length, type, data
+//!  ┌──────┬────────┬────────┬────────┬───────┬───────────────────┬──── … chunks: length, type, data
 //!  │ glTF │ 2      │ length │ n      │ JSON  │ n bytes of JSON   │
 //!  └──────┴────────┴────────┴────────┴───────┴───────────────────┴────
 //! ```
 //!
-//! with all numbers little-endian (glTF 2.0 §4.4). The lengths are not believed before they are checked.
+//! with all numbers little-endian (glTF 2.0 §4.4). No length is used before it has been checked.
 
 use crate::diagnostic::{Diagnostic, codes};
 use crate::import::warnings::ImportWarnings;
 use std::ops::Range;
 
-/// Where the parts of a file lie in its bytes.
+/// Byte ranges of the JSON and of the binary chunk.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Container {
     pub(super) json: Range<usize>,
@@ -27,7 +27,7 @@ const CHUNK_HEADER: usize = 8;
 const TRUNCATED: &str = "the file is cut off: copy or export it again";
 
 impl Container {
-    /// Finds the parts of a file by its content.
+    /// Locates the JSON and the binary chunk, in text or GLB form.
     pub(super) fn from_bytes(
         bytes: &[u8],
         warnings: &mut ImportWarnings,
@@ -49,6 +49,7 @@ impl Container {
         }
     }
 
+    /// Locates the chunks of a GLB file.
     fn from_glb(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<Self, Diagnostic> {
         let end = check_glb_header(bytes, warnings)?;
         if end < bytes.len() {
@@ -70,7 +71,7 @@ impl Container {
     }
 }
 
-/// Checks magic, version and length; gives the end of the file as declared.
+/// Checks version and length; returns the end of the file as declared.
 fn check_glb_header(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<usize, Diagnostic> {
     let (Some(version), Some(length)) = (read_u32(bytes, 4), read_u32(bytes, 8)) else {
         return Err(format_error(&format!("the file has only {} bytes", bytes.len()), TRUNCATED));
@@ -84,21 +85,22 @@ fn check_glb_header(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<usize
         ));
     }
     if length > bytes.len() {
-        let problem = format!("the header says {length} bytes, the file has {}", bytes.len());
+        let message = format!("the header says {length} bytes, the file has {}", bytes.len());
         warnings
-            .downgrade_if_lenient(format_error(&problem, TRUNCATED), "what is there is read")?;
+            .downgrade_if_lenient(format_error(&message, TRUNCATED), "what is there is read")?;
         return Ok(bytes.len());
     }
     if length < HEADER + CHUNK_HEADER {
-        let problem = format!("the header says {length} bytes, too few for any content");
-        return Err(format_error(&problem, "export the file again"));
+        let message = format!("the header says {length} bytes, too few for any content");
+        return Err(format_error(&message, "export the file again"));
     }
     Ok(length)
 }
 
-/// A chunk's type and place.
+/// Type and byte range of a chunk.
 type GlbChunk<'a> = (&'a [u8; 4], Range<usize>);
 
+/// Iterator over the chunks of a GLB file.
 struct GlbChunks<'a> {
     bytes: &'a [u8],
     offset: usize,
@@ -121,9 +123,9 @@ impl<'a> GlbChunks<'a> {
         let (length, kind) = (read_u32(header, 0).unwrap_or(usize::MAX), header.last_chunk());
         let (start, left) = (self.offset + CHUNK_HEADER, data.len());
         if length > left {
-            let problem = format!("a chunk says {length} bytes, {left} are left");
+            let message = format!("a chunk says {length} bytes, {left} are left");
             warnings
-                .downgrade_if_lenient(format_error(&problem, TRUNCATED), "what is there is read")?;
+                .downgrade_if_lenient(format_error(&message, TRUNCATED), "what is there is read")?;
         }
         self.offset = start + length.min(left);
         Ok(kind.map(|kind| (kind, start..self.offset)))
@@ -135,8 +137,8 @@ fn read_u32(bytes: &[u8], at: usize) -> Option<usize> {
     usize::try_from(number).ok()
 }
 
-fn format_error(problem: &str, remedy: &str) -> Diagnostic {
-    Diagnostic::error(codes::NOT_GLTF, "", problem.to_owned(), remedy)
+fn format_error(message: &str, help: &str) -> Diagnostic {
+    Diagnostic::error(codes::NOT_GLTF, "", message.to_owned(), help)
 }
 
 #[cfg(test)]
@@ -155,7 +157,7 @@ mod tests {
         bytes
     }
 
-    fn problem(bytes: &[u8]) -> String {
+    fn message(bytes: &[u8]) -> String {
         Container::from_bytes(bytes, &mut ImportWarnings::default()).unwrap_err().message
     }
 
@@ -173,19 +175,19 @@ mod tests {
 
     #[test]
     fn lies_are_refused() {
-        assert_eq!(problem(b""), "the file is empty");
-        assert!(problem(b"OBJ").starts_with("this is not a glTF file"));
-        assert_eq!(problem(b"glTF\x02"), "the file has only 5 bytes");
-        assert_eq!(problem(&glb(1, 12, &[])), "the file is glTF 1.0 and only glTF 2 is read");
+        assert_eq!(message(b""), "the file is empty");
+        assert!(message(b"OBJ").starts_with("this is not a glTF file"));
+        assert_eq!(message(b"glTF\x02"), "the file has only 5 bytes");
+        assert_eq!(message(&glb(1, 12, &[])), "the file is glTF 1.0 and only glTF 2 is read");
         assert_eq!(
-            problem(&glb(2, 4_000_000_000, &[])),
+            message(&glb(2, 4_000_000_000, &[])),
             "the header says 4000000000 bytes, the file has 12"
         );
-        assert_eq!(problem(&glb(2, 3, &[])), "the header says 3 bytes, too few for any content");
+        assert_eq!(message(&glb(2, 3, &[])), "the header says 3 bytes, too few for any content");
         let long = glb(2, 24, &[(b"JSON", u32::MAX, b"{}  ")]);
-        assert_eq!(problem(&long), "a chunk says 4294967295 bytes, 4 are left");
+        assert_eq!(message(&long), "a chunk says 4294967295 bytes, 4 are left");
         let wrong = glb(2, 24, &[(b"BIN\0", 4, b"{}  ")]);
-        assert_eq!(problem(&wrong), "the first chunk is not JSON");
+        assert_eq!(message(&wrong), "the first chunk is not JSON");
     }
 
     #[test]

@@ -1,8 +1,9 @@
-//! From bytes of JSON to the `gltf` crate's JSON types, by way of `serde_json::Value`.
+//! JSON parsing: from bytes to the `gltf` crate's JSON types, by way of `serde_json::Value`.
 //!
-//! The types alone refuse valid files (an integer written as `1.0`, a scene without nodes, an animation channel
-//! without a target) and accept invalid ones (an index of 2³² becomes 0). Both is mended on the value, before the
-//! types see it. Depth and number of values are counted before there is a value at all.
+//! The types alone reject valid files (an integer written as `1.0`, a scene without nodes, an
+//! animation channel without a target) and accept invalid ones (an index of 2³² becomes 0). Both
+//! are corrected on the value, before the types see it. Nesting depth and number of values are
+//! limited before any value is built.
 
 use super::json_repair;
 use super::node_transform::NodeTransform;
@@ -13,18 +14,21 @@ use crate::import::warnings::ImportWarnings;
 use gltf::json::Root;
 use serde_json::{Map, Number, Value};
 
-/// The JSON part of a file.
+/// The parsed JSON of a file.
 #[derive(Debug)]
 pub(super) struct GltfDocument {
-    /// Everything but the transforms of the nodes, as it stands in the file: nothing in it has been checked.
+    /// Everything but the transforms of the nodes, as in the file: indices in it have not been
+    /// checked.
     pub(super) root: Root,
-    /// The nodes' own transforms, finite. The `gltf` crate would round them to single precision.
+    /// Local transforms of the nodes, finite. The `gltf` crate would round them to single
+    /// precision.
     pub(super) node_transforms: Vec<NodeTransform>,
-    /// What the types have no room for.
+    /// Members that the JSON types do not have.
     pub(super) untyped: UntypedMembers,
 }
 
 impl GltfDocument {
+    /// Parses and normalizes the JSON; reading leniently, members of wrong types are left out.
     pub(super) fn parse_json(
         text: &[u8],
         limits: &Limits,
@@ -48,7 +52,9 @@ impl GltfDocument {
     }
 }
 
-/// Counts brackets and values without building anything.
+/// Counts nesting and values against the limits without building anything.
+///
+/// `serde_json` itself stops at a depth of 128, whatever the limit says.
 pub(crate) fn check_json_limits(text: &[u8], limits: &Limits) -> Result<(), Diagnostic> {
     let (mut depth, mut values) = (0usize, 1usize);
     let mut at = 0;
@@ -86,7 +92,7 @@ pub(crate) fn check_json_limits(text: &[u8], limits: &Limits) -> Result<(), Diag
     Ok(())
 }
 
-/// The place after the quote that ends the string which `at` is in.
+/// The position after the quote that ends the string which `at` is in.
 fn end_of_string(text: &[u8], mut at: usize) -> usize {
     loop {
         // Data URIs are megabytes without a quote: whole blocks are skipped.
@@ -105,16 +111,17 @@ fn end_of_string(text: &[u8], mut at: usize) -> usize {
     }
 }
 
+/// Checks `asset.version` and `asset.minVersion`; only glTF 2.x is read.
 fn check_gltf_version(value: &Value, warnings: &mut ImportWarnings) -> Result<(), Diagnostic> {
     let asset = &value["asset"];
     let Some(version) = asset["version"].as_str() else {
-        let problem = "the version of glTF is missing";
-        let remedy = "check that this is a glTF file; a glTF 2.0 file says \"asset\": {\"version\": \"2.0\"}";
+        let message = "the version of glTF is missing";
+        let help = "check that this is a glTF file; a glTF 2.0 file says \"asset\": {\"version\": \"2.0\"}";
         return Err(Diagnostic::error(
             codes::UNSUPPORTED_VERSION,
             "/asset/version",
-            problem.to_owned(),
-            remedy,
+            message.to_owned(),
+            help,
         ));
     };
     let unknown = |key: &str, version: &str| {
@@ -139,7 +146,7 @@ fn check_gltf_version(value: &Value, warnings: &mut ImportWarnings) -> Result<()
 /// Members whose numbers may exceed 32 bits.
 const WIDE_MEMBERS: [&str; 3] = ["byteLength", "byteOffset", "count"];
 
-/// Writes integers as integers wherever the file has `1.0`, and removes `extras`, which mean nothing to us.
+/// Writes integers as integers wherever the file has `1.0`, and removes `extras`.
 fn normalize_value(value: &mut Value) {
     match value {
         Value::Array(items) => items.iter_mut().for_each(normalize_value),
@@ -154,15 +161,15 @@ fn normalize_members(members: &mut Map<String, Value>) {
     for (key, value) in members {
         match value {
             Value::Number(number) => {
-                *number = normalize_number(number, WIDE_MEMBERS.contains(&key.as_str()))
+                *number = normalize_number(number, WIDE_MEMBERS.contains(&key.as_str()));
             }
             _ => normalize_value(value),
         }
     }
 }
 
-/// An integral number as an integer if it fits, else as a floating point number: the types then refuse it where an
-/// index is due instead of taking its lowest 32 bits.
+/// An integral number as an integer if it fits, else as floating point: the types then reject it as
+/// an index instead of taking its lowest 32 bits.
 fn normalize_number(number: &Number, wide: bool) -> Number {
     let limit = if wide { u64::MAX } else { u64::from(u32::MAX) };
     match (number.as_u64(), number.as_f64()) {
@@ -175,14 +182,15 @@ fn normalize_number(number: &Number, wide: bool) -> Number {
     }
 }
 
-/// A scene may lack `nodes`; the type demands the member.
+/// Adds an empty `nodes` to scenes without: the specification makes it optional, the type does not.
 fn insert_missing_scene_nodes(value: &mut Value) {
     for scene in objects_in(value, "scenes") {
         scene.entry("nodes").or_insert_with(|| Value::Array(Vec::new()));
     }
 }
 
-/// Drops the channels of animations that have no target node: the specification wants them ignored.
+/// Removes animation channels without a target node: they are to be ignored (glTF 2.0 §3.11), or
+/// belong to KHR_animation_pointer.
 fn drop_untargeted_channels(value: &mut Value) {
     for animation in objects_in(value, "animations") {
         if let Some(Value::Array(channels)) = animation.get_mut("channels") {
@@ -191,7 +199,7 @@ fn drop_untargeted_channels(value: &mut Value) {
     }
 }
 
-/// The objects of an array at the top of the document.
+/// The objects of an array at the top level of the document.
 fn objects_in<'a>(
     value: &'a mut Value,
     key: &str,
@@ -200,11 +208,13 @@ fn objects_in<'a>(
     items.into_iter().flatten().filter_map(Value::as_object_mut)
 }
 
+/// The error for text that is not JSON.
 fn syntax_error(error: &serde_json::Error) -> Diagnostic {
-    let problem = format!("the JSON is not well formed: {error}");
-    Diagnostic::error(codes::NOT_GLTF, "", problem, "correct it there or export the file again")
+    let message = format!("the JSON is not well formed: {error}");
+    Diagnostic::error(codes::NOT_GLTF, "", message, "correct it there or export the file again")
 }
 
+/// The error for a member of the wrong type, with the JSON pointer to it.
 pub(super) fn type_error(error: &serde_path_to_error::Error<serde_json::Error>) -> Diagnostic {
     use serde_path_to_error::Segment;
     let mut pointer = String::new();
@@ -218,8 +228,8 @@ pub(super) fn type_error(error: &serde_path_to_error::Error<serde_json::Error>) 
             Segment::Unknown => {}
         }
     }
-    let problem = error.inner().to_string().replace("index into child of root", "an index");
-    Diagnostic::invalid(&pointer, problem)
+    let message = error.inner().to_string().replace("index into child of root", "an index");
+    Diagnostic::invalid(&pointer, message)
 }
 
 #[cfg(test)]
@@ -249,7 +259,7 @@ mod tests {
 
     #[test]
     fn faults_have_a_pointer() {
-        for (members, pointer, problem) in [
+        for (members, pointer, message) in [
             (r#", "nodes": 3"#, "/nodes", "invalid type: integer `3`, expected a sequence"),
             (
                 r#", "nodes": [{"mesh": "x"}]"#,
@@ -263,46 +273,46 @@ mod tests {
             ),
             (r#", "meshes": [{}]"#, "/meshes/0", "missing field `primitives`"),
         ] {
-            let fault = parse(members).unwrap_err();
-            assert_eq!((&*fault.location, &*fault.message), (pointer, problem));
+            let diagnostic = parse(members).unwrap_err();
+            assert_eq!((&*diagnostic.location, &*diagnostic.message), (pointer, message));
         }
     }
 
     #[test]
     fn versions() {
-        let problem = |asset: &str| {
+        let message = |asset: &str| {
             let text = format!("{{{asset}}}");
             let document = GltfDocument::parse_json(
                 text.as_bytes(),
                 &Limits::default(),
                 &mut ImportWarnings::default(),
             );
-            document.err().map(|fault| fault.message)
+            document.err().map(|diagnostic| diagnostic.message)
         };
-        assert_eq!(problem(r#""asset": {"version": "2.1"}"#), None);
+        assert_eq!(message(r#""asset": {"version": "2.1"}"#), None);
         assert_eq!(
-            problem(r#""asset": {"version": "1.0"}"#).unwrap(),
+            message(r#""asset": {"version": "1.0"}"#).unwrap(),
             "the file is glTF 1.0 and only glTF 2.0 is read"
         );
         assert_eq!(
-            problem(r#""asset": {"version": "2.1", "minVersion": "2.1"}"#).unwrap(),
+            message(r#""asset": {"version": "2.1", "minVersion": "2.1"}"#).unwrap(),
             "the file is glTF 2.1 and only glTF 2.0 is read"
         );
-        assert_eq!(problem("").unwrap(), "the version of glTF is missing");
+        assert_eq!(message("").unwrap(), "the version of glTF is missing");
     }
 
     #[test]
     fn depth_and_size_are_bounded() {
         let deep = format!(r#", "extras": {}"#, "[".repeat(100_000));
-        let fault = parse(&deep).unwrap_err();
-        assert_eq!(fault.code, codes::LIMIT_EXCEEDED);
-        assert!(fault.sentence().contains("json_depth"), "{fault}");
+        let diagnostic = parse(&deep).unwrap_err();
+        assert_eq!(diagnostic.code, codes::LIMIT_EXCEEDED);
+        assert!(diagnostic.sentence().contains("json_depth"), "{diagnostic}");
         let text = br#"{"asset": {"version": "2.0"}, "extras": "[[[[[[[\"[[[["}"#;
         let limits = Limits { json_depth: 2, json_values: 24, ..Limits::default() };
         let parse =
             |text: &[u8]| GltfDocument::parse_json(text, &limits, &mut ImportWarnings::default());
         assert!(parse(text).is_ok(), "brackets in strings do not count");
         let fault = parse(b"[{},{},{}]").unwrap_err();
-        assert!(fault.sentence().contains("json_values"), "{fault}");
+        assert!(fault.sentence().contains("json_values"), "{diagnostic}");
     }
 }

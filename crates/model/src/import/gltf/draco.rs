@@ -1,8 +1,9 @@
-//! Meshes compressed by Draco (KHR_draco_mesh_compression): a primitive's indices and attributes in one stream.
+//! Draco mesh compression (KHR_draco_mesh_compression): indices and attributes in one stream.
 //!
-//! The `draco-core` crate decodes the stream, within limits that follow from what the accessors say; nothing of its
-//! result is trusted: counts are checked against the accessors, indices against the vertices. The accessors have no
-//! bytes of their own then; [`Decoded`] has them.
+//! The crate `draco-core` decodes the stream, within limits that follow from the accessors; nothing
+//! in its result is trusted: counts are checked against the accessors, indices against the
+//! vertices. The accessors of a compressed primitive have no bytes of their own; [`DracoData`]
+//! supplies them.
 
 use super::accessor::AccessorReader;
 use super::elements::{ResolvedAccessor, StridedBytes};
@@ -11,20 +12,19 @@ use gltf::json::mesh::Primitive;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
-/// The name of the extension.
 const EXTENSION: &str = "KHR_draco_mesh_compression";
 
-/// What a stream had in it.
+/// Decoded contents of a stream.
 #[derive(Debug, Default)]
 pub(super) struct DracoData {
-    /// The vertices of triangles.
+    /// Vertex indices of triangles.
     pub(super) indices: Vec<u32>,
-    /// For each accessor that the stream has data for its elements, tightly packed.
+    /// Tightly packed elements for each accessor that the stream has data for.
     attributes: BTreeMap<usize, Vec<u8>>,
 }
 
 impl DracoData {
-    /// Gives an accessor the bytes that the stream had for it.
+    /// Attaches the decoded bytes to an accessor, if the stream had data for it.
     pub(super) fn attach_data<'a>(
         &'a self,
         elements: ResolvedAccessor<'a>,
@@ -40,26 +40,28 @@ impl DracoData {
     }
 }
 
-/// What a primitive says of its compression, if it is compressed.
+/// The extension object of a primitive, if it is compressed.
 fn draco_extension(json: &Primitive) -> Option<&Value> {
     json.extensions.as_ref()?.others.get(EXTENSION)
 }
 
-/// A stream and what is due to be in it.
+/// A stream, and what the accessors promise to be in it.
 #[cfg_attr(not(feature = "draco"), allow(dead_code, reason = "only the decoder reads the fields"))]
 struct DracoStream<'a> {
     source: &'a AccessorReader<'a>,
     bytes: &'a [u8],
-    /// For each accessor of the primitive the stream's own number of the attribute.
+    /// For each accessor of the primitive the id of the attribute in the stream.
     attributes: Vec<(usize, u32)>,
-    /// How many vertices the accessors have.
+    /// Number of vertices according to the accessors.
     vertices: usize,
-    /// The accessor of the indices, and how many it has.
+    /// Accessor of the indices, and their number.
     indices: Option<(usize, usize)>,
+    /// JSON pointer to the extension.
     pointer: String,
 }
 
-/// Decodes the stream of a primitive, its tangents only if they are wanted; `pointer` is where the primitive is.
+/// Decodes the stream of a primitive, its tangents only if they are needed; `pointer` is the
+/// location of the primitive. `None` if it is not compressed.
 pub(super) fn decode_draco(
     source: &AccessorReader<'_>,
     json: &Primitive,
@@ -83,8 +85,8 @@ pub(super) fn decode_draco(
     for &(accessor, _) in &attributes {
         let count = source.resolve_accessor(accessor, &pointer)?.count;
         if *vertices.get_or_insert(count) != count {
-            let problem = "the attributes of a primitive must have equally many elements";
-            return Err(Diagnostic::invalid(&format!("/accessors/{accessor}/count"), problem));
+            let message = "the attributes of a primitive must have equally many elements";
+            return Err(Diagnostic::invalid(&format!("/accessors/{accessor}/count"), message));
         }
     }
     let indices = json.indices.map(|accessor| accessor.value());
@@ -100,7 +102,7 @@ pub(super) fn decode_draco(
     stream.decode_mesh().map(Some)
 }
 
-/// The attributes that are read, each by its accessor and its number in the stream.
+/// The attributes that are read: accessor and id in the stream.
 fn stream_attributes(
     json: &Primitive,
     ids: &Map<String, Value>,
@@ -155,13 +157,14 @@ mod decoder {
                 .with_max_decoded_bytes(self.source.limits.array_bytes);
             let mut buffer = DecoderBuffer::new(self.bytes).with_limits(limits);
             MeshDecoder::new().decode(&mut buffer, &mut mesh).map_err(|error| {
-                let problem = format!("the Draco stream is not valid: {}", error.message());
-                Diagnostic::invalid(&self.pointer, problem)
+                let message = format!("the Draco stream is not valid: {}", error.message());
+                Diagnostic::invalid(&self.pointer, message)
             })?;
             if mesh.num_points() != self.vertices {
-                let (found, said) = (mesh.num_points(), self.vertices);
-                let problem = format!("the stream has {found} vertices and the accessors {said}");
-                return Err(Diagnostic::invalid(&self.pointer, problem));
+                let (actual, promised) = (mesh.num_points(), self.vertices);
+                let message =
+                    format!("the stream has {actual} vertices and the accessors {promised}");
+                return Err(Diagnostic::invalid(&self.pointer, message));
             }
             let indices = self.decode_indices(&mesh)?;
             let mut attributes = BTreeMap::new();
@@ -171,20 +174,21 @@ mod decoder {
             Ok(DracoData { indices, attributes })
         }
 
+        /// Vertex indices, as many as the accessor promises.
         fn decode_indices(&self, mesh: &Mesh) -> Result<Vec<u32>, Diagnostic> {
-            let found = 3 * mesh.num_faces();
+            let actual = 3 * mesh.num_faces();
             if let Some((accessor, count)) = self.indices
-                && found != count
+                && actual != count
             {
-                let problem = format!("there are {count} indices and {found} in the Draco stream");
-                return Err(Diagnostic::invalid(&format!("/accessors/{accessor}/count"), problem));
+                let message = format!("there are {count} indices and {actual} in the Draco stream");
+                return Err(Diagnostic::invalid(&format!("/accessors/{accessor}/count"), message));
             }
             let accessor = self.indices.map_or(0, |(accessor, _)| accessor);
-            self.source.charge_array(accessor, found, 4)?;
+            self.source.charge_array(accessor, actual, 4)?;
             Ok(mesh.faces().iter().flatten().map(|&PointIndex(index)| index).collect())
         }
 
-        /// The elements of an attribute in the format of its accessor.
+        /// Elements of an attribute in the format of its accessor.
         fn decode_attribute(
             &self,
             mesh: &Mesh,
@@ -193,19 +197,20 @@ mod decoder {
         ) -> Result<Vec<u8>, Diagnostic> {
             let elements = self.source.resolve_accessor(accessor, &self.pointer)?;
             let (shape, component) = (elements.element_type, elements.component_type);
-            let invalid = |problem: String| Err(Diagnostic::invalid(&self.pointer, problem));
+            let invalid = |message: String| Err(Diagnostic::invalid(&self.pointer, message));
             let Some(attribute) = mesh.attribute_by_unique_id(id) else {
                 return invalid(format!("the stream has no attribute {id}"));
             };
-            let (found, due) = (usize::from(attribute.num_components()), shape.multiplicity());
-            if found != due {
-                return invalid(format!("attribute {id} has {found} components, not {due}"));
+            let (actual, expected) =
+                (usize::from(attribute.num_components()), shape.multiplicity());
+            if actual != expected {
+                return invalid(format!("attribute {id} has {actual} components, not {expected}"));
             }
-            let mut bytes = Vec::with_capacity(self.vertices * due * component.size());
+            let mut bytes = Vec::with_capacity(self.vertices * expected * component.size());
             for vertex in 0..self.vertices {
                 match attribute_value(attribute, vertex) {
                     Some(value) => {
-                        append_converted(&mut bytes, value, attribute.data_type(), component)
+                        append_converted(&mut bytes, value, attribute.data_type(), component);
                     }
                     None => return invalid(format!("attribute {id} lacks vertex {vertex}")),
                 }
@@ -214,7 +219,7 @@ mod decoder {
         }
     }
 
-    /// The bytes of an attribute of a vertex.
+    /// The bytes of an attribute at a vertex.
     fn attribute_value(attribute: &PointAttribute, vertex: usize) -> Option<&[u8]> {
         let vertex = PointIndex(u32::try_from(vertex).ok()?);
         let at = attribute.mapped_index(vertex).0 as usize;
@@ -223,7 +228,8 @@ mod decoder {
         attribute.buffer().data().get(start..)?.get(..size)
     }
 
-    /// Appends the numbers of a value in the type of the accessor, which nearly always is the type they have.
+    /// Appends a value in the component type of the accessor, which nearly always is the type it
+    /// has.
     fn append_converted(bytes: &mut Vec<u8>, value: &[u8], from: DataType, to: ComponentType) {
         let same = match to {
             ComponentType::I8 => from == DataType::Int8,
@@ -250,6 +256,7 @@ mod decoder {
         }
     }
 
+    /// A little-endian number of any of Draco's types.
     fn read_number(word: &[u8], kind: DataType) -> f64 {
         let mut bytes = [0; 8];
         for (to, &from) in bytes.iter_mut().zip(word) {

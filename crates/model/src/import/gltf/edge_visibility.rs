@@ -1,8 +1,9 @@
-//! Edges that the file wants to be seen: EXT_mesh_primitive_edge_visibility and CESIUM_primitive_outline.
+//! Edges for line drawings: EXT_mesh_primitive_edge_visibility and CESIUM_primitive_outline.
 //!
-//! The first packs two bits for each edge of each triangle, lowest bits first, and may name more edges as line strings; the
-//! second lists pairs of vertices. What cannot be read is left out with a warning: drawings then find edges from the
-//! shape. The normals at silhouettes that the first can bring along are not read: the triangles have them.
+//! The first packs two bits for each edge of each triangle, lowest bits first, and may add edges as
+//! line strings; the second lists pairs of vertices. Invalid data is left out with a warning:
+//! drawings then find edges from the shape. The silhouette normals of the first are not read: the
+//! triangles have normals.
 
 use super::accessor::AccessorReader;
 use super::attribute::INDICES;
@@ -16,21 +17,21 @@ use serde_json::Value;
 const VISIBILITY_EXTENSION: &str = "EXT_mesh_primitive_edge_visibility";
 const OUTLINE_EXTENSION: &str = "CESIUM_primitive_outline";
 
-/// What the reader of edges knows of their primitive.
+/// Reader of the edges of one primitive.
 pub(super) struct EdgeReader<'a, 'w> {
     pub(super) source: &'a AccessorReader<'a>,
     pub(super) json: &'a Json,
-    /// Where the primitive is.
+    /// Location of the primitive.
     pub(super) pointer: &'a str,
-    /// How many vertices it has.
+    /// Number of vertices of the primitive.
     pub(super) vertices: usize,
-    /// How many triangles it has.
+    /// Number of triangles of the primitive.
     pub(super) triangles: usize,
     pub(super) warnings: &'w mut ImportWarnings,
 }
 
 impl EdgeReader<'_, '_> {
-    /// The edges of a primitive that draws `topology`, if the file names any.
+    /// The edges of a primitive of this topology, if the file marks any.
     pub(super) fn read_edges(
         mut self,
         topology: Topology,
@@ -54,16 +55,18 @@ impl EdgeReader<'_, '_> {
         Ok((!is_empty).then(|| Box::new(edges)))
     }
 
+    /// Downgrades faults in the file's content to a warning.
     fn warn_if_soft(&mut self, read: Result<(), Diagnostic>) -> Result<(), Diagnostic> {
         match read {
-            Err(fault) if fault.is_downgradable() => {
-                self.warnings.downgrade(&fault, "its edges are left out");
+            Err(diagnostic) if diagnostic.is_downgradable() => {
+                self.warnings.downgrade(&diagnostic, "its edges are left out");
                 Ok(())
             }
             read => read,
         }
     }
 
+    /// Reads EXT_mesh_primitive_edge_visibility.
     fn read_visibility(
         &mut self,
         json: &Value,
@@ -94,6 +97,7 @@ impl EdgeReader<'_, '_> {
         Ok(())
     }
 
+    /// Reads CESIUM_primitive_outline.
     fn read_outline(&mut self, json: &Value, edges: &mut PrimitiveEdges) -> Result<(), Diagnostic> {
         let pointer = format!("{}/extensions/{OUTLINE_EXTENSION}/indices", self.pointer);
         let Some(accessor) = index_member(json, "indices") else {
@@ -105,7 +109,7 @@ impl EdgeReader<'_, '_> {
         Ok(())
     }
 
-    /// Two bits for each edge.
+    /// Unpacks two bits for each edge of each triangle.
     fn read_visibility_bits(
         &self,
         accessor: usize,
@@ -118,10 +122,11 @@ impl EdgeReader<'_, '_> {
                 "the visibility must be SCALAR of unsigned bytes",
             ));
         }
-        let (found, due) = (elements.count, (6 * self.triangles).div_ceil(8));
-        if found != due {
-            let problem = format!("{found} bytes for {} triangles, not {due}", self.triangles);
-            return Err(Diagnostic::invalid(pointer, problem));
+        let (actual, expected) = (elements.count, (6 * self.triangles).div_ceil(8));
+        if actual != expected {
+            let message =
+                format!("{actual} bytes for {} triangles, not {expected}", self.triangles);
+            return Err(Diagnostic::invalid(pointer, message));
         }
         self.source.charge_array(accessor, self.triangles, 3)?;
         let bytes = self.source.read_u16s::<1>(&elements)?;
@@ -132,7 +137,8 @@ impl EdgeReader<'_, '_> {
         Ok((0..self.triangles).map(|at| [0, 1, 2].map(|k| edge(3 * at + k))).collect())
     }
 
-    /// Vertices, and the number that parts strings of them: the largest of the component type.
+    /// Vertices of line strings, and the primitive restart index that separates them: the largest
+    /// value of the component type.
     fn read_line_indices(
         &self,
         accessor: usize,
@@ -150,27 +156,29 @@ impl EdgeReader<'_, '_> {
         Ok((self.source.read_indices(&elements)?, restart))
     }
 
-    /// The lines whose ends are vertices.
+    /// Removes edges with a vertex that does not exist, with a warning.
     fn retain_existing_vertices(&mut self, mut lines: EdgeList, pointer: &str) -> EdgeList {
         let before = lines.vertex_pairs.len();
         lines.vertex_pairs.retain(|ends| ends.iter().all(|&end| (end as usize) < self.vertices));
-        let lost = before - lines.vertex_pairs.len();
-        if lost > 0 {
-            let message =
-                format!("edges use vertices that do not exist; they are left out (edges: {lost})");
+        let dropped = before - lines.vertex_pairs.len();
+        if dropped > 0 {
+            let message = format!(
+                "edges use vertices that do not exist; they are left out (edges: {dropped})"
+            );
             self.warnings.push_warning(pointer, message);
         }
         lines
     }
 
+    /// The material of edges; an index out of range is replaced by `None` with a warning.
     fn edge_material(&mut self, json: &Value, pointer: &str) -> Option<usize> {
         let (material, count) = (index_member(json, "material")?, self.source.root.materials.len());
         if material < count {
             return Some(material);
         }
         let pointer = format!("{pointer}/material");
-        let fault = Diagnostic::unresolved_index(&pointer, "material", material, count);
-        self.warnings.downgrade(&fault, "the material of the primitive is used");
+        let diagnostic = Diagnostic::unresolved_index(&pointer, "material", material, count);
+        self.warnings.downgrade(&diagnostic, "the material of the primitive is used");
         None
     }
 }
@@ -179,7 +187,8 @@ fn index_member(json: &Value, member: &str) -> Option<usize> {
     json.get(member).and_then(Value::as_u64).map(|at| usize::try_from(at).unwrap_or(usize::MAX))
 }
 
-/// Counts the vertices of edges from the first used one on, as those of the triangles are; edges at unused vertices go.
+/// Renumbers the vertices of edges from the first used vertex on, as those of the triangles are;
+/// edges with unused vertices are removed.
 pub(super) fn rebase_edges(edges: &mut PrimitiveEdges, used: &std::ops::Range<usize>) {
     for lines in &mut edges.lines {
         lines.vertex_pairs.retain(|ends| ends.iter().all(|&end| used.contains(&(end as usize))));

@@ -1,48 +1,53 @@
-//! Reading elements into arrays of plain numbers.
+//! Accessor elements: conversion of bytes into arrays of floats, shorts or indices.
 //!
-//! Tightly packed floats, by far the most common case, become one loop over words that the compiler turns into a copy;
-//! the other types and strides go element by element, with the type decided outside of the loop.
+//! Tightly packed floats, by far the most common case, become one loop over words that the compiler
+//! turns into a copy; other types and strides are converted element by element, with the type
+//! decided outside of the loop.
 
 use gltf::json::accessor::{ComponentType, Type};
 use std::ops::Range;
 
-/// The elements of one accessor, or some of them, whose bytes are known to be there.
+/// The elements of an accessor, or a range of them, whose bytes are known to exist.
 #[derive(Debug)]
 pub(super) struct ResolvedAccessor<'a> {
-    /// The accessor's number.
+    /// Index of the accessor.
     pub(super) accessor: usize,
-    /// The elements' bytes; `None` for zeros.
+    /// The bytes; `None` for zeros.
     pub(super) data: Option<StridedBytes<'a>>,
-    /// What replaces some of them.
+    /// Elements that replace some of them.
     pub(super) sparse: Option<SparseElements<'a>>,
     /// The first element that is read.
     pub(super) first: usize,
-    /// How many are read.
+    /// Number of elements that are read.
     pub(super) count: usize,
+    /// Type of the components, glTF's `componentType`.
     pub(super) component_type: ComponentType,
+    /// Type of the elements, glTF's `type`.
     pub(super) element_type: Type,
+    /// Whether integers are normalized to [0, 1] or [−1, 1].
     pub(super) normalized: bool,
 }
 
-/// A run of elements in bytes: every element has at least its size, and only the last one may have less than the
-/// stride.
+/// Bytes of elements at a constant stride.
+///
+/// Every element has at least its size, and only the last one may be shorter than the stride.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StridedBytes<'a> {
     pub(super) bytes: &'a [u8],
     pub(super) stride: usize,
 }
 
-/// Elements that replace others.
+/// Elements of a sparse accessor that replace others.
 #[derive(Debug)]
 pub(super) struct SparseElements<'a> {
-    /// Which elements, each below the number of elements.
+    /// Indices of the replaced elements, each less than the number of elements.
     pub(super) indices: Vec<u32>,
     /// Their new values.
     pub(super) values: StridedBytes<'a>,
 }
 
 impl ResolvedAccessor<'_> {
-    /// Only the elements of a range; what of it is not there is left out.
+    /// The elements of a range; those that do not exist are left out.
     pub(super) fn slice_range(mut self, range: Range<usize>) -> Self {
         let end = range.end.min(self.count);
         self.first += range.start.min(end);
@@ -50,8 +55,8 @@ impl ResolvedAccessor<'_> {
         self
     }
 
-    /// The first `N` components of every element as floats. Normalised integers become numbers in [0, 1] or [−1, 1]
-    /// (glTF 2.0 §3.11), other integers keep their value.
+    /// The first `N` components of every element as floats. Normalized integers become numbers in
+    /// [0, 1] or [−1, 1] (glTF 2.0 §3.11), other integers keep their value.
     pub(super) fn to_floats<const N: usize>(&self) -> Vec<[f32; N]> {
         use ComponentType::{F32, I8, I16, U8, U16, U32};
         match (self.component_type, self.normalized) {
@@ -88,6 +93,7 @@ impl ResolvedAccessor<'_> {
         words.into_flattened()
     }
 
+    /// Converts the first `N` components of every element; missing components are 0.
     fn convert_components<const N: usize, C: Component, T: Copy + Default>(
         &self,
         convert: impl Fn(C) -> T,
@@ -107,8 +113,8 @@ impl ResolvedAccessor<'_> {
         }
         if let Some(SparseElements { indices, values }) = &self.sparse {
             for (&index, from) in indices.iter().zip(values.bytes.chunks(values.stride)) {
-                let place = (index as usize).checked_sub(self.first);
-                if let Some(to) = place.and_then(|place| elements.get_mut(place)) {
+                let slot = (index as usize).checked_sub(self.first);
+                if let Some(to) = slot.and_then(|slot| elements.get_mut(slot)) {
                     convert_element(to, from, &convert);
                 }
             }
@@ -117,6 +123,7 @@ impl ResolvedAccessor<'_> {
     }
 }
 
+/// Converts the components of one element.
 fn convert_element<const N: usize, C: Component, T>(
     to: &mut [T; N],
     from: &[u8],
@@ -127,13 +134,13 @@ fn convert_element<const N: usize, C: Component, T>(
     }
 }
 
-/// A number as it lies in a buffer, little-endian.
+/// A component type of accessors, stored little-endian.
 trait Component: Copy {
     /// The number's bytes.
     type Word: Copy;
-    /// The words of a run of bytes; a rest that is no word is left out.
+    /// The words in a slice of bytes; an incomplete last word is left out.
     fn words(bytes: &[u8]) -> &[Self::Word];
-    /// The number.
+    /// Decodes a word.
     fn read(word: &Self::Word) -> Self;
 }
 

@@ -1,35 +1,35 @@
-//! What is done about each extension.
+//! Extension support: the extensions that are drawn, ignored or refused.
 
 use crate::diagnostic::{Diagnostic, codes};
 use crate::import::warnings::ImportWarnings;
 use gltf::json::Root;
 use std::collections::BTreeSet;
 
-/// What an extension means to us.
+/// Support for an extension.
 enum ExtensionSupport {
-    /// It is read.
+    /// It is fully supported.
     Full,
-    /// It changes nothing that is drawn.
+    /// It does not affect the picture.
     Harmless,
-    /// It is drawn as far as the text says.
+    /// It is drawn with the limitation that the text names.
     Partly(&'static str),
-    /// The file can be shown without it; the text says what is then missing.
+    /// It is ignored; the text names what is missing then.
     Without(&'static str),
-    /// The text says what it does that is not possible here.
+    /// Files that require it are refused; the text gives the reason.
     None(&'static str),
 }
 
 use ExtensionSupport::{Full, Harmless, None as Never, Partly, Without};
 
-/// Draco is a feature of this crate that can be left out.
+/// Draco is an optional feature of this crate, on by default.
 const DRACO_SUPPORT: ExtensionSupport =
     if cfg!(feature = "draco") { Full } else { Never("data compressed by Draco is not read") };
 
-/// Basis Universal is a feature that can be switched on.
+/// Basis Universal is an optional feature of this crate, off by default.
 const BASISU_SUPPORT: ExtensionSupport =
     if cfg!(feature = "basisu") { Full } else { Never("KTX2 images are not read") };
 
-/// All extensions that are known, by name.
+/// All known extensions, sorted by name.
 const KNOWN_EXTENSIONS: [(&str, ExtensionSupport); 36] = [
     ("CESIUM_primitive_outline", Partly("the outlines are drawn in line drawings alone")),
     ("EXT_mesh_features", Harmless),
@@ -72,7 +72,8 @@ const KNOWN_EXTENSIONS: [(&str, ExtensionSupport); 36] = [
     ("MSFT_texture_dds", Never("DDS images are not read")),
 ];
 
-/// Refuses a file that requires what we lack, unless it is to be read leniently, and warns of what will not be seen.
+/// Checks `extensionsRequired`: unsupported ones are an error, or a warning when reading leniently.
+/// Warns of extensions that are ignored or supported in part.
 pub(super) fn check_extensions(
     root: &Root,
     warnings: &mut ImportWarnings,
@@ -83,22 +84,22 @@ pub(super) fn check_extensions(
             Some(_) => continue,
             None => "it is not known here",
         };
-        let fault = Diagnostic::error(
+        let diagnostic = Diagnostic::error(
             codes::UNSUPPORTED_REQUIRED_EXTENSION,
             &format!("/extensionsRequired/{at}"),
             format!("the file requires the extension {name}: {reason}"),
             "export the file without it, or load what can be loaded with --lenient",
         );
-        warnings.downgrade_if_lenient(fault, "it is ignored")?;
+        warnings.downgrade_if_lenient(diagnostic, "it is ignored")?;
     }
-    let mut told = BTreeSet::new();
+    let mut reported = BTreeSet::new();
     for (list, names) in [
         ("extensionsUsed", &root.extensions_used),
         ("extensionsRequired", &root.extensions_required),
     ] {
         for (at, name) in names.iter().enumerate() {
             if let (Some(Partly(reason) | Without(reason) | Never(reason)), true) =
-                (find_support(name), told.insert(name))
+                (find_support(name), reported.insert(name))
             {
                 warnings.push_warning(&format!("/{list}/{at}"), format!("{name}: {reason}"));
             }
@@ -107,24 +108,24 @@ pub(super) fn check_extensions(
     Ok(())
 }
 
-/// What becomes of an extension in pictures.
+/// Effect of an extension on the picture.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ExtensionUse {
     /// It is drawn.
     Drawn,
-    /// It changes nothing that is drawn.
+    /// It does not affect the picture.
     Harmless,
-    /// It is drawn as far as the text says.
+    /// It is drawn with the limitation that the text names.
     Partly(&'static str),
-    /// Files are shown without it; the text says what is then missing.
+    /// It is ignored; the text names what is missing then.
     Without(&'static str),
-    /// A file that requires it is refused; the text says why.
+    /// Files that require it are refused; the text gives the reason.
     Refused(&'static str),
-    /// Its name is not known: as for refused ones.
+    /// It is not known; files that require it are refused.
     Unknown,
 }
 
-/// What becomes of the extension with this name.
+/// Effect of the extension with this name.
 #[must_use]
 pub fn extension_use(name: &str) -> ExtensionUse {
     match find_support(name) {

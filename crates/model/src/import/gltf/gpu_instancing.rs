@@ -1,4 +1,4 @@
-//! Meshes shown many times by one node (EXT_mesh_gpu_instancing): accessors with a place for each time.
+//! GPU instancing (EXT_mesh_gpu_instancing): meshes that one node draws many times.
 
 use super::accessor::AccessorReader;
 use super::attribute::{AllowedFormats, ROTATION, TRANSLATION_OR_SCALE};
@@ -8,12 +8,13 @@ use crate::import::warnings::ImportWarnings;
 use homog::{Affine, Model as ModelSpace, Vector};
 use serde_json::{Map, Value};
 
-/// The name of the extension.
 const EXTENSION: &str = "EXT_mesh_gpu_instancing";
 
+/// Transform of an instance relative to its node.
 type InstanceTransform = Affine<ModelSpace, ModelSpace>;
 
-/// Gives the nodes the places that their meshes are shown at. What cannot be read leaves the mesh where its node is.
+/// Reads the instance transforms of all nodes. Where they are invalid the mesh is drawn once, at
+/// its node.
 pub(super) fn import_instances(
     source: &AccessorReader<'_>,
     nodes: &mut [Node],
@@ -38,39 +39,41 @@ pub(super) fn import_instances(
             None => Err(Diagnostic::invalid(&pointer, "the member `attributes` is missing")),
         };
         let all = match read {
-            Err(fault) if fault.is_downgradable() => {
-                warnings.downgrade(&fault, "the mesh is shown once");
+            Err(diagnostic) if diagnostic.is_downgradable() => {
+                warnings.downgrade(&diagnostic, "the mesh is shown once");
                 continue;
             }
-            places => places?,
+            transforms => transforms?,
         };
         let count = all.len();
-        let shown = |place: &InstanceTransform| place.then(node.to_model).is_finite();
-        let places: Vec<InstanceTransform> = all.into_iter().flatten().filter(shown).collect();
-        if places.len() < count {
-            let lost = count - places.len();
-            let message = format!("places are no finite ones; they are left out (places: {lost})");
+        let is_visible = |transform: &InstanceTransform| transform.then(node.to_model).is_finite();
+        let transforms: Vec<InstanceTransform> =
+            all.into_iter().flatten().filter(is_visible).collect();
+        if transforms.len() < count {
+            let dropped = count - transforms.len();
+            let message =
+                format!("places are no finite ones; they are left out (places: {dropped})");
             warnings.push_warning(&pointer, message);
         }
-        node.instance_transforms = Some(places);
+        node.instance_transforms = Some(transforms);
     }
     Ok(())
 }
 
-/// The places: scaled, then turned, then moved. `None` stands for one that is none.
+/// Composes the transforms from translation, rotation and scale; `None` for those that are invalid.
 fn instance_transforms(
     source: &AccessorReader<'_>,
     attributes: &Map<String, Value>,
     pointer: &str,
 ) -> Result<Vec<Option<InstanceTransform>>, Diagnostic> {
-    let column = InstanceAttributes { source, attributes, pointer };
-    let moved = column.read_attribute::<3>("TRANSLATION", &TRANSLATION_OR_SCALE)?;
-    let turned = column.read_attribute::<4>("ROTATION", &ROTATION)?;
-    let scaled = column.read_attribute::<3>("SCALE", &TRANSLATION_OR_SCALE)?;
+    let reader = InstanceAttributes { source, attributes, pointer };
+    let translations = reader.read_attribute::<3>("TRANSLATION", &TRANSLATION_OR_SCALE)?;
+    let rotations = reader.read_attribute::<4>("ROTATION", &ROTATION)?;
+    let scales = reader.read_attribute::<3>("SCALE", &TRANSLATION_OR_SCALE)?;
     let counts = [
-        moved.as_ref().map(Vec::len),
-        turned.as_ref().map(Vec::len),
-        scaled.as_ref().map(Vec::len),
+        translations.as_ref().map(Vec::len),
+        rotations.as_ref().map(Vec::len),
+        scales.as_ref().map(Vec::len),
     ];
     let mut counts = counts.into_iter().flatten();
     let count = counts.next().unwrap_or(0);
@@ -81,19 +84,21 @@ fn instance_transforms(
         pointer,
         (count as u64).saturating_mul(size_of::<Option<InstanceTransform>>() as u64),
     )?;
-    let place = |at: usize| {
-        let row = moved.as_ref().map_or([0.0; 3], |moved| moved[at]).map(f64::from);
-        let turn = turned.as_ref().map_or([0.0, 0.0, 0.0, 1.0], |turned| turned[at]);
-        let [x, y, z] = scaled.as_ref().map_or([1.0; 3], |scaled| scaled[at]).map(f64::from);
-        let turn = Affine::<ModelSpace, ModelSpace>::from_quaternion(turn.map(f64::from))?;
-        let place = InstanceTransform::scale(x, y, z)
-            .then(turn)
-            .then(Affine::translation(Vector::from(row)));
-        place.is_finite().then_some(place)
+    let transform = |at: usize| {
+        let translation =
+            translations.as_ref().map_or([0.0; 3], |translations| translations[at]).map(f64::from);
+        let rotation = rotations.as_ref().map_or([0.0, 0.0, 0.0, 1.0], |rotations| rotations[at]);
+        let [x, y, z] = scales.as_ref().map_or([1.0; 3], |scales| scales[at]).map(f64::from);
+        let rotation = Affine::<ModelSpace, ModelSpace>::from_quaternion(rotation.map(f64::from))?;
+        let transform = InstanceTransform::scale(x, y, z)
+            .then(rotation)
+            .then(Affine::translation(Vector::from(translation)));
+        transform.is_finite().then_some(transform)
     };
-    Ok((0..count).map(place).collect())
+    Ok((0..count).map(transform).collect())
 }
 
+/// Reader of the attributes of the instances of one node.
 struct InstanceAttributes<'a> {
     source: &'a AccessorReader<'a>,
     attributes: &'a Map<String, Value>,
@@ -101,6 +106,7 @@ struct InstanceAttributes<'a> {
 }
 
 impl InstanceAttributes<'_> {
+    /// An attribute, if the file has it.
     fn read_attribute<const N: usize>(
         &self,
         name: &str,

@@ -1,7 +1,8 @@
-//! Images: which ones are needed, and their bytes.
+//! Images: the visible ones, read and checked against the limits, then decoded.
 //!
-//! Only images that a visible surface uses are read. A broken image costs a warning, never the model. The budget of texels
-//! is spent in the order of the file, from the sizes in the headers, before any decoder runs.
+//! Only images that a visible surface uses are read. A broken image costs a warning, never the
+//! model. The limit on texels is spent in the order of the file, by the sizes in the headers,
+//! before any decoder runs.
 
 use super::accessor::AccessorReader;
 use super::selection;
@@ -19,13 +20,16 @@ use std::borrow::Cow;
 /// Images of a file that have been read but not decoded.
 #[derive(Default)]
 pub(super) struct EncodedImages<'a> {
-    /// For each image of the file, whether it was looked for.
+    /// For each image of the file, whether it was to be read.
     needed: Vec<bool>,
+    /// The images that could be read.
     pub(super) encoded: Vec<EncodedImage<'a>>,
+    /// Warnings about those that could not.
     warnings: ImportWarnings,
 }
 
 impl<'a> EncodedImages<'a> {
+    /// Reads the images that are needed.
     pub(super) fn read_needed(source: &'a AccessorReader<'_>, needed: Vec<bool>) -> Self {
         let mut warnings = ImportWarnings::default();
         let encoded = read_encoded(&needed, source, &mut warnings);
@@ -33,75 +37,80 @@ impl<'a> EncodedImages<'a> {
     }
 }
 
-/// The images that the surfaces of a model will show whose meshes are not read yet, by what the file says of them.
+/// Images that the surfaces of the active scene will use, according to the JSON.
+///
+/// Used before meshes are read, so that images can be decoded meanwhile.
 pub(super) fn announced_images(root: &Root, model: &Model, variant: Option<usize>) -> Vec<bool> {
     let mut needed = vec![false; root.images.len()];
     for (mesh, _) in
         root.meshes.iter().zip(visible_meshes(model, root.meshes.len())).filter(|at| at.1)
     {
         for primitive in &mesh.primitives {
-            let usual = primitive.material.map(|material| material.value());
+            let base = primitive.material.map(|material| material.value());
             let dressed =
                 variant.and_then(|variant| selection::variant_material(root, primitive, variant));
-            mark_material_images(dressed.or(usual), model, &mut needed);
+            mark_material_images(dressed.or(base), model, &mut needed);
         }
     }
     needed
 }
 
-/// The images that visible surfaces show.
+/// Images that visible surfaces use.
 fn needed_images(model: &Model, images: usize) -> Vec<bool> {
     let mut needed = vec![false; images];
-    let shown = visible_meshes(model, model.meshes.len());
-    let meshes = model.meshes.iter().zip(shown).filter(|(_, shown)| *shown);
+    let is_visible = visible_meshes(model, model.meshes.len());
+    let meshes = model.meshes.iter().zip(is_visible).filter(|(_, is_visible)| *is_visible);
     for primitive in meshes.flat_map(|(mesh, _)| &mesh.primitives).filter(|p| p.item_count() > 0) {
         mark_material_images(primitive.material, model, &mut needed);
     }
     needed
 }
 
-/// For each mesh, whether the shown scene shows it.
+/// For each mesh, whether the active scene draws it.
 fn visible_meshes(model: &Model, meshes: usize) -> Vec<bool> {
-    let mut shown = vec![false; meshes];
+    let mut is_visible = vec![false; meshes];
     for instance in model.node_instances() {
-        if let Some(flag) = model.nodes[instance.node].mesh.and_then(|mesh| shown.get_mut(mesh)) {
+        if let Some(flag) =
+            model.nodes[instance.node].mesh.and_then(|mesh| is_visible.get_mut(mesh))
+        {
             *flag = true;
         }
     }
-    shown
+    is_visible
 }
 
-/// Notes the images of a material.
+/// Marks the images of a material.
 fn mark_material_images(material: Option<usize>, model: &Model, needed: &mut [bool]) {
     let material = material.and_then(|at| model.materials.get(at));
-    for (_, used) in material.into_iter().flat_map(Material::visible_textures) {
-        let image = model.textures.get(used.texture).and_then(|texture| texture.image);
+    for (_, info) in material.into_iter().flat_map(Material::visible_textures) {
+        let image = model.textures.get(info.texture).and_then(|texture| texture.image);
         if let Some(flag) = image.and_then(|image| needed.get_mut(image)) {
             *flag = true;
         }
     }
 }
 
-/// Gives a model that is otherwise complete its images. What was found before and `decoded` meanwhile is used, unless the
-/// meshes turned out to need other images than the file announced.
+/// Gives an otherwise complete model its images.
+///
+/// Those that were read early and `decoded` meanwhile are used, unless the meshes turned out to
+/// need other images than the file announced.
 pub(super) fn import_images(
     source: &AccessorReader<'_>,
     model: &mut Model,
-    (early, decoded): (EncodedImages<'_>, Vec<DecodeResult>),
-    what: ImageLoading,
+    (announced, decoded): (EncodedImages<'_>, Vec<DecodeResult>),
+    loading: ImageLoading,
     warnings: &mut ImportWarnings,
 ) {
     let needed = needed_images(model, source.root.images.len());
     model.image_infos = source.root.images.iter().map(image_info).collect();
-    model.images = vec![None; needed.len()];
-    match what {
-        ImageLoading::Decode if early.needed == needed => {
-            store_decoded(model, early, decoded, warnings)
+    match loading {
+        ImageLoading::Decode if announced.needed == needed => {
+            store_decoded(model, announced, decoded, warnings);
         }
         ImageLoading::Decode => {
-            let found = EncodedImages::read_needed(source, needed);
-            let decoded = decode_images(&found.encoded);
-            store_decoded(model, found, decoded, warnings);
+            let encoded_images = EncodedImages::read_needed(source, needed);
+            let decoded = decode_images(&encoded_images.encoded);
+            store_decoded(model, encoded_images, decoded, warnings);
         }
         ImageLoading::Headers => {
             // Nobody sees the others, so that nobody needs to be warned of them.
@@ -115,32 +124,36 @@ pub(super) fn import_images(
     }
 }
 
-/// Puts decoded images into a model, and the faults into its warnings.
+/// Stores decoded images in the model, and adds a warning for each failure.
 fn store_decoded(
     model: &mut Model,
-    found: EncodedImages<'_>,
+    encoded_images: EncodedImages<'_>,
     decoded: Vec<DecodeResult>,
     warnings: &mut ImportWarnings,
 ) {
-    warnings.append_warnings(found.warnings);
-    store_headers(&found.encoded, &mut model.image_infos);
-    for (image, decoded) in found.encoded.iter().zip(decoded) {
+    warnings.append_warnings(encoded_images.warnings);
+    store_headers(&encoded_images.encoded, &mut model.image_infos);
+    let mut images = vec![None; model.image_infos.len()];
+    for (image, decoded) in encoded_images.encoded.iter().zip(decoded) {
         match decoded {
-            Ok(decoded) => model.images[image.index] = Some(decoded),
-            Err(problem) => {
-                let fault = Diagnostic::invalid(&format!("/images/{}", image.index), problem);
-                warnings.downgrade(&fault, SHOWN_WITHOUT_IMAGE);
+            Ok(decoded) => images[image.index] = Some(decoded),
+            Err(message) => {
+                let diagnostic = Diagnostic::invalid(&format!("/images/{}", image.index), message);
+                warnings.downgrade(&diagnostic, SHOWN_WITHOUT_IMAGE);
             }
         }
     }
+    model.images = images.into();
 }
 
+/// Name and URI of an image.
 fn image_info(json: &JsonImage) -> ImageInfo {
     let is_data = |uri: &str| uri.get(..5).is_some_and(|s| s.eq_ignore_ascii_case("data:"));
     let uri = json.uri.as_deref().map(|uri| if is_data(uri) { "data:" } else { uri }.to_owned());
     ImageInfo { name: json.name.clone(), uri, header: None }
 }
 
+/// Stores format and size of the images that were read.
 fn store_headers(encoded: &[EncodedImage<'_>], files: &mut [ImageInfo]) {
     for EncodedImage { index: number, bytes, size: (width, height) } in encoded {
         let (format, bytes) = (image_decoder::format_name(bytes), bytes.len());
@@ -148,14 +161,14 @@ fn store_headers(encoded: &[EncodedImage<'_>], files: &mut [ImageInfo]) {
     }
 }
 
-/// The bytes of the needed images; those that cannot be had are a warning.
+/// Reads the bytes of the needed images; failures are warnings.
 fn read_encoded<'a>(
     needed: &[bool],
     source: &'a AccessorReader<'_>,
     warnings: &mut ImportWarnings,
 ) -> Vec<EncodedImage<'a>> {
     let mut texels_left = source.limits.image_texels;
-    let mut found = Vec::new();
+    let mut encoded_images = Vec::new();
     for number in (0..needed.len()).filter(|&at| needed[at]) {
         let pointer = format!("/images/{number}");
         let bytes = image_bytes(&source.root.images[number], &pointer, source);
@@ -166,15 +179,16 @@ fn read_encoded<'a>(
             Ok((bytes, (width, height)))
         });
         match checked {
-            Ok((bytes, size)) => found.push(EncodedImage { index: number, bytes, size }),
-            Err(fault) => warnings.downgrade(&fault, SHOWN_WITHOUT_IMAGE),
+            Ok((bytes, size)) => encoded_images.push(EncodedImage { index: number, bytes, size }),
+            Err(diagnostic) => warnings.downgrade(&diagnostic, SHOWN_WITHOUT_IMAGE),
         }
     }
-    found
+    encoded_images
 }
 
 const SHOWN_WITHOUT_IMAGE: &str = "the surface is shown without it";
 
+/// The encoded bytes, from a file, a data URI or a buffer view.
 fn image_bytes<'a>(
     json: &JsonImage,
     pointer: &str,
@@ -194,6 +208,7 @@ fn image_bytes<'a>(
     }
 }
 
+/// Checks size and number of texels against the limits.
 fn check_image_size(
     width: u32,
     height: u32,
@@ -214,7 +229,7 @@ fn check_image_size(
         ));
     }
     match texels_left.checked_sub(u64::from(width) * u64::from(height)) {
-        Some(left) => *texels_left = left,
+        Some(remaining) => *texels_left = remaining,
         None => {
             return Err(Diagnostic::limit_exceeded(
                 pointer,

@@ -1,8 +1,9 @@
-//! Documents of which some members are of the wrong type, for a reader who is lenient: what is wrong is left out.
+//! Lenient JSON deserialization: removes members of the wrong type so that the rest can be loaded.
 //!
-//! The types are all or nothing: one mesh without primitives, and there is no document. So the member that does not fit is
-//! removed, or, where it must be there, what it is in is replaced by an empty thing of its kind, so that all others keep
-//! their numbers; then the types have another look.
+//! The typed structs are all or nothing: one mesh without primitives makes the whole document fail.
+//! So the offending member is removed, or, where it is mandatory, the item that contains it is
+//! replaced by an empty one, so that all others keep their indices; then deserialization is tried
+//! again.
 
 use super::document::type_error;
 use crate::diagnostic::Diagnostic;
@@ -10,32 +11,34 @@ use crate::import::warnings::ImportWarnings;
 use gltf::json::Root;
 use serde_json::{Value, json};
 
-/// So many bytes of JSON are looked at again in all: ten repairs of a file of six megabytes, hundreds of a small one.
+/// Bytes of JSON that are deserialized again in all: ten repairs of a file of six megabytes,
+/// hundreds of a small one.
 const REPAIR_BYTE_BUDGET: usize = 64 << 20;
 
-/// No file is worth more repairs.
+/// Repairs in one file, however small it is.
 const MAX_REPAIRS: usize = 500;
 
-/// The document in types, with what does not fit left out. `length` is that of its text.
+/// Deserializes a document, leaving out what does not fit; `length` is that of its text.
 pub(super) fn deserialize_leniently(
     value: &mut Value,
     length: usize,
     warnings: &mut ImportWarnings,
 ) -> Result<Root, Diagnostic> {
-    let mut left = (REPAIR_BYTE_BUDGET / length.max(1)).min(MAX_REPAIRS);
+    let mut repairs_left = (REPAIR_BYTE_BUDGET / length.max(1)).min(MAX_REPAIRS);
     loop {
-        let fault = match serde_path_to_error::deserialize(&*value) {
+        let diagnostic = match serde_path_to_error::deserialize(&*value) {
             Ok(root) => return Ok(root),
             Err(error) => type_error(&error),
         };
-        let repaired = if left > 0 { repair_at(value, &fault.location) } else { None };
-        let Some(consequence) = repaired else { return Err(fault) };
-        warnings.downgrade_if_lenient(fault, consequence)?;
-        left -= 1;
+        let repaired = if repairs_left > 0 { repair_at(value, &diagnostic.location) } else { None };
+        let Some(consequence) = repaired else { return Err(diagnostic) };
+        warnings.downgrade_if_lenient(diagnostic, consequence)?;
+        repairs_left -= 1;
     }
 }
 
-/// Removes what a pointer points to, or empties what it is in; says what was done. `None` if there is nothing to be done.
+/// Removes the member at a pointer, or empties the item that contains it; returns what was done,
+/// `None` if nothing can be.
 fn repair_at(document: &mut Value, pointer: &str) -> Option<&'static str> {
     let steps: Vec<&str> = pointer.split('/').skip(1).collect();
     match *steps.as_slice() {
@@ -51,10 +54,10 @@ fn repair_at(document: &mut Value, pointer: &str) -> Option<&'static str> {
     }
 }
 
-/// Lists whose items are not referred to by their numbers: one of them can be removed.
+/// Lists whose items nothing refers to by index, so that one of them can be removed.
 const UNREFERENCED_LISTS: [&str; 4] = ["primitives", "channels", "children", "nodes"];
 
-/// Removes a member of an object, or an item of an array; of an array of numbers nothing is left then.
+/// Removes a member of an object or an item of a list; other arrays are removed as a whole.
 fn remove_member(document: &mut Value, pointer: &str) -> Option<&'static str> {
     let (parent, last) = pointer.rsplit_once('/')?;
     let name = parent.rsplit('/').next()?;
@@ -73,7 +76,7 @@ fn remove_member(document: &mut Value, pointer: &str) -> Option<&'static str> {
     }
 }
 
-/// Puts an empty thing in the place of a thing of a collection.
+/// Replaces an item of a top-level collection by an empty one.
 fn replace_with_empty(document: &mut Value, collection: &str, at: &str) -> Option<&'static str> {
     let nothing = match collection {
         "accessors" => json!({"componentType": 5126, "count": 0, "type": "SCALAR"}),
@@ -104,15 +107,15 @@ mod tests {
     fn deserialize_with_warnings(mut document: Value) -> (Result<Root, String>, Vec<String>) {
         let mut warnings = ImportWarnings::new(true);
         let root = deserialize_leniently(&mut document, 1000, &mut warnings)
-            .map_err(|fault| fault.to_string());
-        let told =
+            .map_err(|diagnostic| diagnostic.to_string());
+        let messages =
             warnings.into_list().into_iter().map(|w| format!("{} {}", w.location, w.message));
-        (root, told.collect())
+        (root, messages.collect())
     }
 
     #[test]
     fn what_does_not_fit_is_left_out_and_the_rest_keeps_its_numbers() {
-        let (root, told) = deserialize_with_warnings(json!({
+        let (root, messages) = deserialize_with_warnings(json!({
             "asset": {"version": "2.0"},
             "extensionsUsed": ["a", 7],
             "meshes": [
@@ -126,12 +129,14 @@ mod tests {
         }));
         let root = root.expect("a document");
         let primitives: Vec<usize> = root.meshes.iter().map(|mesh| mesh.primitives.len()).collect();
-        assert_eq!(primitives, [0, 1, 0], "{told:#?}");
+        assert_eq!(primitives, [0, 1, 0], "{messages:#?}");
         assert_eq!((root.nodes.len(), root.textures.len()), (2, 0));
         assert_eq!(root.nodes[0].children.as_ref().map(Vec::len), Some(1));
         assert_eq!(root.materials[0].pbr_metallic_roughness.metallic_factor.0, 0.0);
-        assert!(told.iter().any(|line| line.starts_with("/meshes/0 missing field `primitives`")));
-        assert!(told.iter().any(|line| line.starts_with("/nodes/1 ")), "{told:#?}");
+        assert!(
+            messages.iter().any(|line| line.starts_with("/meshes/0 missing field `primitives`"))
+        );
+        assert!(messages.iter().any(|line| line.starts_with("/nodes/1 ")), "{messages:#?}");
     }
 
     #[test]

@@ -1,7 +1,8 @@
-//! Materials: factors and textures, those of the KHR_materials extensions among them.
+//! Materials: factors and textures, including those of the KHR_materials extensions.
 //!
-//! The numbers of extensions are found by the table of [`Field`](crate::Field)s, which says where they stand and
-//! within which bounds they must be; textures by the table of [`TextureSlot`]s.
+//! Numbers of extensions are found by the table of [animatable
+//! properties](crate::animation::object_model), which has their JSON pointers and bounds; textures
+//! by the table of [`TextureSlot`]s.
 
 use crate::animation::object_model::{MATERIAL_PROPERTIES, PropertyRow};
 use crate::diagnostic::Diagnostic;
@@ -15,14 +16,14 @@ use gltf::json::material::AlphaMode as JsonAlphaMode;
 use gltf::json::validation::Checked;
 use serde_json::{Map, Value};
 
-/// Reads all materials of a file. What is wrong with one is a warning.
+/// Reads all materials of a file. Faults in them are warnings.
 pub(super) fn import_materials(root: &Root, warnings: &mut ImportWarnings) -> Vec<Material> {
     (0..root.materials.len())
         .map(|at| MaterialReader { root, at, warnings: &mut *warnings }.read_material())
         .collect()
 }
 
-/// The transform of a texture as the file gives it (KHR_texture_transform); `None` if it gives none.
+/// The texture transform (KHR_texture_transform) in a slot; `None` if the file gives none.
 pub(super) fn texture_transform(
     root: &Root,
     material: usize,
@@ -39,6 +40,7 @@ pub(super) fn texture_transform(
     })
 }
 
+/// Reader of one material.
 struct MaterialReader<'a, 'w> {
     root: &'a Root,
     at: usize,
@@ -46,6 +48,7 @@ struct MaterialReader<'a, 'w> {
 }
 
 impl<'a> MaterialReader<'a, '_> {
+    /// Reads core properties first, then the extensions.
     fn read_material(mut self) -> Material {
         let json = &self.root.materials[self.at];
         let pbr = &json.pbr_metallic_roughness;
@@ -78,34 +81,36 @@ impl<'a> MaterialReader<'a, '_> {
         material
     }
 
+    /// The object of an extension, if the material has it.
     fn extension_object(&self, name: &str) -> Option<&'a Map<String, Value>> {
         let extensions = self.root.materials[self.at].extensions.as_ref()?;
         extensions.others.get(name)?.as_object()
     }
 
+    /// JSON pointer to a member of the material.
     fn member_pointer(&self, member: &str) -> String {
         format!("/materials/{}/{member}", self.at)
     }
 
-    /// Factors brought into [0, 1], where the specification wants them.
+    /// Clamps factors to [0, 1], with a warning.
     fn clamp_unit<const N: usize>(&mut self, member: &str, factors: [f32; N]) -> [f32; N] {
         let mut inside = factors;
         self.clamp_numbers(member, &mut inside, [0.0, 1.0]);
         inside
     }
 
-    /// Brings numbers within bounds, with a warning; what is no number becomes the least.
-    fn clamp_numbers(&mut self, member: &str, numbers: &mut [f32], [least, greatest]: [f32; 2]) {
-        let said = numbers.to_vec();
+    /// Clamps numbers to bounds, with a warning; what is not a number becomes the minimum.
+    fn clamp_numbers(&mut self, member: &str, numbers: &mut [f32], [min, max]: [f32; 2]) {
+        let given = numbers.to_vec();
         for number in &mut *numbers {
-            *number = if *number > least { number.min(greatest) } else { least };
+            *number = if *number > min { number.min(max) } else { min };
         }
-        if said != numbers {
-            let range = match greatest {
-                f32::MAX => format!("not at least {least}"),
-                _ => format!("not in [{least}, {greatest}]"),
+        if given != numbers {
+            let range = match max {
+                f32::MAX => format!("not at least {min}"),
+                _ => format!("not in [{min}, {max}]"),
             };
-            let message = format!("{said:?} is {range}; it is {numbers:?}");
+            let message = format!("{given:?} is {range}; it is {numbers:?}");
             self.warnings.push_warning(&self.member_pointer(member), message);
         }
     }
@@ -126,7 +131,8 @@ impl<'a> MaterialReader<'a, '_> {
         }
     }
 
-    /// What the extensions add: first the records with their textures, then the numbers.
+    /// Reads the extensions: first the records with their textures, then the numbers by their
+    /// table.
     fn read_extensions(&mut self, material: &mut Material) {
         self.create_extensions(material);
         for PropertyRow { path, bounds, numbers_mut: numbers, .. } in &MATERIAL_PROPERTIES {
@@ -138,73 +144,77 @@ impl<'a> MaterialReader<'a, '_> {
             // The scale of the coat's normals is read with their texture.
             let json = self.extension_object(name).and_then(|extension| extension.get(member));
             let (Some(json), Some(numbers)) = (json, numbers(material)) else { continue };
-            let said: Option<Vec<f32>> = match json {
+            let given: Option<Vec<f32>> = match json {
                 Value::Number(number) => number.as_f64().map(|x| vec![x as f32]),
                 Value::Array(all) => all.iter().map(|x| x.as_f64().map(|x| x as f32)).collect(),
                 _ => None,
             };
-            match said.filter(|said| said.len() == numbers.len()) {
-                Some(said) => {
-                    numbers.copy_from_slice(&said);
+            match given.filter(|given| given.len() == numbers.len()) {
+                Some(given) => {
+                    numbers.copy_from_slice(&given);
                     self.clamp_numbers(path, numbers, *bounds);
                 }
                 None => {
-                    let due = match numbers.len() {
+                    let expected = match numbers.len() {
                         1 => "a number is due".to_owned(),
                         several => format!("{several} numbers are due"),
                     };
                     self.warnings.push_warning(
                         &self.member_pointer(path),
-                        format!("{due}; the usual is used"),
+                        format!("{expected}; the usual is used"),
                     );
                 }
             }
         }
     }
 
+    /// Creates the record of each extension that is present, with its textures and default numbers.
     fn create_extensions(&mut self, material: &mut Material) {
         use TextureSlot as Slot;
-        let more = &mut material.extensions;
-        more.specular = self.extension_object("KHR_materials_specular").map(|_| Box::default());
-        more.transmission =
+        let extensions = &mut material.extensions;
+        extensions.specular =
+            self.extension_object("KHR_materials_specular").map(|_| Box::default());
+        extensions.transmission =
             self.extension_object("KHR_materials_transmission").map(|_| Box::default());
-        more.specular_glossiness =
+        extensions.specular_glossiness =
             self.extension_object("KHR_materials_pbrSpecularGlossiness").map(|_| Box::default());
-        more.clearcoat = self.extension_object("KHR_materials_clearcoat").map(|_| Box::default());
-        more.sheen = self.extension_object("KHR_materials_sheen").map(|_| Box::default());
-        more.volume = self.extension_object("KHR_materials_volume").map(|_| Box::default());
-        more.iridescence =
+        extensions.clearcoat =
+            self.extension_object("KHR_materials_clearcoat").map(|_| Box::default());
+        extensions.sheen = self.extension_object("KHR_materials_sheen").map(|_| Box::default());
+        extensions.volume = self.extension_object("KHR_materials_volume").map(|_| Box::default());
+        extensions.iridescence =
             self.extension_object("KHR_materials_iridescence").map(|_| Box::default());
-        more.anisotropy = self.extension_object("KHR_materials_anisotropy").map(|_| Box::default());
-        if let Some(specular) = &mut more.specular {
+        extensions.anisotropy =
+            self.extension_object("KHR_materials_anisotropy").map(|_| Box::default());
+        if let Some(specular) = &mut extensions.specular {
             specular.texture = self.read_texture(Slot::Specular);
             specular.color_texture = self.read_texture(Slot::SpecularColor);
         }
-        if let Some(older) = &mut more.specular_glossiness {
-            older.texture = self.read_texture(Slot::SpecularGlossiness);
+        if let Some(spec_gloss) = &mut extensions.specular_glossiness {
+            spec_gloss.texture = self.read_texture(Slot::SpecularGlossiness);
             (material.base_color, material.base_color_texture) =
                 ([1.0; 4], self.read_texture(Slot::Diffuse));
         }
-        if let Some(coat) = &mut more.clearcoat {
-            coat.texture = self.read_texture(Slot::Clearcoat);
-            coat.roughness_texture = self.read_texture(Slot::ClearcoatRoughness);
-            coat.normal_texture = self.read_normal_texture(Slot::ClearcoatNormal);
+        if let Some(clearcoat) = &mut extensions.clearcoat {
+            clearcoat.texture = self.read_texture(Slot::Clearcoat);
+            clearcoat.roughness_texture = self.read_texture(Slot::ClearcoatRoughness);
+            clearcoat.normal_texture = self.read_normal_texture(Slot::ClearcoatNormal);
         }
-        if let Some(sheen) = &mut more.sheen {
+        if let Some(sheen) = &mut extensions.sheen {
             sheen.color_texture = self.read_texture(Slot::SheenColor);
             sheen.roughness_texture = self.read_texture(Slot::SheenRoughness);
         }
-        if let Some(transmission) = &mut more.transmission {
+        if let Some(transmission) = &mut extensions.transmission {
             transmission.texture = self.read_texture(Slot::Transmission);
         }
-        if let Some(volume) = &mut more.volume {
+        if let Some(volume) = &mut extensions.volume {
             volume.thickness_texture = self.read_texture(Slot::Thickness);
         }
-        if let Some(film) = &mut more.iridescence {
-            film.texture = self.read_texture(Slot::Iridescence);
-            film.thickness_texture = self.read_texture(Slot::IridescenceThickness);
+        if let Some(iridescence) = &mut extensions.iridescence {
+            iridescence.texture = self.read_texture(Slot::Iridescence);
+            iridescence.thickness_texture = self.read_texture(Slot::IridescenceThickness);
         }
-        if let Some(anisotropy) = &mut more.anisotropy {
+        if let Some(anisotropy) = &mut extensions.anisotropy {
             anisotropy.texture = self.read_texture(Slot::Anisotropy);
         }
     }
@@ -216,18 +226,19 @@ impl<'a> MaterialReader<'a, '_> {
         Some(NormalTexture { texture, scale })
     }
 
+    /// The texture in a slot; a reference to a texture that does not exist is a warning.
     fn read_texture(&mut self, slot: TextureSlot) -> Option<TextureInfo> {
         let JsonTextureInfo { texture, uv_set, transform, .. } =
             JsonTextureInfo::from_slot(self.root, self.at, slot)?;
         if texture >= self.root.textures.len() {
             let pointer = self.member_pointer(&format!("{}/index", slot.json_path()));
-            let fault = Diagnostic::unresolved_index(
+            let diagnostic = Diagnostic::unresolved_index(
                 &pointer,
                 "texture",
                 texture,
                 self.root.textures.len(),
             );
-            self.warnings.downgrade(&fault, "the surface is shown without it");
+            self.warnings.downgrade(&diagnostic, "the surface is shown without it");
             return None;
         }
         let other_set = transform.and_then(|t| t.get("texCoord")).and_then(Value::as_u64);
@@ -241,17 +252,18 @@ impl<'a> MaterialReader<'a, '_> {
     }
 }
 
-/// A texture as the file names it.
+/// A texture reference as in the file.
 struct JsonTextureInfo<'a> {
     texture: usize,
     uv_set: usize,
-    /// The scale of normals.
+    /// Scale of a normal map.
     scale: f32,
+    /// The object of KHR_texture_transform.
     transform: Option<&'a Value>,
 }
 
 impl<'a> JsonTextureInfo<'a> {
-    /// The texture in a slot of a material; its number may be that of no texture.
+    /// The reference in a slot of a material; its texture may not exist.
     fn from_slot(root: &'a Root, material: usize, slot: TextureSlot) -> Option<Self> {
         let json = root.materials.get(material)?;
         let pbr = &json.pbr_metallic_roughness;
@@ -262,29 +274,33 @@ impl<'a> JsonTextureInfo<'a> {
             TextureSlot::Normal => {
                 let json = json.normal_texture.as_ref()?;
                 let (texture, uv_set) = (json.index.value(), json.tex_coord as usize);
-                let others = json.extensions.as_ref().map(|extensions| &extensions.others);
-                let transform = others.and_then(|others| others.get(TEXTURE_TRANSFORM));
+                let extensions_json = json.extensions.as_ref().map(|extensions| &extensions.others);
+                let transform = extensions_json
+                    .and_then(|extensions_json| extensions_json.get(TEXTURE_TRANSFORM));
                 return Some(Self { texture, uv_set, scale: json.scale, transform });
             }
             TextureSlot::Occlusion => {
                 let json = json.occlusion_texture.as_ref()?;
                 let (texture, uv_set) = (json.index.value(), json.tex_coord as usize);
-                let others = json.extensions.as_ref().map(|extensions| &extensions.others);
-                let transform = others.and_then(|others| others.get(TEXTURE_TRANSFORM));
+                let extensions_json = json.extensions.as_ref().map(|extensions| &extensions.others);
+                let transform = extensions_json
+                    .and_then(|extensions_json| extensions_json.get(TEXTURE_TRANSFORM));
                 return Some(Self { texture, uv_set, scale: 1.0, transform });
             }
             _ => return Self::from_extension(root, material, slot),
         };
         let info = info?;
-        let others = info.extensions.as_ref().map(|extensions| &extensions.others);
+        let extensions_json = info.extensions.as_ref().map(|extensions| &extensions.others);
         Some(Self {
             texture: info.index.value(),
             uv_set: info.tex_coord as usize,
             scale: 1.0,
-            transform: others.and_then(|others| others.get(TEXTURE_TRANSFORM)),
+            transform: extensions_json
+                .and_then(|extensions_json| extensions_json.get(TEXTURE_TRANSFORM)),
         })
     }
 
+    /// The reference in a slot of an extension.
     fn from_extension(root: &'a Root, material: usize, slot: TextureSlot) -> Option<Self> {
         let (name, member) = slot.json_path().strip_prefix("extensions/")?.split_once('/')?;
         let json = root.materials[material].extensions.as_ref()?.others.get(name)?.get(member)?;
@@ -300,18 +316,20 @@ impl<'a> JsonTextureInfo<'a> {
 
 const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
 
-/// Warns of primitives that lack the texture coordinates their material asks for.
+/// Warns of primitives that lack the texture coordinates which their material uses.
 pub(super) fn warn_of_missing_texcoords(model: &Model, warnings: &mut ImportWarnings) {
     for (at, mesh) in model.meshes.iter().enumerate() {
-        for (part, primitive) in mesh.primitives.iter().enumerate() {
+        for (primitive_index, primitive) in mesh.primitives.iter().enumerate() {
             let material = primitive.material.map(|material| &model.materials[material]);
-            let mut used = material.into_iter().flat_map(Material::visible_textures);
-            let missing = used.find(|(_, used)| used.uv_set >= primitive.uvs.len());
+            let mut textures_used = material.into_iter().flat_map(Material::visible_textures);
+            let missing = textures_used
+                .find(|(_, textures_used)| textures_used.uv_set >= primitive.uvs.len());
             if let Some((_, TextureInfo { uv_set, .. })) =
                 missing.filter(|_| primitive.item_count() > 0)
             {
                 let message = format!("its texture needs TEXCOORD_{uv_set}; it is shown without");
-                warnings.push_warning(&format!("/meshes/{at}/primitives/{part}"), message);
+                warnings
+                    .push_warning(&format!("/meshes/{at}/primitives/{primitive_index}"), message);
             }
         }
     }

@@ -1,14 +1,16 @@
-//! Buffer views compressed by meshopt: EXT_meshopt_compression, and KHR_meshopt_compression, which is a superset.
+//! meshopt compression of buffer views: EXT_meshopt_compression, and its superset
+//! KHR_meshopt_compression.
 //!
 //! ```text
-//!  stream ──ATTRIBUTES──► elements ──filter──► the view's bytes      deltas byte by byte, in blocks
-//!         ──TRIANGLES───► indices ───────────►                       edges and vertices seen lately
-//!         ──INDICES─────► indices ───────────►                       differences to one of two earlier indices
+//!  stream ──ATTRIBUTES──► elements ──filter──► bytes    byte-wise deltas, in blocks   vertex_codec
+//!         ──TRIANGLES───► indices ───────────► bytes    edge and vertex FIFOs         index_codec
+//!         ──INDICES─────► indices ───────────► bytes    deltas to two baselines       index_sequence_codec
 //! ```
 //!
-//! Written after the text of the two extensions, whose appendices define the streams byte by byte. A stream has no
-//! lengths of its own: how long the result is, the JSON says, and a stream that ends earlier or later is invalid. Both
-//! names accept both versions of the streams and all filters.
+//! Written from the text of the extensions, whose appendices define the streams byte by byte. A
+//! stream has no lengths of its own: the JSON declares the length of the result, and a stream that
+//! ends earlier or later is invalid. Both names accept both versions of the streams and all
+//! filters.
 
 mod byte_stream;
 mod index_codec;
@@ -23,23 +25,26 @@ use byte_stream::StreamError;
 use gltf::json::buffer::View;
 use serde_json::{Map, Value};
 
-/// What an extension says of a compressed view.
+/// A compressed buffer view as its extension declares it.
 #[derive(Debug)]
 pub(crate) struct CompressedView {
-    /// Where it says so.
+    /// JSON pointer to the extension.
     pub(crate) pointer: String,
-    /// The buffer with the stream.
+    /// Index of the buffer with the stream.
     pub(crate) buffer: usize,
-    /// The stream's first byte in it.
+    /// Offset of the stream in it.
     pub(crate) offset: u64,
-    /// The stream's bytes.
+    /// Length of the stream in bytes.
     pub(crate) length: u64,
+    /// Number of elements after decompression.
     count: usize,
+    /// Size of an element in bytes after decompression.
     stride: usize,
+    /// Codec and filter.
     mode: CompressionMode,
 }
 
-/// How a stream is to be read, and what is done to its elements then.
+/// The codec of a stream.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum CompressionMode {
     Attributes(MeshoptFilter),
@@ -47,7 +52,7 @@ enum CompressionMode {
     Indices,
 }
 
-/// What is done to each element of a stream of attributes.
+/// The filter that is applied to each element of a stream of attributes after decompression.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum MeshoptFilter {
     None,
@@ -58,12 +63,14 @@ enum MeshoptFilter {
 }
 
 impl CompressedView {
-    /// What a view says of its compression, if it is compressed; `view` is the pointer to it.
+    /// The compression of a buffer view, `None` if it is not compressed; `view` is the pointer to
+    /// the view.
     pub(crate) fn from_view(json: &View, view: &str) -> Result<Option<Self>, Diagnostic> {
         let Some(extensions) = &json.extensions else { return Ok(None) };
         let named = |name: &'static str| extensions.others.get(name).map(|value| (name, value));
-        let found = named("KHR_meshopt_compression").or_else(|| named("EXT_meshopt_compression"));
-        let Some((name, value)) = found else { return Ok(None) };
+        let extension =
+            named("KHR_meshopt_compression").or_else(|| named("EXT_meshopt_compression"));
+        let Some((name, value)) = extension else { return Ok(None) };
         let pointer = format!("{view}/extensions/{name}");
         let members = value.as_object();
         let members = members.ok_or_else(|| Diagnostic::invalid(&pointer, "an object is due"))?;
@@ -73,39 +80,41 @@ impl CompressedView {
         }
         let Self { count, stride, .. } = packed;
         let length = json.byte_length.0;
-        let problem =
+        let message =
             format!("{count} elements of {stride} bytes are compressed, not {length} bytes");
-        Err(Diagnostic::invalid(&format!("{view}/byteLength"), problem))
+        Err(Diagnostic::invalid(&format!("{view}/byteLength"), message))
     }
 
+    /// Reads and checks the members of the extension.
     fn from_members(members: &Map<String, Value>, pointer: String) -> Result<Self, Diagnostic> {
-        let number = |key: &str| {
-            let number = members.get(key).and_then(Value::as_u64);
-            let due = || Diagnostic::invalid(&format!("{pointer}/{key}"), "an integer is due");
-            number.ok_or_else(due)
+        let integer_member = |key: &str| {
+            let integer_member = members.get(key).and_then(Value::as_u64);
+            let missing = || Diagnostic::invalid(&format!("{pointer}/{key}"), "an integer is due");
+            integer_member.ok_or_else(missing)
         };
-        let size = |key: &str| Ok(usize::try_from(number(key)?).unwrap_or(usize::MAX));
-        let offset = if members.contains_key("byteOffset") { number("byteOffset")? } else { 0 };
-        let (buffer, length) = (size("buffer")?, number("byteLength")?);
+        let size = |key: &str| Ok(usize::try_from(integer_member(key)?).unwrap_or(usize::MAX));
+        let offset =
+            if members.contains_key("byteOffset") { integer_member("byteOffset")? } else { 0 };
+        let (buffer, length) = (size("buffer")?, integer_member("byteLength")?);
         let (count, stride) = (size("count")?, size("byteStride")?);
         let mode = CompressionMode::from_members(members, &pointer)?;
         if let Err(allowed) = mode.check_stride(stride) {
-            let problem = format!("the stride is {stride} and must be {allowed}");
-            return Err(Diagnostic::invalid(&format!("{pointer}/byteStride"), problem));
+            let message = format!("the stride is {stride} and must be {allowed}");
+            return Err(Diagnostic::invalid(&format!("{pointer}/byteStride"), message));
         }
         if mode == CompressionMode::Triangles && !count.is_multiple_of(3) {
-            let problem = format!("{count} indices are no triangles");
-            return Err(Diagnostic::invalid(&format!("{pointer}/count"), problem));
+            let message = format!("{count} indices are no triangles");
+            return Err(Diagnostic::invalid(&format!("{pointer}/count"), message));
         }
         Ok(Self { pointer, buffer, offset, length, count, stride, mode })
     }
 
-    /// How many bytes the decompressed view has.
+    /// Length of the decompressed view in bytes.
     pub(crate) fn decompressed_length(&self) -> u64 {
         (self.count as u64).saturating_mul(self.stride as u64)
     }
 
-    /// The bytes of the view; the caller has made sure that there may be so many.
+    /// Decompresses the stream. The caller has charged the memory budget for the result.
     pub(crate) fn decompress(&self, stream: &[u8]) -> Result<Vec<u8>, Diagnostic> {
         let Self { count, stride, .. } = *self;
         let unpacked = match self.mode {
@@ -125,38 +134,40 @@ impl CompressedView {
 }
 
 impl CompressionMode {
+    /// Reads mode and filter.
     fn from_members(members: &Map<String, Value>, pointer: &str) -> Result<Self, Diagnostic> {
-        let word = |key: &str| members.get(key).map(|value| value.as_str().unwrap_or("no string"));
-        let filter = match word("filter") {
+        let string_member =
+            |key: &str| members.get(key).map(|value| value.as_str().unwrap_or("no string"));
+        let filter = match string_member("filter") {
             None | Some("NONE") => MeshoptFilter::None,
             Some("OCTAHEDRAL") => MeshoptFilter::Octahedral,
             Some("QUATERNION") => MeshoptFilter::Quaternion,
             Some("EXPONENTIAL") => MeshoptFilter::Exponential,
             Some("COLOR") => MeshoptFilter::Color,
             Some(other) => {
-                let problem = format!("the filter {other:?} is not known");
-                return Err(Diagnostic::invalid(&format!("{pointer}/filter"), problem));
+                let message = format!("the filter {other:?} is not known");
+                return Err(Diagnostic::invalid(&format!("{pointer}/filter"), message));
             }
         };
-        match (word("mode"), filter) {
+        match (string_member("mode"), filter) {
             (Some("ATTRIBUTES"), filter) => Ok(Self::Attributes(filter)),
             (Some("TRIANGLES"), MeshoptFilter::None) => Ok(Self::Triangles),
             (Some("INDICES"), MeshoptFilter::None) => Ok(Self::Indices),
             (Some("TRIANGLES" | "INDICES"), _) => {
-                let problem = "only the mode ATTRIBUTES may have a filter";
-                Err(Diagnostic::invalid(&format!("{pointer}/filter"), problem))
+                let message = "only the mode ATTRIBUTES may have a filter";
+                Err(Diagnostic::invalid(&format!("{pointer}/filter"), message))
             }
             (mode, _) => {
-                let problem = format!(
+                let message = format!(
                     "the mode must be ATTRIBUTES, TRIANGLES or INDICES, not {:?}",
                     mode.unwrap_or("")
                 );
-                Err(Diagnostic::invalid(&format!("{pointer}/mode"), problem))
+                Err(Diagnostic::invalid(&format!("{pointer}/mode"), message))
             }
         }
     }
 
-    /// Whether elements may have so many bytes; if not, how many they may have.
+    /// Checks the element size; the error names the allowed ones.
     fn check_stride(self, stride: usize) -> Result<(), &'static str> {
         let fits = |fits: bool, allowed| if fits { Ok(()) } else { Err(allowed) };
         match self {

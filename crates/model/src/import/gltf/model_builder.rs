@@ -1,4 +1,4 @@
-//! From a document to a model: one step for each part, in an order in which each finds what it needs.
+//! Model assembly: the order in which the parts of a document are read.
 
 use super::accessor::AccessorReader;
 use super::animation::{self, AnimatedObjects};
@@ -14,7 +14,7 @@ use crate::import::warnings::ImportWarnings;
 use crate::import::{ImageLoading, ImportOptions};
 use crate::{Model, Node};
 
-/// Builds the model of a document. The images are decoded while the meshes are read.
+/// Builds the model of a document. Images are decoded while the meshes are read.
 pub(super) fn build_model(
     document: &GltfDocument,
     source: &AccessorReader<'_>,
@@ -22,25 +22,26 @@ pub(super) fn build_model(
     warnings: &mut ImportWarnings,
 ) -> Result<Model, Diagnostic> {
     let timings = &options.timings;
-    let outline = || build_scene_graph(document, source, options, warnings);
-    let mut model = timings.measure("geometry", outline)?;
-    let early =
+    let build_graph = || build_scene_graph(document, source, options, warnings);
+    let mut model = timings.measure("geometry", build_graph)?;
+    let announced =
         timings.measure("images", || collect_announced_images(source, &model, options.images));
     let geometry =
         || timings.measure("geometry", || build_meshes(document, source, &mut model, warnings));
-    let ((), decoded) = decode_images_alongside(&early.encoded, timings, geometry)?;
-    let early = (early, decoded);
-    let place = || images::import_images(source, &mut model, early, options.images, warnings);
-    timings.measure("images", place);
+    let ((), decoded) = decode_images_alongside(&announced.encoded, timings, geometry)?;
+    let announced = (announced, decoded);
+    let store = || images::import_images(source, &mut model, announced, options.images, warnings);
+    timings.measure("images", store);
     Ok(model)
 }
 
+/// Reads the images that the JSON says will be visible.
 fn collect_announced_images<'a>(
     source: &'a AccessorReader<'_>,
     model: &Model,
-    what: ImageLoading,
+    image_loading: ImageLoading,
 ) -> EncodedImages<'a> {
-    match what {
+    match image_loading {
         ImageLoading::Decode => EncodedImages::read_needed(
             source,
             images::announced_images(source.root, model, model.active_variant),
@@ -49,7 +50,7 @@ fn collect_announced_images<'a>(
     }
 }
 
-/// Everything but the meshes and the images.
+/// Reads everything but meshes and images.
 fn build_scene_graph(
     document: &GltfDocument,
     source: &AccessorReader<'_>,
@@ -58,12 +59,12 @@ fn build_scene_graph(
 ) -> Result<Model, Diagnostic> {
     let root = &document.root;
     let mut nodes = scene_graph::import_nodes(document, source.limits, warnings)?;
-    let shown = selection::select_scene(root, options.scene.as_ref(), warnings)?;
+    let active_scene = selection::select_scene(root, options.scene.as_ref(), warnings)?;
     let (cameras, usable) = camera::import_cameras(root, warnings);
     let mut model = Model {
-        roots: scene_graph::scene_roots(root, shown, &nodes, warnings)?,
+        roots: scene_graph::scene_roots(root, active_scene, &nodes, warnings)?,
         scenes: scene_graph::import_scenes(root),
-        active_scene: (shown < root.scenes.len()).then_some(shown),
+        active_scene: (active_scene < root.scenes.len()).then_some(active_scene),
         lights: lights::import_lights(root, &mut nodes, warnings),
         nodes,
         materials: material::import_materials(root, warnings),
@@ -101,7 +102,7 @@ fn build_animations(
     Ok(())
 }
 
-/// The meshes, in the materials of the chosen variant, and where they stand.
+/// Reads the meshes with the materials of the active variant, and their instances.
 fn build_meshes(
     document: &GltfDocument,
     source: &AccessorReader<'_>,
@@ -122,7 +123,7 @@ fn build_meshes(
     scene_graph::check_scene_items(model, source.limits)
 }
 
-/// Nodes do not name skins and cameras that have been left out.
+/// Clears references of nodes to skins and cameras that have been left out.
 fn drop_dangling_references(model: &mut Model, usable_cameras: &[bool]) {
     let Model { nodes, skins, .. } = model;
     for Node { skin, camera, .. } in nodes {

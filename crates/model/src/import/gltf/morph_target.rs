@@ -1,21 +1,21 @@
-//! Morph targets: differences of the attributes of vertices. One that cannot be read is left out with a warning.
+//! Morph targets: deltas of vertex attributes; an invalid one is left out with a warning.
 
 use super::attribute::{AllowedFormats, AttributeReader, COLOR, POSITION, TEXCOORD};
 use crate::MorphTarget;
 use crate::diagnostic::Diagnostic;
 use gltf::json;
 
-/// Reads one morph target.
+/// Reader of one morph target.
 pub(super) struct MorphTargetReader<'r, 'a, 'w> {
     pub(super) attributes: &'r mut AttributeReader<'a, 'w>,
-    /// Where it is.
+    /// Location of the morph target.
     pub(super) pointer: String,
     /// Whether tangents are read.
     pub(super) tangents: bool,
 }
 
 impl MorphTargetReader<'_, '_, '_> {
-    /// The differences; `further` are those that the JSON type has no room for, by name.
+    /// Reads the deltas; `further` are attributes that the JSON type lacks, by name.
     pub(super) fn read_target(
         &mut self,
         json: &json::mesh::MorphTarget,

@@ -1,7 +1,7 @@
-//! Primitives: attributes and indices become plain arrays, and what cannot be drawn is dropped.
+//! Mesh primitives: accessors become plain arrays, and what cannot be drawn is removed.
 //!
-//! Positions and indices make the shape; if they cannot be read the file is refused. All other attributes change only
-//! its look: one that cannot be read is left out with a warning.
+//! Positions and indices define the shape; if they are invalid the file is refused. All other
+//! attributes change only the look: an invalid one is left out with a warning.
 
 use super::accessor::AccessorReader;
 use super::attribute::{
@@ -21,12 +21,12 @@ use gltf::json::mesh::Semantic;
 use gltf::json::validation::Checked;
 use std::ops::Range;
 
-/// So many sets of texture coordinates are read.
+/// Sets of texture coordinates that are read.
 pub(super) const UV_SETS: u32 = 8;
-/// So many sets of joints are read.
+/// Sets of joints that are read.
 const JOINT_SETS: u32 = 16;
 
-/// What the file says of primitives elsewhere.
+/// Context of primitives: other parts of the file that they refer to.
 #[derive(Clone, Copy)]
 pub(super) struct PrimitiveContext<'a> {
     pub(super) materials: &'a [Material],
@@ -55,12 +55,12 @@ pub(super) fn import_meshes(
                 warnings: &mut *warnings,
             };
             primitives.push(match reader.read_primitive() {
-                Err(fault) if fault.code == codes::MISSING_DATA => {
-                    warnings.downgrade(&fault, "the primitive is left out");
+                Err(diagnostic) if diagnostic.code == codes::MISSING_DATA => {
+                    warnings.downgrade(&diagnostic, "the primitive is left out");
                     Primitive::default()
                 }
-                Err(fault) => {
-                    warnings.downgrade_if_lenient(fault, "the primitive is left out")?;
+                Err(diagnostic) => {
+                    warnings.downgrade_if_lenient(diagnostic, "the primitive is left out")?;
                     Primitive::default()
                 }
                 Ok(primitive) => primitive,
@@ -72,18 +72,20 @@ pub(super) fn import_meshes(
     Ok(meshes)
 }
 
-/// Reads one primitive.
+/// Reader of one primitive.
 struct PrimitiveReader<'a, 'w> {
     source: &'a AccessorReader<'a>,
     json: &'a json::mesh::Primitive,
     context: PrimitiveContext<'a>,
-    /// The mesh's number, and the primitive's in it.
+    /// Index of the mesh, and of the primitive in it.
     mesh_and_part: (usize, usize),
     pointer: String,
     warnings: &'w mut ImportWarnings,
 }
 
 impl<'a> PrimitiveReader<'a, '_> {
+    /// Reads the primitive: decompresses it, expands strips and fans, removes invalid items, then
+    /// reads the attributes of the vertices that are used.
     fn read_primitive(mut self) -> Result<Primitive, Diagnostic> {
         let Checked::Valid(mode) = self.json.mode else {
             let pointer = format!("{}/mode", self.pointer);
@@ -127,7 +129,7 @@ impl<'a> PrimitiveReader<'a, '_> {
         Ok(primitive)
     }
 
-    /// Whether a material that the primitive can have bends its normals: tangents count only then.
+    /// Whether some material of the primitive needs a tangent frame; tangents are read only then.
     fn needs_tangents(&self, material: Option<usize>, variants: &[VariantMaterial]) -> bool {
         let others = variants.iter().map(|variant| variant.material);
         let mut all = material.into_iter().chain(others);
@@ -140,6 +142,7 @@ impl<'a> PrimitiveReader<'a, '_> {
         selection::variant_materials(root, self.json, &self.pointer, variants, self.warnings)
     }
 
+    /// Edges for line drawings.
     fn read_edges(
         &mut self,
         primitive: &Primitive,
@@ -156,20 +159,21 @@ impl<'a> PrimitiveReader<'a, '_> {
         reader.read_edges(primitive.topology)
     }
 
-    /// What a compressed primitive has in its stream; `None` if there is none, or if it is broken and there is other data.
+    /// Decoded data of a Draco-compressed primitive. `None` if it is not compressed, or if the
+    /// stream is broken and there is uncompressed data.
     fn decode_draco_data(&mut self, tangents: bool) -> Result<Option<DracoData>, Diagnostic> {
         let positions = self.attribute_accessor(Semantic::Positions);
         let has_other_data = positions.is_some_and(|accessor| !self.source.has_no_data(accessor));
         match draco::decode_draco(self.source, self.json, tangents, &self.pointer) {
-            Err(fault) if fault.is_downgradable() && has_other_data => {
-                self.warnings.downgrade(&fault, "the uncompressed data is used");
+            Err(diagnostic) if diagnostic.is_downgradable() && has_other_data => {
+                self.warnings.downgrade(&diagnostic, "the uncompressed data is used");
                 Ok(None)
             }
             decoded => decoded,
         }
     }
 
-    /// The positions; `None` if there is nothing to draw.
+    /// The positions; `None` if the primitive has none.
     fn position_elements<'e>(
         &mut self,
         decoded: Option<&'e DracoData>,
@@ -191,7 +195,7 @@ impl<'a> PrimitiveReader<'a, '_> {
         }))
     }
 
-    /// The vertices in the order in which they are drawn; without indices that of the file.
+    /// The vertices in drawing order: the indices, or without them the order of the file.
     fn read_vertex_order(&self, vertices: usize) -> Result<Vec<u32>, Diagnostic> {
         let Some(accessor) = self.json.indices else {
             let accessor = self.attribute_accessor(Semantic::Positions).unwrap_or(0);
@@ -204,7 +208,7 @@ impl<'a> PrimitiveReader<'a, '_> {
         self.source.read_indices(&elements)
     }
 
-    /// Drops the items that have a corner without a vertex: every index then has one.
+    /// Removes items with an index out of range: all remaining indices are valid.
     fn drop_items_without_vertices(&mut self, primitive: &mut Primitive, vertices: usize) {
         if used_range(&primitive.indices).end <= vertices {
             return;
@@ -216,7 +220,8 @@ impl<'a> PrimitiveReader<'a, '_> {
         self.warnings.push_warning(&format!("{}/indices", self.pointer), message);
     }
 
-    /// Drops the items that have a corner at a position that is no place: every position then is finite.
+    /// Removes items with a vertex at a position that is not finite: all remaining positions are
+    /// finite.
     fn drop_nonfinite_items(&mut self, primitive: &mut Primitive) {
         // Without a way out of the loop the compiler takes many numbers at a time.
         let all = primitive.positions.as_flattened();
@@ -234,7 +239,7 @@ impl<'a> PrimitiveReader<'a, '_> {
         self.warnings.push_warning(&format!("{}/attributes/POSITION", self.pointer), message);
     }
 
-    /// Reads everything about the vertices but their positions.
+    /// Reads all attributes but the positions.
     fn read_attributes(
         &mut self,
         primitive: &mut Primitive,
@@ -301,6 +306,7 @@ impl<'a> PrimitiveReader<'a, '_> {
         self.json.attributes.get(&Checked::Valid(semantic)).map(json::Index::value)
     }
 
+    /// Normalizes the normals, with warnings.
     fn repair_normals(&mut self, primitive: &mut Primitive) {
         let normals::NormalRepairs { lengths, replaced } = normals::normalize_normals(primitive);
         let pointer = format!("{}/attributes/NORMAL", self.pointer);
@@ -314,6 +320,7 @@ impl<'a> PrimitiveReader<'a, '_> {
         }
     }
 
+    /// The material; one that does not exist is replaced by the default material with a warning.
     fn checked_material(&mut self) -> Option<usize> {
         let material = self.json.material?.value();
         let count = self.source.root.materials.len();
@@ -321,14 +328,15 @@ impl<'a> PrimitiveReader<'a, '_> {
             return Some(material);
         }
         let pointer = format!("{}/material", self.pointer);
-        let fault = Diagnostic::unresolved_index(&pointer, "material", material, count);
-        self.warnings.downgrade(&fault, "the default material is used");
+        let diagnostic = Diagnostic::unresolved_index(&pointer, "material", material, count);
+        self.warnings.downgrade(&diagnostic, "the default material is used");
         None
     }
 }
 
-/// Counts the indices from the lowest one on; gives the range they came from. Parts of a model often share one long
-/// array of vertices, of which each uses a stretch.
+/// Renumbers indices from the lowest one on; returns the range they came from.
+///
+/// Primitives often share one long array of vertices, of which each uses a range.
 fn rebase_indices(indices: &mut [u32]) -> Range<usize> {
     let used = used_range(indices);
     let low = used.start as u32;
@@ -338,14 +346,14 @@ fn rebase_indices(indices: &mut [u32]) -> Range<usize> {
     used
 }
 
-/// From the lowest to the highest index.
+/// The range from the lowest to the highest index.
 fn used_range(indices: &[u32]) -> Range<usize> {
     let (low, high) =
         indices.iter().fold((u32::MAX, 0), |(low, high), &i| (low.min(i), high.max(i)));
     if indices.is_empty() { 0..0 } else { low as usize..high as usize + 1 }
 }
 
-/// Keeps the items that `keep` accepts; gives the number of the others.
+/// Keeps the points, lines or triangles that `keep` accepts; returns the number of the others.
 fn retain_items(primitive: &mut Primitive, keep: impl Fn(&[u32]) -> bool) -> usize {
     let Primitive { topology, indices, edges, .. } = primitive;
     let before = indices.len();

@@ -1,4 +1,4 @@
-//! Skins: joints and the matrices that go with them. One that is wrong is left out with a warning.
+//! Skins: joints and inverse bind matrices; an invalid skin is left out with a warning.
 
 use super::accessor::AccessorReader;
 use super::node_transform::affine_from_columns;
@@ -16,8 +16,8 @@ pub(super) fn import_skins(
     let mut skins = Vec::with_capacity(source.root.skins.len());
     for at in 0..source.root.skins.len() {
         match read_skin(source, at) {
-            Err(fault) if fault.is_downgradable() => {
-                warnings.downgrade(&fault, "the skin is left out");
+            Err(diagnostic) if diagnostic.is_downgradable() => {
+                warnings.downgrade(&diagnostic, "the skin is left out");
                 skins.push(Skin { joints: Vec::new(), inverse_bind_matrices: Vec::new() });
             }
             skin => skins.push(skin?),
@@ -26,13 +26,14 @@ pub(super) fn import_skins(
     Ok(skins)
 }
 
+/// Reads and checks one skin. Missing matrices are identities (glTF 2.0 §3.7.3.1).
 fn read_skin(source: &AccessorReader<'_>, at: usize) -> Result<Skin, Diagnostic> {
     let json = &source.root.skins[at];
     let count = source.root.nodes.len();
     let joints: Vec<usize> = json.joints.iter().map(gltf::json::Index::value).collect();
-    if let Some(place) = joints.iter().position(|&joint| joint >= count) {
-        let pointer = format!("/skins/{at}/joints/{place}");
-        return Err(Diagnostic::unresolved_index(&pointer, "node", joints[place], count));
+    if let Some(slot) = joints.iter().position(|&joint| joint >= count) {
+        let pointer = format!("/skins/{at}/joints/{slot}");
+        return Err(Diagnostic::unresolved_index(&pointer, "node", joints[slot], count));
     }
     if joints.is_empty() {
         return Err(Diagnostic::invalid(&format!("/skins/{at}/joints"), "there are no joints"));
@@ -46,8 +47,8 @@ fn read_skin(source: &AccessorReader<'_>, at: usize) -> Result<Skin, Diagnostic>
         return Err(Diagnostic::invalid(&pointer, "the matrices must be MAT4 of floats"));
     }
     if elements.count < joints.len() {
-        let problem = format!("{} matrices for {} joints", elements.count, joints.len());
-        return Err(Diagnostic::invalid(&pointer, problem));
+        let message = format!("{} matrices for {} joints", elements.count, joints.len());
+        return Err(Diagnostic::invalid(&pointer, message));
     }
     let matrices = source.read_floats::<16>(&elements.slice_range(0..joints.len()))?;
     let inverse_bind: Option<Vec<_>> =

@@ -1,4 +1,4 @@
-//! Textures: which image, read how.
+//! Textures: the image each uses, and its sampler.
 
 use crate::diagnostic::Diagnostic;
 use crate::import::warnings::ImportWarnings;
@@ -7,10 +7,10 @@ use gltf::json::Root;
 use gltf::json::texture::{MagFilter, MinFilter, WrappingMode};
 use gltf::json::validation::Checked;
 
-/// What `Texture::source` is in the JSON types where the file has none.
+/// Value of `Texture::source` in the JSON type where the file has none.
 const NO_SOURCE: usize = u32::MAX as usize;
 
-/// Reads all textures of a file. What is wrong with one is a warning.
+/// Reads all textures of a file. Faults in them are warnings.
 pub(super) fn import_textures(root: &Root, warnings: &mut ImportWarnings) -> Vec<Texture> {
     let mut textures = Vec::with_capacity(root.textures.len());
     for (at, json) in root.textures.iter().enumerate() {
@@ -20,9 +20,9 @@ pub(super) fn import_textures(root: &Root, warnings: &mut ImportWarnings) -> Vec
                 || {
                     let pointer = format!("{pointer}/sampler");
                     let count = root.samplers.len();
-                    let fault =
+                    let diagnostic =
                         Diagnostic::unresolved_index(&pointer, "sampler", index.value(), count);
-                    warnings.downgrade(&fault, "the texture is read in the usual way");
+                    warnings.downgrade(&diagnostic, "the texture is read in the usual way");
                     Sampler::default()
                 },
                 convert_sampler,
@@ -33,8 +33,8 @@ pub(super) fn import_textures(root: &Root, warnings: &mut ImportWarnings) -> Vec
     textures
 }
 
-/// The image of a texture; an image of an extension that is read comes before the one that stands beside it for those who
-/// cannot read it.
+/// The image of a texture. That of a supported extension (KHR_texture_basisu, EXT_texture_webp)
+/// takes precedence over the fallback for readers without it.
 fn texture_image(root: &Root, at: usize, warnings: &mut ImportWarnings) -> Option<usize> {
     let json = &root.textures[at];
     let extensions = json.extensions.as_ref().map(|extensions| &extensions.others);
@@ -47,13 +47,13 @@ fn texture_image(root: &Root, at: usize, warnings: &mut ImportWarnings) -> Optio
     }
     if image != NO_SOURCE {
         let pointer = format!("/textures/{at}/source");
-        let fault = Diagnostic::unresolved_index(&pointer, "image", image, root.images.len());
-        warnings.downgrade(&fault, "the texture is not shown");
+        let diagnostic = Diagnostic::unresolved_index(&pointer, "image", image, root.images.len());
+        warnings.downgrade(&diagnostic, "the texture is not shown");
     }
     None
 }
 
-/// The JSON sampler in our words; what is missing or unknown is read in the usual way.
+/// The sampler; missing or unknown states take their defaults.
 fn convert_sampler(json: &gltf::json::texture::Sampler) -> Sampler {
     let wrap = |mode: Checked<WrappingMode>| match mode {
         Checked::Valid(WrappingMode::ClampToEdge) => WrapMode::ClampToEdge,

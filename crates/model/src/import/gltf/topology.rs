@@ -1,4 +1,4 @@
-//! From the seven primitive modes of glTF to plain lists of points, lines and triangles.
+//! Primitive modes: expands strips, loops and fans to lists of lines and triangles.
 //!
 //! ```text
 //!  line strip      line loop       triangle strip      triangle fan
@@ -8,13 +8,13 @@
 //!  01 12 23        01 12 23 30     012 132 234 354     120 230
 //! ```
 //!
-//! Every second triangle of a strip is turned round, so that all have the same front. The vertex orders are those of
-//! glTF 2.0 §3.7.2.1.
+//! Every second triangle of a strip is flipped, so that all have the same winding. The vertex
+//! orders are those of glTF 2.0 §3.7.2.1.
 
 use crate::Topology;
 use gltf::json::mesh::Mode;
 
-/// The list that a mode makes of a sequence of vertices. A rest too short for an item is left out.
+/// Expands a sequence of vertices to a list. Vertices too few for another item are dropped.
 pub(super) fn expand_to_list(mode: Mode, mut vertices: Vec<u32>) -> (Topology, Vec<u32>) {
     let topology = match mode {
         Mode::Points => Topology::Points,

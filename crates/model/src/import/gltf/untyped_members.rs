@@ -1,35 +1,37 @@
-//! What the types of the `gltf` crate have no room for, noted before the JSON becomes those types: channels of animations
-//! that name their target by a pointer (KHR_animation_pointer), and attributes of morph targets beyond position,
-//! normal and tangent (glTF 2.0 §3.7.2.2 allows texture coordinates and colours as well).
+//! JSON members that the `gltf` crate's types do not have, collected before deserialization.
+//!
+//! These are animation channels that name their target by a pointer (KHR_animation_pointer), and
+//! attributes of morph targets beyond position, normal and tangent: glTF 2.0 §3.7.2.2 allows
+//! texture coordinates and colors as well.
 
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// What would be lost.
+/// Members that deserialization would lose.
 #[derive(Debug, Default)]
 pub(super) struct UntypedMembers {
-    /// The channels with pointers, in the order of the file.
+    /// Channels with pointers, in the order of the file.
     pub(super) pointer_channels: Vec<PointerChannel>,
-    /// For mesh, primitive and target, the accessors of its further attributes by name.
+    /// For mesh, primitive and target index, further attributes by name with their accessors.
     pub(super) extra_morph_attributes: BTreeMap<(usize, usize, usize), Vec<(String, usize)>>,
 }
 
-/// A channel of an animation that names its target by a JSON pointer.
+/// An animation channel that names its target by a JSON pointer (KHR_animation_pointer).
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct PointerChannel {
-    /// The animation's number.
+    /// Index of the animation.
     pub(super) animation: usize,
-    /// The channel's number in it.
+    /// Index of the channel in it.
     pub(super) channel: usize,
-    /// The number of the sampler in the animation; too large where the file has none.
+    /// Index of the sampler in the animation; too large where the file has none.
     pub(super) sampler: usize,
-    /// What changes.
+    /// JSON pointer to the property that changes.
     pub(super) target: String,
 }
 
 impl UntypedMembers {
-    /// Notes what would be lost of a document. Members of other types than expected are passed over: the types will refuse
-    /// them.
+    /// Collects the members from a document. Members of unexpected types are skipped:
+    /// deserialization will reject them.
     pub(super) fn collect_from(document: &Value) -> Self {
         Self {
             pointer_channels: collect_pointer_channels(document),
@@ -38,34 +40,36 @@ impl UntypedMembers {
     }
 }
 
-fn indexed_items<'a>(of: &'a Value, key: &str) -> impl Iterator<Item = (usize, &'a Value)> {
-    of.get(key).and_then(Value::as_array).into_iter().flatten().enumerate()
+/// Items of an array member with their indices; none if it is absent.
+fn indexed_items<'a>(json: &'a Value, key: &str) -> impl Iterator<Item = (usize, &'a Value)> {
+    json.get(key).and_then(Value::as_array).into_iter().flatten().enumerate()
 }
 
+/// The index in a JSON number; `usize::MAX`, which is out of range everywhere, if there is none.
 fn index_or_max(value: Option<&Value>) -> usize {
     value.and_then(Value::as_u64).and_then(|at| usize::try_from(at).ok()).unwrap_or(usize::MAX)
 }
 
 fn collect_pointer_channels(document: &Value) -> Vec<PointerChannel> {
-    let mut found = Vec::new();
+    let mut collected = Vec::new();
     for (animation, json) in indexed_items(document, "animations") {
         for (channel, json) in indexed_items(json, "channels") {
             let target = json.pointer("/target/extensions/KHR_animation_pointer/pointer");
             if let Some(target) = target.and_then(Value::as_str) {
                 let (sampler, target) = (index_or_max(json.get("sampler")), target.to_owned());
-                found.push(PointerChannel { animation, channel, sampler, target });
+                collected.push(PointerChannel { animation, channel, sampler, target });
             }
         }
     }
-    found
+    collected
 }
 
 fn collect_morph_attributes(
     document: &Value,
 ) -> BTreeMap<(usize, usize, usize), Vec<(String, usize)>> {
-    let mut found = BTreeMap::new();
+    let mut collected = BTreeMap::new();
     for (mesh, json) in indexed_items(document, "meshes") {
-        for (part, json) in indexed_items(json, "primitives") {
+        for (primitive_index, json) in indexed_items(json, "primitives") {
             for (target, json) in indexed_items(json, "targets") {
                 let members = json.as_object().into_iter().flatten();
                 let further = members
@@ -73,12 +77,12 @@ fn collect_morph_attributes(
                     .map(|(name, accessor)| (name.clone(), index_or_max(Some(accessor))));
                 let further: Vec<_> = further.collect();
                 if !further.is_empty() {
-                    found.insert((mesh, part, target), further);
+                    collected.insert((mesh, primitive_index, target), further);
                 }
             }
         }
     }
-    found
+    collected
 }
 
 #[cfg(test)]

@@ -1,15 +1,16 @@
-//! The frame header of a JPEG: a sampling that the decoder does not expect is found before it reads one.
+//! JPEG frame headers: rejects chroma subsampling that the decoder does not expect.
 //!
 //! ```text
-//!  FF C0..C2 │ length │ depth │ height │ width │ n │ n times: name, sampling across and down, table
+//!  FF C0..C2 │ length │ depth │ height │ width │ n │ n times: id, sampling factors, quantization table
 //! ```
 //! Source: ITU-T T.81 (1992), §B.2.2.
 
-/// Refuses files in which a later component is sampled more finely than the first: the decoder makes its room by the first
-/// one's rows and panics when another needs more. No camera and no program is known to write them.
+/// Refuses files in which a later component is sampled more finely than the first: the decoder
+/// sizes its buffers by the rows of the first and panics when another needs more. No camera and no
+/// program is known to write such files.
 ///
-/// Whatever looks like a frame header is looked at, wherever it stands: entropy-coded data cannot hold the marker, and
-/// where the decoder finds its header in a broken file is its own affair.
+/// Everything that looks like a frame header is checked, wherever it is: entropy-coded data cannot
+/// contain the marker, and which one the decoder finds in a broken file is not known here.
 pub(super) fn check_chroma_sampling(file: &[u8]) -> Result<(), String> {
     let headers = file.windows(2).enumerate().filter(|(_, mark)| is_frame_marker(mark));
     for (at, _) in headers {
@@ -32,11 +33,13 @@ pub(super) fn check_chroma_sampling(file: &[u8]) -> Result<(), String> {
     Ok(())
 }
 
+/// Start of frame: SOF0 (baseline), SOF1 (extended) or SOF2 (progressive).
 fn is_frame_marker(mark: &[u8]) -> bool {
     matches!(mark, [0xFF, 0xC0..=0xC2])
 }
 
-/// The components of a frame header whose length agrees with their number.
+/// Components of a frame header (id, sampling factors, table), if its length agrees with their
+/// number.
 fn component_samplings(header: &[u8]) -> Option<&[[u8; 3]]> {
     let &[high, low, _, _, _, _, _, count] = header.first_chunk()?;
     let length = usize::from(u16::from_be_bytes([high, low]));
@@ -44,6 +47,7 @@ fn component_samplings(header: &[u8]) -> Option<&[[u8; 3]]> {
     (length == 8 + 3 * usize::from(count)).then_some(components)
 }
 
+/// Horizontal and vertical sampling factor.
 fn split_nibbles(byte: u8) -> [u8; 2] {
     [byte >> 4, byte & 15]
 }
@@ -61,11 +65,14 @@ mod tests {
 
     #[test]
     fn the_first_component_must_be_the_finest_in_both_directions() {
-        for usual in [&[0x11][..], &[0x11; 3], &[0x22, 0x11, 0x11], &[0x21, 0x11, 0x11]] {
-            assert_eq!(check_chroma_sampling(&frame_header(usual)), Ok(()), "{usual:x?}");
+        for supported in [&[0x11][..], &[0x11; 3], &[0x22, 0x11, 0x11], &[0x21, 0x11, 0x11]] {
+            assert_eq!(check_chroma_sampling(&frame_header(supported)), Ok(()), "{supported:x?}");
         }
-        for odd in [[0x11, 0x11, 0x22], [0x21, 0x12, 0x11], [0x12, 0x11, 0x21]] {
-            assert!(check_chroma_sampling(&frame_header(&odd)).is_err(), "{odd:x?}");
+        for unsupported in [[0x11, 0x11, 0x22], [0x21, 0x12, 0x11], [0x12, 0x11, 0x21]] {
+            assert!(
+                check_chroma_sampling(&frame_header(&unsupported)).is_err(),
+                "{unsupported:x?}"
+            );
         }
     }
 

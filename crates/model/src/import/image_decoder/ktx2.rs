@@ -1,12 +1,12 @@
-//! KTX2 images of Basis Universal (KHR_texture_basisu): ETC1S, UASTC and ASTC blocks become 8-bit RGBA.
+//! KTX2 images of Basis Universal (KHR_texture_basisu): ETC1S, UASTC and ASTC blocks to 8-bit RGBA.
 //!
-//! The `basisu` crate reads them, one layer, face and level: the first. Only by the feature `basisu`, which is off by default:
-//! the crate is young, and its tables are large.
+//! The crate `basisu` transcodes them; of layers, faces and mip levels only the first is read. The
+//! feature `basisu` is off by default: the crate is young, and its tables are large.
 
-/// The first bytes of a KTX2 file.
+/// The identifier at the beginning of a KTX2 file (KTX 2.0 §3.1).
 pub(super) const MAGIC: [u8; 12] = *b"\xABKTX 20\xBB\r\n\x1A\n";
 
-/// Width and height of the first level, from the header alone (KTX 2.0 §3).
+/// Width and height of the first mip level, from the header alone (KTX 2.0 §3).
 pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), String> {
     let number = |at: usize| {
         let word = bytes.get(at..).and_then(|rest| rest.first_chunk());
@@ -16,11 +16,11 @@ pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), String> {
     Ok((number(20)?, number(24)?.max(1)))
 }
 
-/// The first level of the first layer and face.
+/// Decodes the first mip level of the first layer and face.
 pub(super) fn decode(bytes: &[u8]) -> Result<crate::Image, String> {
     use basisu::{DecodeFlags, TargetFormat, Transcoder};
-    let problem = |error: basisu::Error| format!("the KTX2 image is not read: {error:?}");
-    let transcoder = Transcoder::new(bytes).map_err(problem)?;
+    let message = |error: basisu::Error| format!("the KTX2 image is not read: {error:?}");
+    let transcoder = Transcoder::new(bytes).map_err(message)?;
     let (width, height) = transcoder.base_dimensions();
     if (width, height) != size(bytes)? {
         return Err("the KTX2 image has two sizes".to_owned());
@@ -29,7 +29,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<crate::Image, String> {
     if !transcoder.supports(target) {
         return Err("the KTX2 image has no colours of eight bits".to_owned());
     }
-    let texels = transcoder.transcode(0, target, DecodeFlags::NONE).map_err(problem)?;
+    let texels = transcoder.transcode(0, target, DecodeFlags::NONE).map_err(message)?;
     let rgba = texels.as_chunks().0.to_vec();
     if rgba.len() as u64 != u64::from(width) * u64::from(height) {
         return Err("the KTX2 image is incomplete".to_owned());
@@ -54,12 +54,12 @@ mod tests {
         // Data format descriptor, key/value data, supercompression data: place and length.
         words(&[HEADER, DESCRIPTOR, 0, 0, 0, 0, 0, 0]);
         // The level: place, length, length before compression, 64 bits each.
-        let place = (HEADER + DESCRIPTOR).next_multiple_of(16);
-        words(&[place, 0, 16, 0, 16, 0]);
+        let offset = (HEADER + DESCRIPTOR).next_multiple_of(16);
+        words(&[offset, 0, 16, 0, 16, 0]);
         // One block of descriptor: ASTC, BT.709, sRGB, straight alpha, 4 x 4 texels in 16 bytes, one sample.
         words(&[DESCRIPTOR, 0, 2 | 40 << 16, 162 | 1 << 8 | 2 << 16, 3 | 3 << 8, 16, 0]);
         words(&[127 << 16, 0, 0, u32::MAX]);
-        bytes.resize(place as usize, 0);
+        bytes.resize(offset as usize, 0);
         bytes.extend([0xFC, 0xFD, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF]);
         [r, g, b, a].iter().for_each(|channel| bytes.extend(channel.to_le_bytes()));
         bytes

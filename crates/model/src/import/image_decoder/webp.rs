@@ -1,13 +1,15 @@
-//! The frames of a WebP file, by their own headers: what the decoder makes room for before it compares them with the image.
+//! WebP frame headers: rejects frames larger than the image before the decoder allocates for them.
 //!
 //! ```text
-//!  RIFF length WEBP │ VP8X canvas │ VP8 frame             chunks: name, length, bytes, padded to an even number
-//!                                 │ ANMF place, VP8 frame
+//!  RIFF length WEBP │ VP8X canvas │ VP8 frame           chunks: id, length, bytes, padded to even length
+//!                                 │ ANMF position, VP8 frame
 //! ```
-//! Source: RFC 9649 (the container) and RFC 6386 §9.1 (the frame's header).
+//! Source: RFC 9649 (the container) and RFC 6386 §9.1 (the frame header).
 
-/// Whether all lossy frames fit into an image of this size; else what is wrong. A file of a few bytes may have a frame that
-/// takes hundreds of megabytes.
+/// Checks that all lossy frames fit into an image of this size.
+///
+/// A file of a few bytes may contain a frame that takes hundreds of megabytes; the decoder
+/// allocates before it compares the sizes.
 pub(super) fn check_frame_sizes(file: &[u8], size: (u32, u32)) -> Result<(), String> {
     let chunks = file.get(12..).unwrap_or_default();
     for (name, bytes) in RiffChunks(chunks) {
@@ -24,6 +26,7 @@ pub(super) fn check_frame_sizes(file: &[u8], size: (u32, u32)) -> Result<(), Str
     Ok(())
 }
 
+/// Checks one chunk; all but `VP8 ` are accepted.
 fn check_frame_size(
     name: [u8; 4],
     bytes: &[u8],
@@ -44,7 +47,7 @@ fn check_frame_size(
     Err(format!("the WebP has a frame of {w} x {h} texels in an image of {width} x {height}"))
 }
 
-/// The chunks of a part of a file, each with its name; the last one may be cut off.
+/// Iterator over RIFF chunks: their ids and data; the last one may be truncated.
 struct RiffChunks<'a>(&'a [u8]);
 
 impl<'a> Iterator for RiffChunks<'a> {

@@ -1,9 +1,9 @@
-//! Taking a stream apart, byte by byte.
+//! Byte streams of the meshopt codecs: bounds-checked reading from both ends.
 
-/// Why a stream is not what it should be.
+/// The reason why a stream is invalid.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 pub(super) enum StreamError {
-    /// The first byte is not that of the mode.
+    /// The first byte is not that of the codec.
     #[error("the stream begins with {0:#04x}, which is no version of its mode that is known")]
     Header(u8),
     /// There are fewer bytes than the elements need.
@@ -12,16 +12,16 @@ pub(super) enum StreamError {
     /// There are more bytes than the elements need.
     #[error("the stream has bytes left over at its end: {0}")]
     Long(usize),
-    /// An element refers to one that has not been yet.
+    /// An element refers to one that has not been decoded yet.
     #[error("the stream refers to an edge or vertex before the first")]
     Unwritten,
-    /// A channel's kind of delta is not known.
+    /// The delta mode of a channel is not known.
     #[error("the stream has a channel of the unknown mode {0:#04x}")]
     Channel(u8),
-    /// The table of common corners breaks its rules.
+    /// The table of common vertex codes breaks its rules.
     #[error("the stream's table of corners is not valid")]
     Table,
-    /// A number goes on and on.
+    /// A variable-length integer has too many bytes.
     #[error("a number of the stream has more than five bytes")]
     Number,
 }
@@ -35,20 +35,21 @@ impl<'a> ByteStream<'a> {
         Self(bytes)
     }
 
+    /// The next byte.
     pub(super) fn read_byte(&mut self) -> Result<u8, StreamError> {
         let (&byte, rest) = self.0.split_first().ok_or(StreamError::Short)?;
         self.0 = rest;
         Ok(byte)
     }
 
-    /// So many bytes from the front.
+    /// The next `count` bytes.
     pub(super) fn take_front(&mut self, count: usize) -> Result<&'a [u8], StreamError> {
         let (bytes, rest) = self.0.split_at_checked(count).ok_or(StreamError::Short)?;
         self.0 = rest;
         Ok(bytes)
     }
 
-    /// So many bytes from the back.
+    /// The last `count` bytes: tables are stored at the end of a stream.
     pub(super) fn take_back(&mut self, count: usize) -> Result<&'a [u8], StreamError> {
         let rest = self.0.len().checked_sub(count).ok_or(StreamError::Short)?;
         let (rest, bytes) = self.0.split_at(rest);
@@ -56,7 +57,8 @@ impl<'a> ByteStream<'a> {
         Ok(bytes)
     }
 
-    /// A number of seven bits a byte, the lowest first; the highest bit of a byte says that one more follows.
+    /// A variable-length integer (LEB128): seven bits a byte, the lowest first; the highest bit of
+    /// a byte says that another follows.
     pub(super) fn read_varint(&mut self) -> Result<u32, StreamError> {
         let mut number = 0;
         for shift in [0, 7, 14, 21, 28] {
@@ -69,22 +71,23 @@ impl<'a> ByteStream<'a> {
         Err(StreamError::Number)
     }
 
-    /// Nothing may be left.
+    /// Checks that every byte has been read.
     pub(super) fn expect_end(self) -> Result<(), StreamError> {
         if self.0.is_empty() { Ok(()) } else { Err(StreamError::Long(self.0.len())) }
     }
 
+    /// Number of bytes that are left.
     pub(super) fn len(&self) -> usize {
         self.0.len()
     }
 }
 
-/// A difference whose sign is its lowest bit: 0, −1, 1, −2, 2, …
+/// Decodes a zigzag-coded difference, whose sign is its lowest bit: 0, −1, 1, −2, 2, …
 pub(super) fn decode_zigzag(number: u32) -> u32 {
     if number & 1 == 0 { number >> 1 } else { !(number >> 1) }
 }
 
-/// Appends an index of two or four bytes; two bytes keep its lower half.
+/// Appends an index of two or four bytes; two bytes hold its lower half.
 pub(super) fn push_index(indices: &mut Vec<u8>, index: u32, stride: usize) {
     indices.extend(&index.to_le_bytes()[..stride]);
 }

@@ -1,14 +1,15 @@
-//! The mode TRIANGLES: most triangles share an edge with one that came a moment before, and take a single byte.
+//! meshopt mode TRIANGLES: most triangles share an edge with a recent one and take a single byte.
 //!
 //! ```text
-//!  code  X Y    X < 15: edge X, counted back from the newest, and a third corner      a ───► b     edges after it: c b, a c
-//!        15 Y   three corners: Y < 14 from the table, else from a byte of the data     ▲   ╱
-//!                                                                                     c ◄╱
+//!  code  X Y    X < 15: edge X, counted back from the newest,     a ───► b     edges pushed: c b, a c
+//!               and a third vertex                                 ▲   ╱
+//!        15 Y   three vertices: Y < 14 from the table,            c ◄╱
+//!               else from a byte of the data
 //! ```
 
 use super::byte_stream::{ByteStream, StreamError, decode_zigzag, push_index};
 
-/// The indices of a stream, each of `stride` bytes, which is 2 or 4; `count` is a multiple of three.
+/// Decodes indices of `stride` bytes, which is 2 or 4; `count` is a multiple of three.
 pub(super) fn decode_triangles(
     stream: &[u8],
     count: usize,
@@ -43,17 +44,21 @@ pub(super) fn decode_triangles(
     Ok(indices)
 }
 
+/// State of the decoder.
 struct TriangleDecoder<'a> {
     data: ByteStream<'a>,
-    /// The index that comes next if every vertex is used in turn.
+    /// The next index if vertices are used in order of their first appearance.
     next_index: u32,
-    /// The last index that was written out.
+    /// The last index that was stored explicitly, the base of the next delta.
     last_index: u32,
+    /// The last sixteen edges.
     edge_fifo: RecentFifo<(u32, u32)>,
+    /// The last sixteen vertices.
     vertex_fifo: RecentFifo<u32>,
 }
 
 impl TriangleDecoder<'_> {
+    /// Decodes the triangle of one code byte.
     fn decode_triangle(&mut self, code: u8, table: &[u8]) -> Result<[u32; 3], StreamError> {
         match (code >> 4, code & 15) {
             (15, 14) => {
@@ -74,7 +79,8 @@ impl TriangleDecoder<'_> {
         }
     }
 
-    /// The byte that says where the second and the third corner come from; zero starts the counting anew.
+    /// The byte that encodes the second and third vertex; zero restarts the numbering of new
+    /// vertices.
     fn read_corner_codes(&mut self) -> Result<u8, StreamError> {
         let corners = self.data.read_byte()?;
         if corners == 0 {
@@ -83,7 +89,7 @@ impl TriangleDecoder<'_> {
         Ok(corners)
     }
 
-    /// A triangle on a known edge.
+    /// A triangle on a recent edge.
     fn decode_edge_triangle(&mut self, edge: u8, third: u8) -> Result<[u32; 3], StreamError> {
         let (a, b) = self.edge_fifo.nth_newest(edge)?;
         let c = match third {
@@ -101,7 +107,8 @@ impl TriangleDecoder<'_> {
         Ok([a, b, c])
     }
 
-    /// A triangle of its own; the halves of `corners` say where its second and third corner come from.
+    /// A triangle without a shared edge; the two halves of `corners` encode its second and third
+    /// vertex.
     fn decode_free_triangle(&mut self, a: u32, corners: u8) -> Result<[u32; 3], StreamError> {
         let (second, third) = (corners >> 4, corners & 15);
         let b = self.decode_corner(second)?;
@@ -118,6 +125,7 @@ impl TriangleDecoder<'_> {
         Ok([a, b, c])
     }
 
+    /// A vertex: new, explicit, or one of the recent ones.
     fn decode_corner(&mut self, from: u8) -> Result<u32, StreamError> {
         match from {
             0 => Ok(self.next_vertex()),
@@ -126,24 +134,27 @@ impl TriangleDecoder<'_> {
         }
     }
 
+    /// A vertex that has not been used before.
     fn next_vertex(&mut self) -> u32 {
         let fresh = self.next_index;
         self.next_index = fresh.wrapping_add(1);
         fresh
     }
 
+    /// The explicit index that follows the last one by a difference.
     fn advance_last(&mut self, difference: u32) -> u32 {
         self.last_index = self.last_index.wrapping_add(difference);
         self.last_index
     }
 
+    /// An index stored as a zigzag-coded difference to the last explicit one.
     fn read_explicit_index(&mut self) -> Result<u32, StreamError> {
         let number = self.data.read_varint()?;
         Ok(self.advance_last(decode_zigzag(number)))
     }
 }
 
-/// The last sixteen of a sequence.
+/// FIFO of the last sixteen items of a sequence.
 #[derive(Default)]
 struct RecentFifo<T> {
     items: [Option<T>; 16],
@@ -151,12 +162,13 @@ struct RecentFifo<T> {
 }
 
 impl<T: Copy> RecentFifo<T> {
+    /// Adds an item, dropping the oldest.
     fn push(&mut self, item: T) {
         self.newest = (self.newest + 1) % 16;
         self.items[self.newest] = Some(item);
     }
 
-    /// The item that came so many before the newest.
+    /// The item that was pushed `steps` before the newest.
     fn nth_newest(&self, steps: u8) -> Result<T, StreamError> {
         let at = (self.newest + 16 - usize::from(steps % 16)) % 16;
         self.items[at].ok_or(StreamError::Unwritten)

@@ -1,8 +1,8 @@
-//! The mode INDICES: each index is the difference to one of two that came before.
+//! meshopt mode INDICES: each index is the difference to one of two baselines.
 
 use super::byte_stream::{ByteStream, StreamError, decode_zigzag, push_index};
 
-/// The indices of a stream, each of `stride` bytes, which is 2 or 4.
+/// Decodes indices of `stride` bytes, which is 2 or 4.
 pub(super) fn decode_index_sequence(
     stream: &[u8],
     count: usize,

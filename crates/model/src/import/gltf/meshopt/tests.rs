@@ -1,4 +1,5 @@
-//! Streams of a real encoder: the box that glTF-Transform ships as a sample, 24 corners and 12 triangles.
+//! Streams of a real encoder: the box that glTF-Transform ships as a sample, 24 vertices and 12
+//! triangles.
 
 use super::*;
 use gltf::json::buffer::View;
@@ -80,8 +81,8 @@ fn every_cut_is_refused() {
     ] {
         assert!(packed.decompress(stream).is_ok());
         for end in 0..stream.len() {
-            let fault = packed.decompress(&stream[..end]).unwrap_err();
-            assert_eq!(fault.location, "/bufferViews/7/extensions/EXT_meshopt_compression");
+            let diagnostic = packed.decompress(&stream[..end]).unwrap_err();
+            assert_eq!(diagnostic.location, "/bufferViews/7/extensions/EXT_meshopt_compression");
         }
         let longer = [stream, &[0]].concat();
         assert!(packed.decompress(&longer).is_err());
@@ -126,7 +127,7 @@ fn what_the_json_may_say() {
         json!({"buffer": 0, "byteLength": 9, "count": 6, "byteStride": 8, "mode": "ATTRIBUTES"});
     let plain: View = serde_json::from_value(json!({"buffer": 1, "byteLength": 48})).unwrap();
     assert!(CompressedView::from_view(&plain, "").unwrap().is_none());
-    for (changes, length, fault) in [
+    for (changes, length, diagnostic) in [
         (json!({}), 48, None),
         (json!({"filter": "COLOR"}), 48, None),
         (json!({"mode": "INDICES", "byteStride": 2}), 12, None),
@@ -163,10 +164,11 @@ fn what_the_json_may_say() {
     ] {
         let mut extension = good.clone();
         extension.as_object_mut().unwrap().extend(changes.as_object().unwrap().clone());
-        let said = parse_extension(&extension, length)
+        let actual = parse_extension(&extension, length)
             .err()
-            .map(|fault| format!("{}: {}", fault.location, fault.message));
-        let ends = |said: &String| fault.is_some_and(|fault| said.ends_with(fault));
-        assert!(said.as_ref().map_or(fault.is_none(), ends), "{changes}: {said:?}");
+            .map(|diagnostic| format!("{}: {}", diagnostic.location, diagnostic.message));
+        let ends =
+            |actual: &String| diagnostic.is_some_and(|diagnostic| actual.ends_with(diagnostic));
+        assert!(actual.as_ref().map_or(diagnostic.is_none(), ends), "{changes}: {actual:?}");
     }
 }

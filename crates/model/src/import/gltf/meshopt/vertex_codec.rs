@@ -1,21 +1,23 @@
-//! The mode ATTRIBUTES: each byte of an element is stored as the difference to the same byte of the element before.
+//! meshopt mode ATTRIBUTES: each byte of an element is stored as the difference to the same byte of
+//! the previous element.
 //!
 //! ```text
-//!  stream:  version │ block │ block │ … │ padding │ first element's predecessor │ kinds of delta (version 1)
+//!  stream:  version │ block │ … │ padding │ element before the first │ channel modes (version 1)
 //!  block:   controls (version 1) │ all bytes 0 of its elements │ all bytes 1 │ …
-//!  bytes n: two bits a group │ group of 16 │ group of 16 │ …       a group has 0, 1, 2, 4 or 8 bits a difference;
-//!                                                                  a difference of all ones stands in a byte behind it
+//!  bytes n: two bits a group │ group of 16 │ group of 16 │ …    a group has 0, 1, 2, 4 or 8 bits a
+//!                                                               difference; one of all ones is stored
+//!                                                               in a byte after the group
 //! ```
 
 use super::byte_stream::{ByteStream, StreamError};
 
-/// The elements of one group.
+/// Elements of one group.
 const BYTE_GROUP_SIZE: usize = 16;
 
 /// The most elements of one block.
 const VERTEX_BLOCK_MAX_SIZE: usize = 256;
 
-/// The elements of a stream, each of `stride` bytes: a multiple of four up to 256.
+/// Decodes elements of `stride` bytes: a multiple of four up to 256.
 pub(super) fn decode_vertices(
     stream: &[u8],
     count: usize,
@@ -73,18 +75,18 @@ fn decode_vertex_block(
                 count,
             )?;
         }
-        let place = 4 * at..4 * at + 4;
+        let slot = 4 * at..4 * at + 4;
         let mut value = [0; 4];
-        value.copy_from_slice(&before[place.clone()]);
+        value.copy_from_slice(&before[slot.clone()]);
         for (number, element) in elements.chunks_exact_mut(stride).enumerate() {
             value = channel.apply_delta(value, deltas.map(|deltas| deltas[number]));
-            element[place.clone()].copy_from_slice(&value);
+            element[slot.clone()].copy_from_slice(&value);
         }
     }
     Ok(())
 }
 
-/// Reads the deltas of one byte of all elements of a block; `deltas` has room for whole groups.
+/// Reads the deltas of one byte of all elements of a block; `deltas` has space for whole groups.
 fn decode_byte_deltas(
     stream: &mut ByteStream<'_>,
     control: Option<u8>,
@@ -113,6 +115,7 @@ fn decode_byte_deltas(
     Ok(())
 }
 
+/// Unpacks a group of sixteen deltas of 0, 1, 2, 4 or 8 bits.
 fn decode_byte_group(
     stream: &mut ByteStream<'_>,
     bits: usize,
@@ -125,9 +128,9 @@ fn decode_byte_group(
             let packed = stream.take_front(BYTE_GROUP_SIZE * bits / 8)?;
             let (mask, per_byte) = ((1u8 << bits) - 1, 8 / bits);
             for (at, delta) in group.iter_mut().enumerate() {
-                let place = at % per_byte;
+                let slot = at % per_byte;
                 // Single bits begin at the low end of a byte, all others at the high end.
-                let shift = if bits == 1 { place } else { 8 - bits * (place + 1) };
+                let shift = if bits == 1 { slot } else { 8 - bits * (slot + 1) };
                 let value = packed[at / per_byte] >> shift & mask;
                 *delta = if value == mask { stream.read_byte()? } else { value };
             }
@@ -136,23 +139,24 @@ fn decode_byte_group(
     Ok(())
 }
 
-/// What a delta of four bytes is made of.
+/// Interpretation of a delta of four bytes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum DeltaChannel {
-    /// Four differences of bytes.
+    /// Four zigzag-coded differences of bytes.
     Bytes8,
-    /// Two differences of words of 16 bits.
+    /// Two zigzag-coded differences of 16-bit words.
     Words16,
-    /// The bits that differ in a word of 32 bits, turned left by so many.
+    /// The exclusive or of two 32-bit words, rotated left by so many bits.
     Xor32(u32),
 }
 
 impl DeltaChannel {
+    /// The channel that a mode byte declares.
     fn new(mode: u8) -> Result<Self, StreamError> {
         match (mode >> 4, mode & 15) {
             (0, 0) => Ok(Self::Bytes8),
             (0, 1) => Ok(Self::Words16),
-            (turn, 2) => Ok(Self::Xor32(u32::from(turn))),
+            (rotation, 2) => Ok(Self::Xor32(u32::from(rotation))),
             _ => Err(StreamError::Channel(mode)),
         }
     }
@@ -175,8 +179,8 @@ impl DeltaChannel {
                 let ([a, b], [c, d]) = (after(0), after(2));
                 [a, b, c, d]
             }
-            Self::Xor32(turn) => {
-                let changed = u32::from_le_bytes(delta).rotate_right(turn);
+            Self::Xor32(rotation) => {
+                let changed = u32::from_le_bytes(delta).rotate_right(rotation);
                 (changed ^ u32::from_le_bytes(before)).to_le_bytes()
             }
         }
@@ -238,14 +242,14 @@ mod tests {
     #[test]
     fn version_1_has_controls_and_three_kinds_of_delta() {
         let bits = 0x3F80_0000u32 ^ 0x4000_0000;
-        let turned = bits.rotate_left(4).to_le_bytes();
+        let rotated = bits.rotate_left(4).to_le_bytes();
         // Three channels of two elements: bytes by groups of one bit and literally; words; bits turned by 4.
         let mut stream = vec![0xA1, 0b10_10_11_01, 0b10_10_11_11, 0xFF];
         stream.extend([0, 0b01, 0, 6]); // byte 0: one group of one bit: 6 → +3, then 0
         stream.extend([1, 4]); // byte 1: −1, +2
         stream.extend([0x01, 0x02]); // low bytes of words
         stream.extend([0x02, 0x00]); // high bytes: 0x0201 → −257, 0x0002 → +1
-        for byte in turned {
+        for byte in rotated {
             stream.extend([byte, 0]);
         }
         stream.extend([0; 9]);

@@ -1,6 +1,8 @@
-//! What is done to elements after they have been decompressed: numbers stored in fewer bits come back to full width.
+//! meshopt filters: octahedral vectors, quaternions, exponential floats and YCoCg colors to full
+//! width.
 //!
-//! The specification leaves open what values out of its range become; here whatever happens, it is a number of the type.
+//! The specification leaves open what values out of its range become; here they become some number
+//! of the type, without a panic.
 
 use super::MeshoptFilter;
 
@@ -17,7 +19,7 @@ impl MeshoptFilter {
             (Self::Octahedral, _) => map_elements(bytes, |v| decode_octahedral(v, 32_767.0)),
             (Self::Quaternion, _) => map_elements(bytes, decode_quaternion),
             (Self::Exponential, _) => {
-                map_elements(bytes, |[number]: [i32; 1]| [decode_exponential(number)])
+                map_elements(bytes, |[number]: [i32; 1]| [decode_exponential(number)]);
             }
             (Self::Color, 4) => map_elements(bytes, |[y, co, cg, a]: [u8; 4]| {
                 let signed = |x: u8| i32::from(x.cast_signed());
@@ -32,49 +34,50 @@ impl MeshoptFilter {
     }
 }
 
-/// A unit vector from its place on an octahedron folded flat; `one` is what 1 is in full width.
-fn decode_octahedral([x, y, unit, rest]: [i16; 4], one: f32) -> [i16; 4] {
+/// A unit vector from octahedral coordinates (Meyer et al. 2010); `one` represents 1 in full width.
+fn decode_octahedral([x, y, unit, fourth]: [i16; 4], full_scale: f32) -> [i16; 4] {
     let unit_length = f32::from(unit);
     let (x, y) = (f32::from(x) / unit_length, f32::from(y) / unit_length);
     let z = 1.0 - x.abs() - y.abs();
     // The lower half is folded out over the corners of the square.
     let fold = z.min(0.0);
     let (x, y) = (x - fold.copysign(x), y - fold.copysign(y));
-    let scale = one / (x * x + y * y + z * z).sqrt();
-    let whole = |x: f32| (x * scale).round() as i16;
-    [whole(x), whole(y), whole(z), rest]
+    let scale = full_scale / (x * x + y * y + z * z).sqrt();
+    let round_to_i16 = |x: f32| (x * scale).round() as i16;
+    [round_to_i16(x), round_to_i16(y), round_to_i16(z), fourth]
 }
 
-/// A rotation from its three smaller components, which take √2 times their size, and the number of the largest.
+/// A rotation from its three smaller components, scaled by √2, and the index of the largest.
 fn decode_quaternion([a, b, c, scale]: [i16; 4]) -> [i16; 4] {
     let step = std::f32::consts::FRAC_1_SQRT_2 / f32::from(scale | 3);
     let [a, b, c] = [a, b, c].map(|x| f32::from(x) * step);
     let largest = (1.0 - a * a - b * b - c * c).max(0.0).sqrt();
-    let mut parts = [largest, a, b, c].map(|x| (x * 32_767.0).round() as i16);
-    parts.rotate_right(usize::from(scale.cast_unsigned() & 3));
-    parts
+    let mut components = [largest, a, b, c].map(|x| (x * 32_767.0).round() as i16);
+    components.rotate_right(usize::from(scale.cast_unsigned() & 3));
+    components
 }
 
-/// A number from an exponent of 8 bits above a mantissa of 24, both signed.
+/// A float from an exponent of 8 bits and a mantissa of 24, both signed.
 fn decode_exponential(number: i32) -> f32 {
     let (exponent, mantissa) = (number >> 24, number << 8 >> 8);
     let power = f64::from_bits(((1023 + i64::from(exponent)).cast_unsigned()) << 52);
     (power * f64::from(mantissa)) as f32
 }
 
-/// A colour from its luma, two differences of colour, and alpha, whose highest bit tells how many bits they all have.
-fn decode_color([y, co, cg, alpha]: [i32; 4], one: f32) -> [u16; 4] {
+/// RGBA from YCoCg and alpha; the highest bit of alpha tells how many bits all of them have.
+fn decode_color([y, co, cg, alpha]: [i32; 4], full_scale: f32) -> [u16; 4] {
     let all = match alpha {
         ..=0 => 1,
         _ => (2i32 << alpha.ilog2()) - 1,
     };
     let alpha = alpha & (all >> 1);
     let alpha = alpha << 1 | (alpha & 1);
-    let scale = one / all as f32;
-    [y + co - cg, y + cg, y - co - cg, alpha].map(|x| (x as f32 * scale).round().min(one) as u16)
+    let scale = full_scale / all as f32;
+    [y + co - cg, y + cg, y - co - cg, alpha]
+        .map(|x| (x as f32 * scale).round().min(full_scale) as u16)
 }
 
-/// Replaces each `N` numbers of a run of bytes.
+/// Replaces each `N` numbers in a slice of bytes.
 fn map_elements<const N: usize, A: Number, B: Number>(
     bytes: &mut [u8],
     filter: impl Fn([A; N]) -> [B; N],
@@ -87,7 +90,7 @@ fn map_elements<const N: usize, A: Number, B: Number>(
     }
 }
 
-/// A number as it lies in a buffer, little-endian.
+/// A number as it is stored in a buffer, little-endian.
 trait Number: Copy {
     /// Its bytes.
     const SIZE: usize;
@@ -149,14 +152,14 @@ mod tests {
         // (½, ½, ½, ½) in eleven bits: 1/2 · √2 · 1023 = 723.4.
         for largest in 0..4i16 {
             let stored = [723, 723, 723, 1020 | largest];
-            let found = filtered(MeshoptFilter::Quaternion, 8, &stored);
-            assert!(found.iter().all(|x| (x - half).abs() < 32), "{largest}: {found:?}");
+            let actual = filtered(MeshoptFilter::Quaternion, 8, &stored);
+            assert!(actual.iter().all(|x| (x - half).abs() < 32), "{largest}: {actual:?}");
             let axis = filtered(MeshoptFilter::Quaternion, 8, &[0, 0, 0, 1020 | largest]);
             assert_eq!(axis[usize::from(largest.cast_unsigned())], 32_767);
         }
         // The others follow the largest in a circle.
-        let found = filtered(MeshoptFilter::Quaternion, 8, &[100, 0, 0, 1022]);
-        assert_eq!((found[3], found[0], found[1]), (2265, 0, 0));
+        let actual = filtered(MeshoptFilter::Quaternion, 8, &[100, 0, 0, 1022]);
+        assert_eq!((actual[3], actual[0], actual[1]), (2265, 0, 0));
     }
 
     #[test]
@@ -196,12 +199,15 @@ mod tests {
             let stored = [y, co, cg, alpha].map(|x: i32| x as u8);
             let mut bytes = stored;
             MeshoptFilter::Color.apply_filter(&mut bytes, 4);
-            for (found, due) in bytes.iter().zip([r, g, b]) {
-                let due = f64::from(due) * 255.0 / 127.0;
-                assert!((f64::from(*found) - due).abs() < 4.5, "{stored:x?}: {found} for {due}");
+            for (actual, expected) in bytes.iter().zip([r, g, b]) {
+                let expected = f64::from(expected) * 255.0 / 127.0;
+                assert!(
+                    (f64::from(*actual) - expected).abs() < 4.5,
+                    "{stored:x?}: {actual} for {expected}"
+                );
             }
-            let due = f64::from((alpha & 0x3F) << 1 | alpha & 1) * 255.0 / 127.0;
-            assert!((f64::from(bytes[3]) - due).abs() <= 0.5);
+            let expected = f64::from((alpha & 0x3F) << 1 | alpha & 1) * 255.0 / 127.0;
+            assert!((f64::from(bytes[3]) - expected).abs() <= 0.5);
         }
         let white = filtered(MeshoptFilter::Color, 8, &[1023, 0, 0, 1023]);
         assert_eq!(white, [-1; 4]);

@@ -1,13 +1,11 @@
-//! Scenes made of boxes and strips, and how their drawings are judged.
+//! Test scenes of boxes and strips, and the comparison of drawings with expected segments.
 
 use camera::Camera;
 use camera::ViewProjection;
-use drawing::{DrawOptions, EdgeClass, EdgeSegment, LineDrawing, draw};
-use homog::{Affine, Clip, Point, Projective, Vector, View};
+use drawing::{DrawOptions, EdgeClass, EdgeSegment, LineDrawing, Subject, draw};
+use homog::{Affine, Clip, Plane, Point, Projective, Vector, View, World};
 use model::ModelInstance;
 use model::{Mesh, Model, Node, Primitive, Topology};
-use pipeline::Scene;
-use pipeline::scene::{ImageSpec, Style};
 use projection::{Convention, Oblique, Orthographic};
 use std::sync::Arc;
 
@@ -27,31 +25,28 @@ pub fn build_model(primitives: Vec<Primitive>) -> Model {
     }
 }
 
-pub fn drawing_scene(model: Model, view_projection: ViewProjection) -> Scene {
-    let placed =
-        ModelInstance { model: Arc::new(model), model_to_world: Affine::scale(1.0, 1.0, 1.0) };
-    Scene {
-        models: vec![placed],
-        view_projection,
-        lights: Vec::new(),
-        ground: None,
-        occlusion_radius: None,
-        environment: None,
-        tone_mapper: shade::ToneMapper::default(),
-        style: Style::Flat,
-        image: ImageSpec {
-            width: IMAGE_SIDE,
-            height: IMAGE_SIDE,
-            background: [0.0; 4],
-            environment_blur: None,
-            samples: raster::Samples::One,
-            max_anisotropy: 1,
-        },
-        insets: Vec::new(),
-        backdrop: None,
-        overlays: Vec::new(),
-        sections: Vec::new(),
+/// A scene that owns what a [`Subject`] borrows.
+pub struct TestScene {
+    pub models: Vec<ModelInstance>,
+    pub view_projection: ViewProjection,
+    pub sections: Vec<Plane<World>>,
+}
+
+impl TestScene {
+    pub fn drawing_subject(&self) -> Subject<'_> {
+        Subject {
+            models: &self.models,
+            view_projection: self.view_projection,
+            size: [IMAGE_SIDE; 2],
+            sections: &self.sections,
+        }
     }
+}
+
+pub fn drawing_scene(model: Model, view_projection: ViewProjection) -> TestScene {
+    let instance =
+        ModelInstance { model: Arc::new(model), model_to_world: Affine::scale(1.0, 1.0, 1.0) };
+    TestScene { models: vec![instance], view_projection, sections: Vec::new() }
 }
 
 /// Looks along −z from the origin.
@@ -100,8 +95,8 @@ pub fn cuboid_mesh(min: [f32; 3], max: [f32; 3]) -> Primitive {
 /// A segment of the picture by its ends.
 pub type Segment = [[f64; 2]; 2];
 
-/// The drawing with the hidden lines kept; the same from two threads.
-pub fn draw_scene_lines(scene: &Scene) -> LineDrawing {
+/// The drawing with the hidden segments retained; the same from two threads.
+pub fn draw_scene_lines(scene: &TestScene) -> LineDrawing {
     let drawing = draw(&scene.drawing_subject(), &DrawOptions::hidden_edges_retained(), 1).unwrap();
     assert_eq!(
         drawing,

@@ -1,4 +1,4 @@
-//! Which edges are found, and what they are called.
+//! Edge classification: silhouettes, boundaries, creases, T-junctions and marked edges.
 
 use crate::stage::*;
 use drawing::{DrawOptions, EdgeClass, EdgeClasses, HiddenEdges, draw};
@@ -27,7 +27,8 @@ fn count_class(classes: &[EdgeClass], class: EdgeClass) -> usize {
     classes.iter().filter(|other| **other == class).count()
 }
 
-/// Two squares side by side, of which the second begins `gap` to the right of the first and is bent back by `fall`.
+/// Two squares side by side, of which the second begins `gap` to the right of the first and is bent
+/// back by `fall`.
 fn two_squares(gap: f32, fall: f32) -> Primitive {
     let (x, right) = (gap, 1.0 + gap);
     triangle_mesh(
@@ -46,7 +47,7 @@ fn two_squares(gap: f32, fall: f32) -> Primitive {
 }
 
 #[test]
-fn split_vertices_make_no_border() {
+fn split_vertices_make_no_boundary() {
     // Exactly together, and as far apart as quantisation to 12 bits may move them.
     for gap in [0.0, 2e-4] {
         let found = edge_classes(vec![two_squares(gap, 0.0)]);
@@ -57,7 +58,7 @@ fn split_vertices_make_no_border() {
 }
 
 #[test]
-fn a_bend_beyond_the_angle_is_a_crease() {
+fn a_dihedral_angle_beyond_the_limit_is_a_crease() {
     // The second square falls by 0.5 on 1: 26.6 degrees; by 0.6: 31 degrees.
     assert_eq!(count_class(&edge_classes(vec![two_squares(0.0, 0.5)]), EdgeClass::Crease), 0);
     assert_eq!(count_class(&edge_classes(vec![two_squares(0.0, 0.6)]), EdgeClass::Crease), 1);
@@ -85,7 +86,7 @@ fn a_fold_is_a_silhouette() {
 ///  0───1───6
 /// ```
 #[test]
-fn a_vertex_in_the_middle_of_an_edge_makes_no_border() {
+fn a_t_junction_makes_no_boundary() {
     let tee = triangle_mesh(
         &[
             [-1.0, 0.0, 0.0],
@@ -130,7 +131,7 @@ fn materials_meet_in_tangent_edges() {
 }
 
 #[test]
-fn what_the_file_marks_goes_before_the_shape() {
+fn marked_edges_override_the_geometry() {
     use EdgeVisibility::{Hard, Hidden, Silhouette};
     let mut square =
         quad_mesh([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
@@ -146,7 +147,7 @@ fn what_the_file_marks_goes_before_the_shape() {
 }
 
 #[test]
-fn what_touches_does_not_cross() {
+fn touching_faces_do_not_intersect() {
     let floor = quad_mesh([[-2.0, 0.0, 2.0], [2.0, 0.0, 2.0], [2.0, 0.0, -2.0], [-2.0, 0.0, -2.0]]);
     let standing = cuboid_mesh([-1.0, 0.0, -1.0], [1.0, 1.0, 1.0]);
     let found = edge_classes(vec![floor.clone(), standing]);

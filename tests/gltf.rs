@@ -1,17 +1,22 @@
-//! Small valid glTF files, to be spoilt.
+//! Small glTF documents for tests: JSON and one buffer, to be changed at will.
 
-use crate::glb::encode_glb;
+#![allow(clippy::missing_panics_doc, reason = "a test that misuses its own document should stop")]
+
+use scene_models::glb::encode_glb;
 use serde_json::{Value, json};
 
-/// A glTF document with the bytes of its only buffer.
-#[derive(Clone)]
+/// A glTF document and the bytes of its only buffer.
+#[derive(Clone, Debug)]
 pub struct Document {
+    /// The document as it is written, valid or not.
     pub json: Value,
+    /// Buffer 0, stored in the binary chunk.
     pub bytes: Vec<u8>,
 }
 
 impl Document {
-    /// One triangle with indices: accessor 0 has the positions, accessor 1 the indices.
+    /// One indexed triangle: accessor 0 holds the positions, without bounds; accessor 1 the indices.
+    #[must_use]
     pub fn single_triangle() -> Self {
         let mut document = Self {
             json: json!({
@@ -24,9 +29,9 @@ impl Document {
             }),
             bytes: Vec::new(),
         };
-        let corners: [f32; 9] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+        let positions: [f32; 9] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
         document.add_accessor(
-            &float_bytes(&corners),
+            &float_bytes(&positions),
             json!({"componentType": 5126, "type": "VEC3", "count": 3}),
         );
         let indices = [0u8, 0, 1, 0, 2, 0];
@@ -35,7 +40,9 @@ impl Document {
         document
     }
 
-    /// Everything that is read: a skinned, textured, coloured triangle with normals, a camera, an animation, a sparse accessor.
+    /// One of each core object: a skinned, textured triangle with normals, vertex colors and a morph target, a
+    /// camera, an animation, a sparse accessor.
+    #[must_use]
     pub fn with_all_members() -> Self {
         let mut document = Self::single_triangle();
         let vec3 = |count: usize| json!({"componentType": 5126, "type": "VEC3", "count": count});
@@ -55,7 +62,7 @@ impl Document {
         let time = json!({"componentType": 5126, "type": "SCALAR", "count": 2});
         let times = document.add_accessor(&float_bytes(&[0.0, 1.5]), time);
         let moves = document.add_accessor(&float_bytes(&[0.0; 6]), vec3(2));
-        let image = document.add_buffer_view(&super::images::encode_png(2, 2));
+        let image = document.add_buffer_view(&encode_png(2, 2));
         let at = document.add_buffer_view(&[0, 0, 0, 0]);
         document.json["accessors"][0]["sparse"] = json!({"count": 1,
             "indices": {"bufferView": at, "componentType": 5123}, "values": {"bufferView": 0, "byteOffset": 0}});
@@ -92,8 +99,9 @@ impl Document {
         document
     }
 
-    /// What extensions add, and what few files have: tangents, a second set of joints, morph targets of all attributes,
-    /// lights, variants, edges, pointers of animations, every KHR_materials extension.
+    /// All of [`Self::with_all_members`], the rare attributes and every extension: tangents, a second set of joints, morph targets of all
+    /// attributes, lights, variants, edge visibility, animation pointers, every KHR_materials extension.
+    #[must_use]
     pub fn with_extensions() -> Self {
         let mut document = Self::with_all_members();
         let vec4 = json!({"componentType": 5126, "type": "VEC4", "count": 3});
@@ -131,7 +139,7 @@ impl Document {
         document
     }
 
-    /// Gives the material every extension.
+    /// Adds every extension to the material.
     fn add_materials(&mut self) {
         let texture = json!({"index": 0, "texCoord": 0});
         let material = &mut self.json["materials"][0];
@@ -163,7 +171,7 @@ impl Document {
         }
     }
 
-    /// Animates a number of the material, of the light, of a texture and a weight by their pointers.
+    /// Animates a factor of the material, of the light, of a texture, and a weight (KHR_animation_pointer).
     fn animate_by_pointers(&mut self) {
         let one = json!({"componentType": 5126, "type": "SCALAR", "count": 2});
         let output = self.add_accessor(&float_bytes(&[0.0, 1.0]), one);
@@ -185,7 +193,7 @@ impl Document {
         }
     }
 
-    /// Adds a buffer view with these bytes; gives its number.
+    /// Adds a buffer view with these bytes and returns its index.
     pub fn add_buffer_view(&mut self, bytes: &[u8]) -> usize {
         let start = self.bytes.len();
         self.bytes.extend(bytes);
@@ -196,7 +204,7 @@ impl Document {
         views.len() - 1
     }
 
-    /// Adds an accessor over a view of its own; gives its number.
+    /// Adds an accessor with a buffer view of its own and returns its index.
     pub fn add_accessor(&mut self, bytes: &[u8], mut accessor: Value) -> usize {
         accessor["bufferView"] = json!(self.add_buffer_view(bytes));
         let accessors = self.json["accessors"].as_array_mut().expect("the document has accessors");
@@ -204,7 +212,7 @@ impl Document {
         accessors.len() - 1
     }
 
-    /// The document with the member at a JSON pointer set; its parent must exist.
+    /// The document with the member at a JSON pointer replaced or added; its parent must exist.
     #[must_use]
     pub fn with_value(mut self, pointer: &str, value: Value) -> Self {
         let (parent, member) = pointer.rsplit_once('/').expect("a pointer begins with a slash");
@@ -227,13 +235,27 @@ impl Document {
         self
     }
 
-    /// The document as a binary file.
+    /// The document as a binary glTF file.
+    #[must_use]
     pub fn to_glb(&self) -> Vec<u8> {
         encode_glb(self.json.to_string().as_bytes(), &self.bytes)
     }
 }
 
-/// Numbers as they lie in a buffer.
+/// Little-endian bytes of 32-bit floats.
+#[must_use]
 pub fn float_bytes(numbers: &[f32]) -> Vec<u8> {
     numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
+}
+
+/// A valid PNG of one color, 8-bit RGBA.
+#[must_use]
+pub fn encode_png(width: u32, height: u32) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Rgba);
+    let pixels = vec![128; (width * height * 4) as usize];
+    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&pixels));
+    written.expect("a small PNG can be written to memory");
+    bytes
 }

@@ -1,4 +1,4 @@
-//! Cuts through boxes, tubes and open surfaces, and the hatching of their caps.
+//! Section cuts through boxes, tubes and open surfaces, and the hatching of their caps.
 
 use crate::stage::*;
 use drawing::EdgeClass::{Hatching, Section};
@@ -6,7 +6,6 @@ use drawing::{DrawOptions, FaceFill, LineDrawing, Warning, draw, verify_with_z_b
 use glam::DVec2;
 use homog::{Normal, Plane, Point, World};
 use model::{Model, Primitive};
-use pipeline::Scene;
 use std::collections::BTreeMap;
 
 /// The plane x = 0, of which the side with the lesser x stays.
@@ -14,8 +13,8 @@ fn plane_x(at: f64) -> Plane<World> {
     Plane::through(Point::new(at, 0.0, 0.0), Normal::new(-1.0, 0.0, 0.0))
 }
 
-fn cut_scene(model: Model, planes: &[Plane<World>]) -> Scene {
-    Scene { sections: planes.to_vec(), ..drawing_scene(model, oblique_view()) }
+fn cut_scene(model: Model, planes: &[Plane<World>]) -> TestScene {
+    TestScene { sections: planes.to_vec(), ..drawing_scene(model, oblique_view()) }
 }
 
 /// A box with its faces turned inwards.
@@ -33,7 +32,7 @@ fn merge_primitives(mut one: Primitive, other: &Primitive) -> Primitive {
     one
 }
 
-/// Where a place of the picture of the plane x = 0 is in it: by z and y.
+/// The point (z, y) of the plane x = 0 whose oblique image is this one.
 fn project_to_plane([x, y]: [f64; 2]) -> [f64; 2] {
     [-2.0 * x, y - x]
 }
@@ -61,10 +60,10 @@ fn a_cube_cut_in_half_shows_its_cap() {
     assert!(drawing.warnings.is_empty());
 }
 
-/// Lines of hatching lie in the matter and nowhere else, at equal distances and under 45°; as there are many of them, they measure
-/// its area.
+/// Lines of hatching lie in the matter and nowhere else, at equal distances and under 45°; as there
+/// are many of them, they measure its area.
 #[test]
-fn hatching_fills_what_is_cut_and_spares_holes() {
+fn hatching_fills_caps_and_spares_holes() {
     let tube = merge_primitives(
         cuboid_mesh([-1.0; 3], [1.0; 3]),
         &box_with_hole([-0.9, -0.6, -0.5], [0.9, 0.6, 0.7]),
@@ -105,7 +104,7 @@ fn a_cap_hides_what_is_behind_it() {
 }
 
 #[test]
-fn two_cuts_leave_a_corner_out() {
+fn two_section_planes_cut_a_corner_out() {
     let cube = cuboid_mesh([-1.0; 3], [1.0; 3]);
     let front = Plane::through(Point::ORIGIN, Normal::new(0.0, 0.0, -1.0));
     let scene = cut_scene(build_model(vec![cube]), &[plane_x(0.0), front]);
@@ -133,7 +132,7 @@ fn two_cuts_leave_a_corner_out() {
 }
 
 #[test]
-fn an_open_surface_is_cut_and_told_of() {
+fn an_open_section_adds_a_warning() {
     // Five sides of a box: the one on the left is missing.
     let mut open = cuboid_mesh([-1.0; 3], [1.0; 3]);
     open.indices.drain(24..30);
@@ -164,33 +163,34 @@ fn parts_of_one_body_in_several_objects_close_together() {
 }
 
 #[test]
-fn neighbours_are_hatched_in_their_own_ways() {
+fn adjacent_parts_have_different_hatching() {
     let boxes = (0..4_u8).map(|n| {
         let y = f32::from(n) * 0.5 - 1.0;
         cuboid_mesh([-1.0, y, -1.0], [1.0, y + 0.5, 1.0])
     });
     let drawing = draw_scene_lines(&cut_scene(build_model(boxes.collect()), &[plane_x(0.0)]));
     // Of each object the direction, and the distance in hundredths of a unit.
-    let mut places: BTreeMap<u32, Vec<(bool, f64)>> = BTreeMap::new();
+    let mut hatch_lines: BTreeMap<u32, Vec<(bool, f64)>> = BTreeMap::new();
     for line in drawing.segments.iter().filter(|line| line.class == Hatching) {
         let [a, b] = line.ends;
         let rises = (b - a).x * (b - a).y < 0.0;
         let at = if rises { a.x + a.y } else { a.y - a.x };
-        places.entry(line.object).or_default().push((rises, at));
+        hatch_lines.entry(line.object).or_default().push((rises, at));
     }
-    let way = |object: u32| {
-        let of = &places[&object];
+    let hatch_of = |object: u32| {
+        let of = &hatch_lines[&object];
         let mut at: Vec<f64> = of.iter().map(|(_, at)| *at).collect();
         at.sort_by(f64::total_cmp);
         let steps = at.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 1e-6);
         (of[0].0, (steps.fold(f64::INFINITY, f64::min) * 1e3).round())
     };
     for object in 1..4 {
-        assert_ne!(way(object - 1), way(object), "{object}");
+        assert_ne!(hatch_of(object - 1), hatch_of(object), "{object}");
     }
 }
 
-/// Whatever the view, what is visible and what is hidden make up the whole, and the z-buffer agrees.
+/// Whatever the view, what is visible and what is hidden make up the whole, and the z-buffer
+/// agrees.
 #[test]
 fn cut_drawings_agree_with_their_z_buffer_images() {
     let frustum = projection::Frustum::new(-0.5, 0.5, -0.5, 0.5, 1.0, 20.0).unwrap();
@@ -237,7 +237,7 @@ fn assert_closed_outlines(drawing: &LineDrawing) {
 
 /// Spheres, say, whose vertices lie on the plane but for rounding.
 #[test]
-fn a_cut_through_vertices_that_are_nearly_on_it_closes() {
+fn a_section_through_vertices_nearly_on_the_plane_closes() {
     for nudge in [0.0_f32, 1e-7, -1e-7, 3e-8] {
         let mut cube = cuboid_mesh([-1.0; 3], [1.0; 3]);
         // The middle of the top and of the bottom as corners, a little beside the plane.
