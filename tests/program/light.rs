@@ -122,11 +122,11 @@ fn settings_of_shadows_out_of_range_are_pointed_at() {
         ("shadows: On(softness_degrees: 40)", "2:31", "an angle from 0 to 30 degrees"),
         (
             "lights: [Directional(direction: (0, -1, 0), intensity: 1, shadows: On(size: 9000))]",
-            "2:63",
+            "2:77",
             "a shadow map cannot have 9000 texels on a side",
         ),
         ("ambient_occlusion: (radius: 0)", "2:29", "a number greater than 0"),
-        ("image: (max_anisotropy: 9)", "2:21", "textures cannot be read at 9 places"),
+        ("image: (max_anisotropy: 9)", "2:25", "anisotropic filtering cannot take 9 samples"),
         ("ground: Shadow(height: inf)", "2:24", "a finite number"),
     ] {
         sandbox

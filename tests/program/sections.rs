@@ -54,7 +54,7 @@ fn invalid_sections_are_reported() {
     for (more, message) in [
         ("sections: [Section(normal: (0, 0, 0))]", "wrong.ron:2:28"),
         ("sections: [Section(point: (1, 0, 0))]", "normal"),
-        ("style: Lines(hatch_spacing_mm: 0.01)", "a distance from 0.1 to 1000 millimetres"),
+        ("style: Lines(hatch_spacing_mm: 0.01)", "a distance from 0.1 to 1000 millimeters"),
         ("style: Lines(face_fill: Grey)", "Grey"),
     ] {
         sandbox.write_file("wrong.ron", format!("Scene(models: [(path: \"box.gltf\")],\n{more})"));

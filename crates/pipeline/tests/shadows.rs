@@ -303,7 +303,8 @@ fn pixel_of_ground_point(x: f64, z: f64) -> (u32, u32) {
 #[test]
 fn the_ground_shows_the_share_of_light_that_shadows_take() {
     // 3 lux from the sun, 1 from everywhere: where the sun is hidden, three quarters are missing.
-    let lights = "lights: [Directional(direction: (0, -1, 0), intensity: 3), Ambient(intensity: 1)]";
+    let lights =
+        "lights: [Directional(direction: (0, -1, 0), intensity: 3), Ambient(intensity: 1)]";
     let clear = render_over_ground("Transparent", lights);
     let at = |picture: &Picture, x, z| {
         let (x, y) = pixel_of_ground_point(x, z);

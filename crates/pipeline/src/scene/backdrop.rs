@@ -1,8 +1,8 @@
 //! Resolution of the background: a color, or a backdrop of a gradient or an image.
 
 use super::file::{BackgroundFile, Color, EnvironmentFile, SceneFile};
-use super::syntax::PathStep::{self, Field};
 use super::surrounding_light::read_image_bytes;
+use super::syntax::PathStep::{self, Field};
 use super::{Origin, SceneError};
 use model::import::decode_image;
 use shade::Backdrop;
@@ -43,8 +43,8 @@ fn background_error(
     origin.error_at(&[&BACKGROUND_PATH, rest].concat(), message, help.map(str::to_owned))
 }
 
-/// The color that all samples are cleared to: linear, premultiplied by alpha. Behind a gradient or a picture it only serves to choose
-/// a color of lines that contrasts with it.
+/// The color that all samples are cleared to: linear, premultiplied by alpha. Behind a gradient or
+/// a picture it only serves to choose a color of lines that contrasts with it.
 pub(super) fn resolve_background_color(
     origin: &Origin,
     file: &SceneFile,
@@ -87,7 +87,8 @@ fn resolve_gradient(
     Ok(Gradient::new(&codes, angle, [width, height]))
 }
 
-/// The gradient or image behind the models; `None` for plain backgrounds. An image file may lie in one of the `allowed` folders too.
+/// The gradient or image behind the models; `None` for plain backgrounds. An image file may lie in
+/// one of the `allowed` folders too.
 pub(super) fn resolve_backdrop(
     origin: &Origin,
     file: &SceneFile,

@@ -28,8 +28,8 @@ impl CameraPath {
     /// The way that a scene file has, if it has one.
     ///
     /// # Errors
-    /// If there are too few keys or too many, their times do not grow, or a key has an opening angle and the projection has none; the error
-    /// points at it.
+    /// If there are too few keys or too many, their times do not grow, or a key has an opening
+    /// angle and the projection has none; the error points at it.
     pub fn from_scene_file(origin: &Origin, file: &SceneFile) -> Result<Option<Self>, SceneError> {
         let Some(path) = &file.camera_path else { return Ok(None) };
         let fault = |rest: &[PathStep<'_>], message: String, help: &str| {
@@ -90,7 +90,7 @@ impl CameraPath {
         camera
     }
 
-    /// The same around models that are loaded, posed and placed.
+    /// The view-projection at a time, around models that are loaded and posed.
     pub(crate) fn view_projection_at(
         &self,
         origin: &Origin,
@@ -122,7 +122,8 @@ impl CameraPath {
         })
     }
 
-    /// How fast a number changes at a key: as fast as between its neighbours (Catmull and Rom, 1974, at unequal times).
+    /// How fast a number changes at a key: as fast as between its neighbours (Catmull and Rom,
+    /// 1974, at unequal times).
     fn catmull_rom_slope(&self, at: usize, number: usize) -> f64 {
         let (start, from) = self.keys[at.saturating_sub(1)];
         let (end, to) = self.keys[(at + 1).min(self.keys.len() - 1)];

@@ -1,12 +1,13 @@
 //! The classical projections of a scene: each finds a window in which everything is.
 //!
-//! Those that are given by a picture plane are framed on it: the points are projected, the box around their images is the window, and
-//! the box's depths the near and far planes. Those that are given by vanishing points on the picture fix how the eye looks and where
-//! the window is beside its line of sight; framing finds where the eye stands.
+//! Those that are given by a picture plane are framed on it: the points are projected, the box
+//! around their images is the window, and the box's depths the near and far planes. Those that are
+//! given by vanishing points on the picture fix how the eye looks and where the window is beside
+//! its line of sight; framing finds where the eye stands.
 
-use super::{Origin, SceneError};
 use super::file::{Finite, FromFile, ProjectionFile};
 use super::view_projection::{CameraResolver, PROJECTION_PATH, VIEW_PATH};
+use super::{Origin, SceneError};
 use camera::ViewProjection;
 use camera::{Basis, Camera, Slopes, frame_perspective};
 use glam::DVec3;
@@ -24,7 +25,8 @@ struct ProjectedBounds {
 }
 
 impl CameraResolver<'_> {
-    /// A classical projection of the models as seen from a side; the front, unless another is named.
+    /// A classical projection of the models as seen from a side; the front, unless another is
+    /// named.
     pub(super) fn frame_classical(
         &self,
         from: Option<&FromFile>,
@@ -87,7 +89,8 @@ impl CameraResolver<'_> {
         padding: f64,
     ) -> Result<ViewProjection, SceneError> {
         let fault = |error: ProjectionError| self.projection_error(&error);
-        // The rows of the rotation are the eye's axes as the side from which the models are seen has them.
+        // The rows of the rotation are the eye's axes as the side from which the models are seen
+        // has them.
         let rows = construction.world_to_view().raw().transpose();
         let axis = |row: glam::DVec4| from.to_world(Vector::from_raw(row.truncate()));
         let basis = Basis::from_gaze(-axis(rows.z_axis), axis(rows.y_axis))
@@ -113,8 +116,8 @@ impl CameraResolver<'_> {
     }
 }
 
-/// The mistake in the numbers of a classical projection, if there is one. Those by vanishing points find their own eye: they need a
-/// view that is framed.
+/// The mistake in the numbers of a classical projection, if there is one. Those by vanishing points
+/// find their own eye: they need a view that is framed.
 pub(super) fn check_classical_projection(
     origin: &Origin,
     projection: Option<&ProjectionFile>,
@@ -158,7 +161,8 @@ fn vanishing_point_construction(
     })
 }
 
-/// The projection that is given by its picture plane; `radius` is that of the models about the camera.
+/// The projection that is given by its picture plane; `radius` is that of the models about the
+/// camera.
 fn picture_plane_projection(
     projection: &ProjectionFile,
     radius: f64,

@@ -1,4 +1,5 @@
-//! Colors of scene files: `#rgb`, `#rrggbb` and the names of CSS, in sRGB; or three linear numbers for light.
+//! Colors of scene files: `#rgb`, `#rrggbb` and the names of CSS, in sRGB; or three linear numbers
+//! for light.
 
 mod names;
 
@@ -17,7 +18,8 @@ impl Color {
     /// Black.
     pub const BLACK: Self = Self([0; 3]);
 
-    /// Parses `#rgb`, `#rrggbb`, or the name of a color of CSS in any case; `None` if the text is none of them.
+    /// Parses `#rgb`, `#rrggbb`, or the name of a color of CSS in any case; `None` if the text is
+    /// none of them.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         parse_hex_srgb(text).or_else(|| parse_color_name(text)).map(Self)
@@ -98,7 +100,9 @@ fn hex_help() -> String {
 fn color_of_numbers(node: &Node<'_>) -> Option<[u8; 3]> {
     let items = &unnamed_group(node)?.items;
     let number = |index: usize| match items.get(index)?.value.kind {
-        NodeKind::Number(word) => super::syntax::parse_number(word).filter(|x| (0.0..=1.0).contains(x)),
+        NodeKind::Number(word) => {
+            super::syntax::parse_number(word).filter(|x| (0.0..=1.0).contains(x))
+        }
         _ => None,
     };
     let code = |index: usize| Some(libm::round(number(index)? * 255.0) as u8);

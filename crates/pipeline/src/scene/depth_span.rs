@@ -1,4 +1,5 @@
-//! The places that a scene's geometry takes up: what framing and automatic depth ranges are made from.
+//! The places that a scene's geometry takes up: what framing and automatic depth ranges are made
+//! from.
 
 use camera::Camera;
 use homog::{Point, World};
@@ -27,8 +28,9 @@ impl DepthSpan {
         }
     }
 
-    /// Near and far planes for an eye in front of which the scene lies or which is inside it: tight, with a hundredth of
-    /// room, the near plane no nearer than what depth can still tell apart.
+    /// Near and far planes for an eye in front of which the scene lies or which is inside it:
+    /// tight, with a hundredth of room, the near plane no nearer than what depth can still tell
+    /// apart.
     pub(crate) fn perspective_planes(self, near: Option<f64>, far: Option<f64>) -> (f64, f64) {
         let farthest =
             far.unwrap_or(if self.farthest_depth > 0.0 { self.farthest_depth * 1.01 } else { 1.0 });

@@ -38,7 +38,8 @@ impl SceneError {
         (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
     }
 
-    /// The message with the line and the caret; with the colors of a terminal (ECMA-48) if `colors`.
+    /// The message with the line and the caret; with the colors of a terminal (ECMA-48) if
+    /// `colors`.
     #[must_use]
     pub fn to_message(&self, colors: bool) -> String {
         if self.source.is_empty() {
@@ -74,7 +75,8 @@ impl fmt::Display for SceneError {
 
 impl std::error::Error for SceneError {}
 
-/// The mistakes of a scene, at least one, in the order of the file. None of them follows from another.
+/// The mistakes of a scene, at least one, in the order of the file. None of them follows from
+/// another.
 ///
 /// Its `Display` shows the first [`SHOWN`](Self::SHOWN), and how many more there are.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -105,8 +107,8 @@ impl SceneErrors {
         std::iter::once(&self.first).chain(&self.others)
     }
 
-    /// The messages of the first few mistakes, each but the first with `error: ` before it, and the count of the others; with the
-    /// colors of a terminal if `colors`.
+    /// The messages of the first few mistakes, each but the first with `error: ` before it, and the
+    /// count of the others; with the colors of a terminal if `colors`.
     #[must_use]
     pub fn to_message(&self, colors: bool) -> String {
         let error = if colors { "\x1b[1;31merror\x1b[0m: " } else { "error: " };
@@ -116,7 +118,9 @@ impl SceneErrors {
         let count = 1 + self.others.len();
         if let Some(more) = count.checked_sub(Self::SHOWN).filter(|more| *more > 0) {
             let mistakes = if more == 1 { "mistake" } else { "mistakes" };
-            text.push_str(&format!("\n\n… and {more} more {mistakes}; `alberti scene check` lists all"));
+            text.push_str(&format!(
+                "\n\n… and {more} more {mistakes}; `alberti scene check` lists all"
+            ));
         }
         text
     }

@@ -1,7 +1,8 @@
 //! A scene as it is written: RON, with degrees, paths and defaults.
 //!
-//! These types say what a scene file may contain and nothing of what it means; [`Scene::resolve`](super::Scene::resolve) does that. Every
-//! field but the models' paths may be left out. Unknown fields are errors, so that misspelt ones are found.
+//! These types say what a scene file may contain and nothing of what it means;
+//! [`Scene::resolve`](super::Scene::resolve) does that. Every field but the models' paths may be
+//! left out. Unknown fields are errors, so that misspelt ones are found.
 
 mod background;
 mod camera;
@@ -53,30 +54,33 @@ use crate::import;
 scene_struct! {
     /// A scene file.
     pub struct SceneFile as "Scene" {
-        /// Other scene files to include, in this order. Their models, lights, overlays, sections and viewports come before those of this file; every
-        /// other field of this file replaces theirs, and a later file's replaces an earlier one's. Paths in an included file
-        /// begin at its own folder; it must lie below the folder of the scene. Default: none.
+        /// Other scene files to include, in this order. Their models, lights, overlays, sections
+        /// and viewports come before those of this file; every other field of this file replaces
+        /// theirs, and a later file's replaces an earlier one's. Paths in an included file begin at
+        /// its own folder; it must lie below the folder of the scene. Default: none.
         pub include: Paths = Paths(Vec::new()),
         /// The models to draw. A scene needs one; a file that is included does not. Default: none.
         pub models: Vec<ModelFile> = Vec::new(),
         /// The camera and its projection. Default: framed from a named direction, in perspective.
         pub camera: CameraFile = CameraFile::default(),
-        /// The motion of the camera, for `alberti animate`; pictures ignore it, and so do lights that
-        /// the scene leaves open. Default: the camera does not move.
+        /// The motion of the camera, for `alberti animate`; pictures ignore it, and so do lights
+        /// that the scene leaves open. Default: the camera does not move.
         pub camera_path: Option<CameraPathFile> = None,
         /// Views of their own in parts of the picture, drawn in this order. Default: none.
         pub viewports: Vec<ViewportFile> = Vec::new(),
         /// A stereo pair. Default: one picture.
         pub stereo: Option<StereoFile> = None,
-        /// The lights. Default: those of the models; where they have none and there is no environment either, a key light from above
-        /// the viewer's left shoulder, and ambient light; with an environment the key light alone, if there are to be shadows.
+        /// The lights. Default: those of the models; where they have none and there is no
+        /// environment either, a key light from above the viewer's left shoulder, and ambient
+        /// light; with an environment the key light alone, if there are to be shadows.
         pub lights: Option<Vec<LightFile>> = None,
-        /// The shadows of all directional and spot lights without shadows of their own, those of the models too. Default: `Off`.
+        /// The shadows of all directional and spot lights without shadows of their own, those of
+        /// the models too. Default: `Off`.
         pub shadows: Option<ShadowsFile> = None,
         /// The ground below the models. Default: none.
         pub ground: Option<GroundFile> = None,
-        /// Light from all directions. Default: none; a model without a scene file and without lights of its own stands in a
-        /// `Studio(strength: 0.6)`.
+        /// Light from all directions. Default: none; a model without a scene file and without
+        /// lights of its own stands in a `Studio(strength: 0.6)`.
         pub environment: Option<EnvironmentFile> = None,
         /// Screen-space ambient occlusion. Default: none.
         pub ambient_occlusion: Option<AmbientOcclusionFile> = None,
@@ -86,9 +90,10 @@ scene_struct! {
         pub image: ImageFile = ImageFile::default(),
         /// Explanations drawn over the picture. Default: none.
         pub overlays: Vec<OverlayFile> = Vec::new(),
-        /// What is written of each pixel besides its color. Default: nothing.
+        /// Passes: data of each pixel besides its color. Default: none.
         pub passes: PassesFile = PassesFile::default(),
-        /// Section planes that cut the models open, one after the other, in line drawings and on sheets; at most 16. Default: none.
+        /// Section planes that cut the models open, one after the other, in line drawings and on
+        /// sheets; at most 16. Default: none.
         pub sections: Vec<SectionFile> = Vec::new(),
         /// The layout of `alberti sheet`. Default: as its flags say.
         pub sheet: Option<SheetFile> = None,

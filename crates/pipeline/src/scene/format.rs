@@ -3,9 +3,10 @@
 //! ```text
 //!  text ─► older words replaced ─► tokens with the line breaks before them ─► groups of items ─► lines
 //! ```
-//! What fits on a line is written on one line; everything else has a line for each part; comments stay. A bracket that is
-//! followed by a line break stays open: the author decides what is worth several lines, and formatting again changes
-//! nothing. Blank lines between items stay too, one at a time.
+//! A group that fits on a line is written on one line; everything else has a line for each part; comments
+//! stay. A bracket that is followed by a line break stays open: the author decides what is worth
+//! several lines, and formatting again changes nothing. Blank lines between items stay too, one at
+//! a time.
 
 mod modernize;
 mod tree;
@@ -13,14 +14,15 @@ mod tree;
 use super::syntax::tokenize;
 use super::{SceneError, SceneErrors, parse_scene};
 use modernize::replace_legacy_words;
-use tree::{Element, Group, Item, Part};
+use tree::{Element, FormatGroup, FormatItem, Part};
 
 /// The longest line that is not broken.
 const MAX_LINE_WIDTH: usize = 100;
 /// Columns of an indentation level.
 const INDENT_WIDTH: usize = 4;
 
-/// Formats the text of a scene file, and replaces words of older scene files. `file` is its name in messages.
+/// Formats the text of a scene file, and replaces words of older scene files. `file` is its name in
+/// messages.
 ///
 /// ```
 /// let old = "(models: [(path: \"a.glb\", translate: (1, 2, 3))])";
@@ -30,7 +32,8 @@ const INDENT_WIDTH: usize = 4;
 /// ```
 ///
 /// # Errors
-/// The mistakes in the text, if it is not a scene file; or if formatting would change what it means.
+/// The mistakes in the text, if it is not a scene file; or if formatting would change what it
+/// means.
 pub fn format_source(file: &str, text: &str) -> Result<String, SceneErrors> {
     let text = replace_legacy_words(text);
     let scene = parse_scene(file, &text)?;
@@ -47,7 +50,7 @@ pub fn format_source(file: &str, text: &str) -> Result<String, SceneErrors> {
 }
 
 /// Writes the items of a group, each on lines of its own; `comma` stands behind each element.
-fn write_items(page: &mut String, items: &[Item], indent: usize, comma: &str) {
+fn write_items(page: &mut String, items: &[FormatItem], indent: usize, comma: &str) {
     for (number, item) in items.iter().enumerate() {
         if item.blank_before && number > 0 {
             page.push('\n');
@@ -68,7 +71,8 @@ fn write_items(page: &mut String, items: &[Item], indent: usize, comma: &str) {
     }
 }
 
-/// Writes an element that begins on the line at byte `line` of the page, with `behind` columns after it.
+/// Writes an element that begins on the line at byte `line` of the page, with `behind` columns
+/// after it.
 fn write_element(page: &mut String, element: &Element, indent: usize, line: usize, behind: usize) {
     for part in &element.parts {
         match part {
@@ -92,7 +96,7 @@ fn write_element(page: &mut String, element: &Element, indent: usize, line: usiz
 }
 
 /// A group on one line, if it can be.
-fn single_line(group: &Group) -> Option<String> {
+fn single_line(group: &FormatGroup) -> Option<String> {
     if group.multiline {
         return None;
     }

@@ -1,11 +1,13 @@
-//! Scene files that include others: merged into one scene, with a record of which part comes from which file.
+//! Scene files that include others: merged into one scene, with a record of which part comes from
+//! which file.
 //!
 //! ```text
 //!  studio.ron ─┐
 //!  paper.ron ──┴─► merged includes ─┐
 //!  scene.ron ───────────────────────┴─► one scene; errors point into the file that is wrong
 //! ```
-//! Lists are concatenated, included files first; every other field of the including file replaces the included ones', whole.
+//! Lists are concatenated, included files first; every other field of the including file replaces
+//! the included ones', whole.
 
 use super::file::{BackgroundFile, EnvironmentFile, ModelFile};
 use super::mistake::Mistake;
@@ -50,7 +52,8 @@ pub(super) struct IncludeMap {
 }
 
 impl IncludeMap {
-    /// Name and text of the included file that the value at the end of `path` is written in, and its path there.
+    /// Name and text of the included file that the value at the end of `path` is written in, and
+    /// its path there.
     pub(super) fn resolve_source<'a>(
         &self,
         path: &[PathStep<'a>],
@@ -89,18 +92,15 @@ pub(super) struct GatheredScene {
     /// The scene, without the parts that could not be read.
     pub(super) file: SceneFile,
     pub(super) includes: IncludeMap,
-    /// The mistakes of the scene file, then those of the included files in the order in which they were read.
+    /// The mistakes of the scene file, then those of the included files in the order in which they
+    /// were read.
     pub(super) mistakes: Vec<FileMistake>,
 }
 
 /// Parses the text of a scene and the files that it includes.
 pub(super) fn gather_includes(origin: &Origin, allowed: &[PathBuf]) -> GatheredScene {
-    let mut resolver = IncludeResolver {
-        origin,
-        allowed,
-        includes: IncludeMap::default(),
-        mistakes: Vec::new(),
-    };
+    let mut resolver =
+        IncludeResolver { origin, allowed, includes: IncludeMap::default(), mistakes: Vec::new() };
     let source =
         SourceFile { file: None, name: &origin.file, text: &origin.text, folder: Path::new("") };
     let own_path = origin.folder.join(Path::new(&origin.file).file_name().unwrap_or_default());
@@ -145,7 +145,8 @@ struct IncludeResolver<'a> {
 }
 
 impl IncludeResolver<'_> {
-    /// Parses a file and merges it over what it includes. `open` are the files that are being read, each with its name.
+    /// Parses a file and merges it over what it includes. `open` are the files that are being read,
+    /// each with its name.
     fn parse_source(
         &mut self,
         source: &SourceFile<'_>,
@@ -170,8 +171,10 @@ impl IncludeResolver<'_> {
         let fields = top_level_fields(source.text);
         let fields = REPLACED_FIELDS.into_iter().filter(|field| fields.contains(field));
         let fields = fields.map(|field| (field, source.file)).collect();
-        let of_source = |indices: Vec<usize>| indices.into_iter().map(|at| (source.file, at)).collect();
-        let lists = retained.into_iter().map(|(list, indices)| (list, of_source(indices))).collect();
+        let of_source =
+            |indices: Vec<usize>| indices.into_iter().map(|at| (source.file, at)).collect();
+        let lists =
+            retained.into_iter().map(|(list, indices)| (list, of_source(indices))).collect();
         merge_scenes(below, MergedScene { file, fields, lists })
     }
 
@@ -183,7 +186,8 @@ impl IncludeResolver<'_> {
     ) -> Result<MergedScene, (String, Option<&'static str>)> {
         if !self.origin.allows_path(path, self.allowed) {
             let help = "keep included files below the scene's folder, or allow another with --allow-outside DIR";
-            let message = format!("the path \"{}\" leads out of the scene's folder", path.display());
+            let message =
+                format!("the path \"{}\" leads out of the scene's folder", path.display());
             return Err((message, Some(help)));
         }
         if self.includes.files.len() == MAX_INCLUDED_FILES {
@@ -215,11 +219,13 @@ impl IncludeResolver<'_> {
 fn top_level_fields(text: &str) -> Vec<&str> {
     let root = parse_tree(text).root;
     let group = root.as_ref().and_then(|root| root.group());
-    let keys = group.into_iter().flat_map(|group| &group.items).filter_map(|item| item.key.as_ref());
+    let keys =
+        group.into_iter().flat_map(|group| &group.items).filter_map(|item| item.key.as_ref());
     keys.map(|key| key.name).collect()
 }
 
-/// Makes the paths of a file in `folder` relative to the scene's own folder. Every field that holds a path belongs here.
+/// Makes the paths of a file in `folder` relative to the scene's own folder. Every field that holds
+/// a path belongs here.
 fn rebase_paths(file: &mut SceneFile, folder: &Path) {
     if folder.as_os_str().is_empty() {
         return;

@@ -24,7 +24,8 @@ use std::path::PathBuf;
 const MAX_VIEWPORTS: usize = 256;
 /// The widest border in pixels.
 const MAX_BORDER_WIDTH: u32 = 1000;
-/// How many times as far away as the eyes are apart the plane of convergence is, if nothing is said: the usual rule of stereographers.
+/// How many times as far away as the eyes are apart the plane of convergence is, if nothing is
+/// said: the usual rule of stereographers.
 const CONVERGENCE_PER_EYE_DISTANCE: f64 = 30.0;
 
 /// A rectangle of a picture with a view of its own.
@@ -36,7 +37,7 @@ pub struct Inset {
     pub border: Option<(Ink, u32)>,
     /// Whether only its green and blue are shown, over what is there.
     pub cyan_only: bool,
-    /// What is seen in it; its picture has the rectangle's size.
+    /// The scene in it; its image has the rectangle's size.
     pub scene: Scene,
 }
 
@@ -147,7 +148,7 @@ pub(super) fn resolve_border(
     Ok(Some((border.color.0, border.width)))
 }
 
-/// What the left and the right eye see.
+/// The insets of a stereo pair: the left and the right eye's view, off-axis (zero vertical parallax).
 fn resolve_stereo(
     origin: &Origin,
     file: &SceneFile,
@@ -208,8 +209,9 @@ fn models_center_depth(view_projection: ViewProjection, models: &[ModelInstance]
     (depth > 0.0).then_some(depth)
 }
 
-/// The shot of an eye so far to the right of the camera, through a window that agrees with the camera's at a distance of `plane`: what
-/// the eye sees at a depth is moved as far as the eye was, times that depth over the plane's.
+/// The shot of an eye so far to the right of the camera, through a window that agrees with the
+/// camera's at a distance of `plane`: what the eye sees at a depth is moved as far as the eye was,
+/// times that depth over the plane's.
 fn shift_eye(view_projection: ViewProjection, aside: f64, plane: f64) -> Option<ViewProjection> {
     let camera = view_projection.camera.moved(view_projection.camera.u() * aside).ok()?;
     let slant =

@@ -15,7 +15,8 @@ use std::sync::Arc;
 
 /// The most copies of models in a scene.
 pub(super) const MAX_INSTANCES: usize = 100_000;
-/// The most vertices of all copies of one model: their places are kept for the framing, 24 bytes each.
+/// The most vertices of all copies of one model: their places are kept for the framing, 24 bytes
+/// each.
 const MAX_INSTANCE_VERTICES: usize = 1 << 25;
 
 type InstanceTransform = Affine<ModelSpace, ModelSpace>;
@@ -136,7 +137,14 @@ fn instance_transforms(
             };
             Ok(list.iter().map(way).collect())
         }
-        InstancesFile::Circle { count, radius, axis, start_degrees, sweep_degrees, rotate_copies } => {
+        InstancesFile::Circle {
+            count,
+            radius,
+            axis,
+            start_degrees,
+            sweep_degrees,
+            rotate_copies,
+        } => {
             let at = || {
                 let help = Some("such as (0, 1, 0) for a level circle".to_owned());
                 let message = "the axis of the circle is (0, 0, 0), which is no direction";
@@ -190,7 +198,8 @@ impl CircleLayout {
         Some(translate_by(there.to_array()))
     }
 
-    /// The direction at 0 degrees: that of x as far as it is at right angles to the axis, of y about the axis x, of z in doubt.
+    /// The direction at 0 degrees: that of x as far as it is at right angles to the axis, of y
+    /// about the axis x, of z in doubt.
     fn zero_degree_direction(&self) -> Option<[f64; 3]> {
         let [x, y, z] = self.axis;
         let candidates = [([1.0, 0.0, 0.0], x), ([0.0, 1.0, 0.0], y), ([0.0, 0.0, 1.0], z)];
@@ -258,8 +267,7 @@ mod tests {
 
     #[test]
     fn a_listed_copy_is_scaled_then_turned_then_moved() {
-        let list =
-            "instances: List([(scale: 3, rotation_degrees: (0, 90, 0), translation: (0, 0, 1)), ()])";
+        let list = "instances: List([(scale: 3, rotation_degrees: (0, 90, 0), translation: (0, 0, 1)), ()])";
         assert_eq!(instance_points(list).expect("places"), [[3.0, 0.0, 1.0], [0.0, 0.0, 1.0]]);
     }
 

@@ -43,7 +43,8 @@ pub(super) fn resolve_lights(
     Ok(resolved)
 }
 
-/// The lights that the models' files have, in the world (KHR_lights_punctual). Scales do not make them brighter.
+/// The lights that the models' files have, in the world (KHR_lights_punctual). Scales do not make
+/// them brighter.
 fn collect_model_lights(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec<Light> {
     let mut lights = Vec::new();
     for placed in models {
@@ -68,7 +69,8 @@ fn collect_model_lights(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec
     lights
 }
 
-/// A key light from above the viewer's left shoulder, so that shape reads from every side, and a quarter as much ambient.
+/// A key light from above the viewer's left shoulder, so that shape reads from every side, and a
+/// quarter as much ambient.
 fn default_lights(view_projection: &ViewProjection, shadow: Option<Shadow>) -> Vec<Light> {
     vec![default_key_light(view_projection, 2.5, shadow), Light::Ambient { lux: [0.7; 3] }]
 }
@@ -80,7 +82,8 @@ fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<
     Light::Sun { to_light: towards.raw().as_vec3().to_array(), lux: [lux; 3], shadow }
 }
 
-/// A light of the file, with the scene's shadows unless it has its own; `None` for those of the models.
+/// A light of the file, with the scene's shadows unless it has its own; `None` for those of the
+/// models.
 fn resolve_light(
     origin: &Origin,
     index: usize,
@@ -160,7 +163,8 @@ fn resolve_direction(
     })
 }
 
-/// The cosines of the inner and the outer cone angle of a spot; those of the defaults for other lights.
+/// The cosines of the inner and the outer cone angle of a spot; those of the defaults for other
+/// lights.
 fn resolve_cone(origin: &Origin, index: usize, light: &LightFile) -> Result<[f32; 2], SceneError> {
     let (inner, outer) = match *light {
         LightFile::Spot { inner_cone_degrees, outer_cone_degrees, .. } => {
@@ -174,7 +178,8 @@ fn resolve_cone(origin: &Origin, index: usize, light: &LightFile) -> Result<[f32
         return Ok([inner, outer].map(|angle| libm::cos(angle.to_radians()) as f32));
     }
     let path = [Field("lights"), Index(index), Field("outer_cone_degrees")];
-    let message = format!("the falloff of a spot cannot begin at {inner} degrees and end at {outer}");
+    let message =
+        format!("the falloff of a spot cannot begin at {inner} degrees and end at {outer}");
     let help = "0 <= inner_cone_degrees < outer_cone_degrees <= 90".to_owned();
     Err(origin.error_at(&path, message, Some(help)))
 }

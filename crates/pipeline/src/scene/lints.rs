@@ -1,7 +1,8 @@
-//! What makes sense in a scene and is still probably not meant: a camera inside of a model, a picture of nothing.
+//! Lints: scenes that are valid and still probably not what is meant, such as a camera inside of a
+//! model, or a picture of nothing.
 //!
-//! Everything here is found by looking: the points, lines and triangles of the scene go through its camera and its view volume
-//! (CL-1), once, and what became of them is compared with what the file says.
+//! Every lint looks at the result: the points, lines and triangles of the scene go through its camera and
+//! are clipped against its view volume once (CL-1), and the counts are compared with what the file says.
 
 mod depth;
 mod visibility_survey;
@@ -15,19 +16,19 @@ use homog::Point;
 use model::CameraProjection;
 use visibility_survey::VisibilitySurvey;
 
-/// Two shapes of pictures differ if their ratios do by more than this part.
+/// Aspect ratios that differ by no more than this fraction count as equal.
 const ASPECT_TOLERANCE: f64 = 0.01;
 
-/// Something that is probably not meant.
+/// A warning about a valid scene.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Lint {
     /// A name for programs, lower case with hyphens.
     pub code: &'static str,
-    /// What it is, where, and what to do about it.
+    /// The message, its place in the file, and the remedy.
     pub error: SceneError,
 }
 
-/// What is probably not meant in a scene that could be resolved.
+/// The lints of a scene that could be resolved, in the order of the file.
 #[must_use]
 pub fn lint_scene(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint> {
     let viewer = scene.view_projection.viewer().divide();
@@ -48,7 +49,7 @@ pub fn lint_scene(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint>
     advice
 }
 
-/// What advice is made from.
+/// The scene under inspection, in every form that the lints need.
 struct Linter<'a> {
     origin: &'a Origin,
     file: &'a SceneFile,
@@ -179,7 +180,7 @@ impl Linter<'_> {
         }
     }
 
-    /// What to do if nothing is seen.
+    /// How to bring the models into the view volume.
     fn suggest_visibility_fix(&self, survey: &VisibilitySurvey) -> String {
         let of = |plane: PlaneIndex| survey.outside[plane.index()] == survey.total;
         let span = survey.depth_range();

@@ -1,4 +1,4 @@
-//! What a scene file changes of a model's materials, once it is loaded and posed.
+//! Material overrides: changes of a model's materials, once it is loaded and posed.
 
 use super::file::{AlphaModeFile, Color, MaterialFile, MaterialsFile};
 use super::suggest::suggest_name;

@@ -151,20 +151,23 @@ fn errors_of_grammar_do_not_hide_others_nor_cause_them() {
             vec![(1, 10, "this `[` is not closed"), (1, 35, "unexpected")],
         ),
         ("(models: [(path: \"a.glb\"], style: Falt)", vec![(1, 25, comma), (1, 35, "unexpected")]),
-        ("(style = Falt, models: [(path \"a.glb\")])", vec![
-            (1, 8, "expected a colon here"),
-            (1, 10, "unexpected"),
-            (1, 31, "expected a colon here"),
-        ]),
-        ("(models: [], style: , image: (sise: (1, 1)))", vec![
-            (1, 21, "expected a value here"),
-            (1, 31, "unexpected field"),
-        ]),
+        (
+            "(style = Falt, models: [(path \"a.glb\")])",
+            vec![
+                (1, 8, "expected a colon here"),
+                (1, 10, "unexpected"),
+                (1, 31, "expected a colon here"),
+            ],
+        ),
+        (
+            "(models: [], style: , image: (sise: (1, 1)))",
+            vec![(1, 21, "expected a value here"), (1, 31, "unexpected field")],
+        ),
         ("(models: [(path: \"a.glb)], style: Falt)", vec![(1, 18, "the string that begins here")]),
-        ("(models: [(path: \"a.glb\"], camera: (view: Frame()", vec![
-            (1, 25, comma),
-            (1, 49, "the file ends too early"),
-        ]),
+        (
+            "(models: [(path: \"a.glb\"], camera: (view: Frame()",
+            vec![(1, 25, comma), (1, 49, "the file ends too early")],
+        ),
     ] {
         let found = mistakes(source);
         let found: Vec<_> = found.iter().map(|(text, at, _)| (at.0, at.1, text.as_str())).collect();
@@ -201,16 +204,30 @@ fn every_prefix_of_a_scene_is_parsed() {
 #[test]
 fn numbers_have_the_notations_of_ron() {
     let far = |text: &str| {
-        let scene = parse_scene("s.ron", &scene_with(&format!("camera: (projection: Orthographic(far: {text}))")));
+        let scene = parse_scene(
+            "s.ron",
+            &scene_with(&format!("camera: (projection: Orthographic(far: {text}))")),
+        );
         let projection = scene.map(|scene| scene.camera.projection);
         match projection {
-            Ok(Some(super::file::ProjectionFile::Orthographic { far: Some(far), .. })) => Some(far.value()),
+            Ok(Some(super::file::ProjectionFile::Orthographic { far: Some(far), .. })) => {
+                Some(far.value())
+            }
             _ => None,
         }
     };
     for (text, expected) in [
-        ("1", 1.0), ("+1.5", 1.5), ("-.5", -0.5), ("2.", 2.0), ("1_000", 1000.0), ("0xff", 255.0),
-        ("0b101", 5.0), ("-0o17", -15.0), ("1e3", 1000.0), ("1.5E-2", 0.015), ("Some(4)", 4.0),
+        ("1", 1.0),
+        ("+1.5", 1.5),
+        ("-.5", -0.5),
+        ("2.", 2.0),
+        ("1_000", 1000.0),
+        ("0xff", 255.0),
+        ("0b101", 5.0),
+        ("-0o17", -15.0),
+        ("1e3", 1000.0),
+        ("1.5E-2", 0.015),
+        ("Some(4)", 4.0),
     ] {
         assert_eq!(far(text), Some(expected), "{text}");
     }
@@ -246,7 +263,10 @@ fn older_scene_files_are_rewritten() {
         assert!(new.contains(word), "{word}: {new}");
     }
     let errors = parse_scene("s.ron", old).expect_err("older words");
-    assert!(errors.iter().all(|error| error.to_string().contains("`alberti scene fmt` rewrites")), "{errors}");
+    assert!(
+        errors.iter().all(|error| error.to_string().contains("`alberti scene fmt` rewrites")),
+        "{errors}"
+    );
 }
 
 /// Twelve different mistakes are twelve messages, in the order of the text.

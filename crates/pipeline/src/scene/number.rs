@@ -111,7 +111,8 @@ impl Default for FieldOfView {
     }
 }
 
-/// Three finite numbers: a point, a vector, or angles about three axes. Written `(1, 2, 3)` or `[1, 2, 3]`.
+/// Three finite numbers: a point, a vector, or angles about three axes. Written `(1, 2, 3)` or `[1,
+/// 2, 3]`.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Triple(pub [f64; 3]);
 

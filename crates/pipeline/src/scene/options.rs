@@ -1,7 +1,8 @@
 //! Options with named values: one declaration, read by scene files, flags, help and reference.
 //!
-//! The types are those that the renderer and the line drawings work with. Their names in scene files are those of their variants
-//! (`ThreeQuarter`); flags have them with hyphens (`three-quarter`).
+//! The types are those that the renderer and the line drawings work with. Their names in scene
+//! files are those of their variants (`ThreeQuarter`); flags have them with hyphens
+//! (`three-quarter`).
 
 use super::schema::named_values;
 use crate::render::passes::{Pass, PassEncoding};
@@ -74,7 +75,7 @@ named_values! {
 }
 
 named_values! {
-    /// What is drawn on the faces under the lines.
+    /// The fill of the faces under the lines.
     FaceFill as "FaceFill" {
         None = "Nothing: the paper shows.",
         Flat = "Each face in one tone of its own color, in light from above the viewer's left shoulder: an image of 300 dots per inch under the lines.",

@@ -1,4 +1,5 @@
-//! Where a scene comes from: a file with text and a folder, or a bare model and the program's flags.
+//! Where a scene comes from: a file with text and a folder, or a bare model and the program's
+//! flags.
 
 use super::include::{GatheredScene, IncludeMap, gather_includes};
 use super::insets::is_viewport_field;
@@ -45,12 +46,14 @@ impl Origin {
     /// Reads and parses a scene file and those it includes, which must lie below its folder.
     ///
     /// # Errors
-    /// If one cannot be read, is not UTF-8, is too long, or if files include each other; and every mistake in their texts.
+    /// If one cannot be read, is not UTF-8, is too long, or if files include each other; and every
+    /// mistake in their texts.
     pub fn read_scene(path: &Path) -> Result<(Self, SceneFile), ResolveError> {
         Self::read_scene_allowing(path, &[])
     }
 
-    /// Reads and parses a scene file and those it includes, which must lie below its folder or one that is `allowed`.
+    /// Reads and parses a scene file and those it includes, which must lie below its folder or one
+    /// that is `allowed`.
     ///
     /// # Errors
     /// As [`read_scene`](Self::read_scene).
@@ -63,10 +66,11 @@ impl Origin {
         Self::from_text(path.display().to_string(), text, folder).parse_with_includes(allowed)
     }
 
-    /// Parses a scene's text and the files it includes, which must lie below its folder or one that is `allowed`.
+    /// Parses a scene's text and the files it includes, which must lie below its folder or one that
+    /// is `allowed`.
     ///
-    /// If there are mistakes in the texts, what could be read is resolved as far as that is possible without the models, so that
-    /// all mistakes come at once.
+    /// If there are mistakes in the texts, what could be read is resolved as far as that is
+    /// possible without the models, so that all mistakes come at once.
     ///
     /// # Errors
     /// As [`read_scene`](Self::read_scene).
@@ -91,7 +95,8 @@ impl Origin {
         self.includes.included_texts()
     }
 
-    /// The names of the scene file and of the files it includes, in the order in which they were read.
+    /// The names of the scene file and of the files it includes, in the order in which they were
+    /// read.
     pub(super) fn included_files(&self) -> impl Iterator<Item = &str> {
         std::iter::once(self.file.as_str()).chain(self.includes.names())
     }
@@ -105,16 +110,18 @@ impl Origin {
         (Self::from_text(file, "", folder), SceneFile::from_model_path(name))
     }
 
-    /// The origin of a scene that is just one model, whose file is in memory and complete in itself.
+    /// The origin of a scene that is just one model, whose file is in memory and complete in
+    /// itself.
     #[must_use]
     pub fn from_model_bytes(name: &str, bytes: Vec<u8>) -> (Self, SceneFile) {
         let origin = Self::from_text(name, "", PathBuf::new());
         (Self { model: Some(bytes.into()), ..origin }, SceneFile::from_model_path(name.to_owned()))
     }
 
-    /// Whether a model of a scene file may be read: it must be below the file's folder, or below one of those that are
-    /// `allowed`, by its path and by where symbolic links lead. A path that leads elsewhere is refused without looking whether
-    /// something is there. A bare model may be anywhere: a person has named it.
+    /// Whether a model of a scene file may be read: it must be below the file's folder, or below
+    /// one of those that are `allowed`, by its path and by where symbolic links lead. A path that
+    /// leads elsewhere is refused without looking whether something is there. A bare model may be
+    /// anywhere: a person has named it.
     #[must_use]
     pub fn allows_path(&self, path: &Path, allowed: &[PathBuf]) -> bool {
         if self.text.is_empty() {
@@ -130,7 +137,8 @@ impl Origin {
         holds(&wanted) && wanted.canonicalize().map_or(true, |path| holds(&path))
     }
 
-    /// The same where a viewport is spoken of: errors point at what it says itself before what the scene says.
+    /// The origin for a viewport: errors point at the viewport's own fields, and at those of the scene
+    /// where it has none.
     pub(super) fn for_viewport(&self, number: usize) -> Self {
         Self { viewport: Some(number), ..self.clone() }
     }

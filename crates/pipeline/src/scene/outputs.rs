@@ -1,10 +1,10 @@
-//! What is written of a scene's picture: how many bits its channels have, and which passes go with it.
+//! Outputs of a scene: the bits per channel, and the passes that are written beside the picture.
 
 use super::syntax::PathStep::Field;
 use super::{Origin, SceneError, SceneFile};
 use crate::render::passes::{Pass, PassEncoding};
 
-/// What is written of a scene's picture.
+/// The outputs of a scene.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Outputs {
     /// Whether channels have 16 bits, and not 8.
@@ -16,7 +16,7 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// What a scene file asks for.
+    /// The outputs that a scene file asks for.
     ///
     /// # Errors
     /// If it asks for another number of bits; the error points at it.

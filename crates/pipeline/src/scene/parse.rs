@@ -1,10 +1,10 @@
 //! Parsing: from the text of a scene file to its parts, and to every mistake in it.
 
+use super::SceneErrors;
 use super::file::SceneFile;
 use super::mistake::Mistake;
 use super::schema::{Checked, Checker, SceneValue};
 use super::syntax::{Node, NodeKind, SAMPLE_SCENE, SyntaxTree, parse_tree};
-use super::SceneErrors;
 use std::collections::BTreeMap;
 
 /// Parses the text of a scene file; `file` is its name in messages.
@@ -17,7 +17,8 @@ use std::collections::BTreeMap;
 /// ```
 ///
 /// # Errors
-/// Every error of grammar, unknown name, wrong type, missing field and value out of range, in the order of the text.
+/// Every error of grammar, unknown name, wrong type, missing field and value out of range, in the
+/// order of the text.
 pub fn parse_scene(file: &str, source: &str) -> Result<SceneFile, SceneErrors> {
     let source = strip_byte_order_mark(source);
     let parsed = parse_recovering(source);
@@ -55,7 +56,11 @@ pub(super) fn parse_recovering(source: &str) -> ParsedScene {
         } else if root.kind != NodeKind::Invalid {
             let length = source[root.span.start..].chars().next().map_or(0, char::len_utf8);
             let start = root.span.start;
-            checker.report(start..start + length, "this is not a scene", Some(SAMPLE_SCENE.to_owned()));
+            checker.report(
+                start..start + length,
+                "this is not a scene",
+                Some(SAMPLE_SCENE.to_owned()),
+            );
         }
         let checked: Checked = checker.finish();
         mistakes.extend(checked.mistakes);

@@ -1,13 +1,15 @@
 //! The reference of scene files: every type, field and variant, with its documentation.
 //!
-//! The entries are the declarations that scene files are read by, so the reference has every field that is read and no other.
+//! The entries are the declarations that scene files are read by, so the reference has every field
+//! that is read and no other.
 
 pub use super::schema::{FieldEntry, Shape, TypeEntry, ValueType, VariantEntry};
 
 use super::SceneFile;
 use super::schema::Declared as _;
 
-/// Every type that a scene file is made of, the whole scene first, each other type behind the one that first needs it.
+/// Every type that a scene file is made of, the whole scene first, each other type behind the one
+/// that first needs it.
 #[must_use]
 pub fn all_types() -> Vec<&'static TypeEntry> {
     let mut types = Vec::new();

@@ -1,20 +1,19 @@
-//! From what a person wrote to what drawing needs, or to an error that points.
+//! Resolution: from a parsed scene file to the scene that is rendered, or to errors that point into the
+//! file. Models are loaded, angles are radians, and every default is decided.
 
 use super::backdrop::{resolve_backdrop, resolve_background_color};
-use super::file::{
-    BackgroundFile, Choice, Finite, MaterialFile, ModelFile, OverlayFile,
-};
+use super::file::{BackgroundFile, Choice, Finite, MaterialFile, ModelFile, OverlayFile};
 use super::ground::resolve_ground;
 use super::insets::resolve_insets;
 use super::instances;
 use super::lights::resolve_lights;
 use super::material_overrides::override_materials;
-use super::suggest::suggest_name;
 use super::number::Positive;
 use super::section::resolve_sections;
-use super::syntax::PathStep::{Field, Index};
 use super::style::resolve_style;
+use super::suggest::suggest_name;
 use super::surrounding_light::resolve_environment;
+use super::syntax::PathStep::{Field, Index};
 use super::validate::{errors_around_models, errors_of_resolution};
 use super::view_projection::resolve_view_projection;
 use super::{ImageSpec, Origin, ResolveError, Scene, SceneError, SceneFile, Style};
@@ -33,7 +32,8 @@ use std::sync::Arc;
 /// How a scene is resolved.
 #[derive(Clone, Debug, Default)]
 pub struct ResolveOptions {
-    /// How models are loaded. The paths of a scene file may lead out of its folder into those that `allow_outside` names.
+    /// How models are loaded. The paths of a scene file may lead out of its folder into those that
+    /// `allow_outside` names.
     pub import: ImportOptions,
 }
 
@@ -41,24 +41,26 @@ impl Scene {
     /// Loads the models of a scene and decides everything that the file leaves open.
     ///
     /// # Errors
-    /// If a model cannot be loaded; and every mistake of the scene that can be found, in the order of the file.
+    /// If a model cannot be loaded; and every mistake of the scene that can be found, in the order
+    /// of the file.
     pub fn resolve(
         origin: &Origin,
         file: &SceneFile,
         options: &ResolveOptions,
     ) -> Result<Self, ResolveError> {
-        let loaded =
-            resolve_image(origin, file).map_err(ResolveError::from).and_then(|_| load_models(origin, file, options));
-        let models = loaded
-            .map_err(|error| error.or_all(|| errors_of_resolution(origin, file, options)))?;
+        let loaded = resolve_image(origin, file)
+            .map_err(ResolveError::from)
+            .and_then(|_| load_models(origin, file, options));
+        let models =
+            loaded.map_err(|error| error.or_all(|| errors_of_resolution(origin, file, options)))?;
         let allowed = &options.import.allow_outside;
         let frame = || Self::resolve_with_models(origin, file, models.clone(), allowed);
         let scene = options.import.timings.measure("frame", frame);
         scene.map_err(|error| error.or_all(|| errors_around_models(origin, file, models, allowed)))
     }
 
-    /// Decides everything that the file leaves open around models that are loaded, posed and placed; those of the file are not
-    /// looked at.
+    /// Decides everything that the file leaves open around models that are loaded, posed and
+    /// placed; those of the file are not looked at.
     ///
     /// # Errors
     /// If something makes no sense; the error points at its place in the file.
@@ -70,7 +72,8 @@ impl Scene {
         Self::resolve_with_models(origin, file, models, &[])
     }
 
-    /// The scene around its models; the environment's file may lie in one of the `allowed` folders too.
+    /// The scene around its models; the environment's file may lie in one of the `allowed` folders
+    /// too.
     pub(crate) fn resolve_with_models(
         origin: &Origin,
         file: &SceneFile,
@@ -82,7 +85,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// The same without its views.
+    /// Resolves the scene without its viewports and stereo pair.
     pub(super) fn resolve_without_insets(
         origin: &Origin,
         file: &SceneFile,
@@ -99,7 +102,10 @@ impl Scene {
             };
             file.radius.map_or_else(usual, Positive::value)
         });
-        let develop = ToneMapper::new(file.image.exposure_ev.map_or(0.0, Finite::value), file.image.tone_mapping);
+        let develop = ToneMapper::new(
+            file.image.exposure_ev.map_or(0.0, Finite::value),
+            file.image.tone_mapping,
+        );
         let style = resolve_style(origin, &file.style)?;
         // Nothing is mirrored in line drawings.
         let is_lit = matches!(style, Style::Shaded | Style::Flat);
@@ -224,7 +230,8 @@ fn load_models(
     Ok(models)
 }
 
-/// Why there is no model: the scene asks for something that makes no sense, or the model's file is at fault.
+/// Why there is no model: the scene asks for something that makes no sense, or the model's file is
+/// at fault.
 pub(super) enum ModelError {
     Scene(SceneError),
     File(ImportError),
@@ -238,7 +245,12 @@ impl From<SceneError> for ModelError {
 
 impl ModelError {
     /// The fault, told where the scene file asks for the model, if there is such a file.
-    pub(super) fn into_resolve_error(self, origin: &Origin, number: usize, entry: &ModelFile) -> ResolveError {
+    pub(super) fn into_resolve_error(
+        self,
+        origin: &Origin,
+        number: usize,
+        entry: &ModelFile,
+    ) -> ResolveError {
         match self {
             Self::File(error) if origin.text.is_empty() => error.into(),
             Self::File(error) => {
@@ -298,7 +310,8 @@ pub(super) fn load_model(
     Ok(model)
 }
 
-/// A scene or a variant that the model does not have is a mistake of the scene file, if there is one.
+/// A scene or a variant that the model does not have is a mistake of the scene file, if there is
+/// one.
 fn choice_error(
     origin: &Origin,
     number: usize,

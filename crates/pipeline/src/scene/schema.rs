@@ -1,4 +1,5 @@
-//! Declarations of the scene language: one macro call declares a Rust type, how it is read, and its entry in the reference.
+//! Declarations of the scene language: one macro call declares a Rust type, how it is read, and its
+//! entry in the reference.
 //!
 //! ```text
 //!  scene_struct! { pub struct ModelFile as "Model" { pub path: String, pub scale: Scale = … } }
@@ -16,7 +17,8 @@ mod values;
 pub(super) use checker::{Checked, Checker};
 use declare::join_doc_lines;
 pub(crate) use declare::{
-    default_value, field_entry, inner_type, named_enum, named_values, scene_enum, scene_struct, scene_variant,
+    default_value, field_entry, inner_type, named_enum, named_values, scene_enum, scene_struct,
+    scene_variant,
 };
 pub(super) use search::{example_of, fields_where};
 pub(crate) use values::checked_number;
@@ -31,7 +33,8 @@ pub(super) trait SceneValue: Sized {
     /// The type as the reference names it.
     fn value_type() -> ValueType;
 
-    /// Reads a value. Reports every mistake in it, and returns `None` if there is no value without what is wrong.
+    /// Reads a value. Reports every mistake in it, and returns `None` if there is no value without
+    /// what is wrong.
     fn from_node(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Self>;
 
     /// The value of a field that is left out, for optional types.

@@ -1,4 +1,4 @@
-//! What the sections of a scene file mean.
+//! Resolution of section planes.
 
 use super::file::SectionFile;
 use super::syntax::PathStep::{Field, Index};
@@ -8,7 +8,7 @@ use homog::{Normal, Plane, Point, World};
 /// More cuts than this are a slip, and each costs another pass over the models.
 const MAX_SECTIONS: usize = 16;
 
-/// The planes of the sections. Their normals have length 1 and point to what is kept.
+/// The planes of the sections. Their normals have length 1 and point to the half that is retained.
 pub(super) fn resolve_sections(
     origin: &Origin,
     sections: &[SectionFile],
@@ -42,7 +42,8 @@ pub(super) fn resolve_section(
     let unit = Normal::<World>::new(-x / largest, -y / largest, -z / largest).normalized();
     let fault = || {
         let path = [Field("sections"), Index(at), Field("normal")];
-        let help = "the normal points to the half that is removed, such as normal: (0, 0, 1)".to_owned();
+        let help =
+            "the normal points to the half that is removed, such as normal: (0, 0, 1)".to_owned();
         origin.error_at(&path, "a section needs a direction: its normal has no length", Some(help))
     };
     let unit = unit.filter(|_| largest > 0.0).ok_or_else(fault)?;

@@ -1,8 +1,8 @@
 //! Resolution of the drawing sheet: paper, arrangement, scale and title block.
 
 use super::file::{AxonometricView, ModelUnit, PageOrientation, PaperSize, SheetFile, SideView};
-use super::syntax::PathStep::Field;
 use super::style::resolve_iso_group;
+use super::syntax::PathStep::Field;
 use super::{Origin, SceneError};
 use camera::NamedView;
 use drawing::{LineStyle, LineWidths, Sheet, TitleBlockText};
@@ -27,8 +27,7 @@ pub fn resolve_sheet(origin: &Origin, file: &SheetFile) -> Result<Sheet, SceneEr
         }
         None => default_sheet.style.line_widths,
     };
-    let style =
-        LineStyle { hidden_lines: file.hidden, line_widths: widths, ..default_sheet.style };
+    let style = LineStyle { hidden_lines: file.hidden, line_widths: widths, ..default_sheet.style };
     Ok(Sheet {
         projection_angle: file.projection_angle,
         side_view,

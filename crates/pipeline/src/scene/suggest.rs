@@ -22,5 +22,8 @@ pub(super) fn suggest_name<S: AsRef<str>>(word: &str, names: &[S]) -> Option<Str
     if all.is_empty() {
         return None;
     }
-    Some(closest_name(word, &all).map_or_else(|| list_names(&all), |name| format!("did you mean `{name}`?")))
+    Some(
+        closest_name(word, &all)
+            .map_or_else(|| list_names(&all), |name| format!("did you mean `{name}`?")),
+    )
 }

@@ -1,4 +1,5 @@
-//! From the surroundings that a scene file asks for to what shading needs; made once for each content and kept.
+//! From the surroundings that a scene file asks for to what shading needs; made once for each
+//! content and kept.
 
 use super::file::{EnvironmentFile, Finite, SceneFile};
 use super::hdr::Panorama;
@@ -15,8 +16,8 @@ const MAX_FILE_BYTES: u64 = 256 << 20;
 const MAX_CACHED_ENVIRONMENTS: usize = 4;
 
 impl SceneFile {
-    /// The surroundings that a scene has. A bare model without lights of its own stands in the studio: metals show nothing but what
-    /// is around them.
+    /// The surroundings that a scene has. A bare model without lights of its own stands in the
+    /// studio: metals show nothing but what is around them.
     pub(super) fn effective_environment(
         &self,
         origin: &Origin,
@@ -30,7 +31,7 @@ impl SceneFile {
     }
 }
 
-/// What an environment is made of: its kind, all its numbers, and the sum of a file's bytes.
+/// The key of an environment: its kind, all its numbers, and a hash of a file's bytes.
 type EnvironmentKey = (u8, [u64; 4]);
 
 static CACHE: Mutex<Vec<(EnvironmentKey, Arc<Environment>)>> = Mutex::new(Vec::new());
@@ -49,7 +50,8 @@ fn cached_environment(key: EnvironmentKey, make: impl FnOnce() -> Environment) -
     made
 }
 
-/// The environment of a scene, if it asks for one. Files may lie below the scene's folder and those that are allowed.
+/// The environment of a scene, if it asks for one. Files may lie below the scene's folder and those
+/// that are allowed.
 pub(super) fn resolve_environment(
     origin: &Origin,
     file: &SceneFile,
@@ -106,7 +108,8 @@ fn environment_error(origin: &Origin, message: String, help: Option<String>) -> 
     origin.error_at(&[Field("environment"), Field("path")], message, help)
 }
 
-/// The bytes of a file that the scene names at `at`: below its folder or one that is allowed, and not too long.
+/// The bytes of a file that the scene names at `at`: below its folder or one that is allowed, and
+/// not too long.
 pub(super) fn read_image_bytes(
     origin: &Origin,
     at: &[PathStep<'_>],
@@ -151,7 +154,8 @@ impl EnvironmentRotation {
         (kind, [content, self.degrees.to_bits(), u64::from(self.strength.to_bits()), 0])
     }
 
-    /// The light from a direction after the surroundings were turned counter-clockwise, seen from above.
+    /// The light from a direction after the surroundings were turned counter-clockwise, seen from
+    /// above.
     fn rotated_radiance(&self, [x, y, z]: [f32; 3], of: impl Fn([f32; 3]) -> [f32; 3]) -> [f32; 3] {
         let before = [x * self.cosine - z * self.sine, y, x * self.sine + z * self.cosine];
         of(before).map(|c| c * self.strength)

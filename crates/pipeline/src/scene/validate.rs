@@ -1,7 +1,8 @@
 //! Validation: every mistake of a scene, and not only the first that resolution meets.
 //!
-//! Each part of the scene is resolved by itself, so that a mistake in one does not hide those in another. A part that depends on
-//! one that is wrong is left out: its mistakes could follow from that.
+//! Each part of the scene is resolved by itself, so that a mistake in one does not hide those in
+//! another. A part that depends on one that is wrong is left out: its mistakes could follow from
+//! that.
 
 use super::backdrop::{resolve_backdrop, resolve_background_color};
 use super::error::SceneError;
@@ -12,8 +13,7 @@ use super::lights::check_light;
 use super::origin::Origin;
 use super::resolve::{
     ModelError, load_model, missing_model_error, outside_folder_error, resolve_image,
-    resolve_image_size,
-    resolve_max_anisotropy, resolve_overlays, resolve_samples,
+    resolve_image_size, resolve_max_anisotropy, resolve_overlays, resolve_samples,
 };
 use super::section::{check_section_count, resolve_section};
 use super::shadows::resolve_shadow;
@@ -28,8 +28,9 @@ use model::import::{ImportOptions, load};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Every mistake of a scene file that has been parsed, in the order of the file. Errors in the models' own files are not among
-/// them: [`check`](model::import::check) reports those. If a model cannot be loaded, what depends on the models is not validated.
+/// Every mistake of a scene file that has been parsed, in the order of the file. Errors in the
+/// models' own files are not among them: [`check`](model::import::check) reports those. If a model
+/// cannot be loaded, what depends on the models is not validated.
 #[must_use]
 pub fn validate_scene(
     origin: &Origin,
@@ -96,8 +97,8 @@ pub(super) fn with_errors_of_description(
     in_order(origin, errors.collect())
 }
 
-/// The models that can be loaded; `None`, and the mistakes, if not all can. `with_files` says whether errors of the models' own
-/// files are among them.
+/// The models that can be loaded; `None`, and the mistakes, if not all can. `with_files` says
+/// whether errors of the models' own files are among them.
 fn load_valid_models(
     origin: &Origin,
     file: &SceneFile,
@@ -116,7 +117,9 @@ fn load_valid_models(
             Ok(model) => instances::instantiate_model(origin, index, entry, &Arc::new(model)),
             Err(ModelError::Scene(error)) => Err(error),
             Err(error) => match error.into_resolve_error(origin, index, entry) {
-                ResolveError::Scene(scene_errors) if with_files => Err(scene_errors.first().clone()),
+                ResolveError::Scene(scene_errors) if with_files => {
+                    Err(scene_errors.first().clone())
+                }
                 _ => {
                     is_complete = false;
                     continue;
@@ -148,9 +151,8 @@ fn errors_of_scene(
     errors.extend(resolve_overlays(origin, &file.overlays, &models, image).err());
     if errors.is_empty() {
         let insets = resolve_insets(origin, file, &models, allowed).map(drop);
-        let scene = insets.and_then(|()| {
-            Scene::resolve_without_insets(origin, file, models, allowed).map(drop)
-        });
+        let scene = insets
+            .and_then(|()| Scene::resolve_without_insets(origin, file, models, allowed).map(drop));
         if let Err(ResolveError::Scene(error)) = scene {
             errors.extend(Vec::from(error));
         }
@@ -199,7 +201,11 @@ fn errors_of_description(
 }
 
 /// The paths of models that lead nowhere, or out of the scene's folder. The files are not read.
-fn errors_of_model_paths(origin: &Origin, file: &SceneFile, allowed: &[PathBuf]) -> Vec<SceneError> {
+fn errors_of_model_paths(
+    origin: &Origin,
+    file: &SceneFile,
+    allowed: &[PathBuf],
+) -> Vec<SceneError> {
     let path_error = |(index, entry): (usize, &super::file::ModelFile)| {
         let error = if origin.allows_path(Path::new(&entry.path), allowed) {
             let path = origin.folder.join(&entry.path);

@@ -55,7 +55,8 @@ pub(super) fn resolve_view_projection(
     }
 }
 
-/// The mistakes of a camera that can be found without the models: a direction that is none, planes in the wrong order.
+/// The mistakes of a camera that can be found without the models: a direction that is none, planes
+/// in the wrong order.
 pub(super) fn check_camera(origin: &Origin, file: &CameraFile) -> Vec<SceneError> {
     let camera = match &file.view {
         ViewFile::LookAt { eye, target, up } => {
@@ -75,7 +76,7 @@ pub(super) fn check_camera(origin: &Origin, file: &CameraFile) -> Vec<SceneError
     view_error.into_iter().chain(projection_error).collect()
 }
 
-/// What is wrong with the planes of a projection that gives them all.
+/// The error of a projection whose clipping planes are all given.
 fn check_planes(projection: &ProjectionFile) -> Option<ProjectionError> {
     match *projection {
         ProjectionFile::Perspective { fov_y_degrees, near: Some(near), far: Some(far) } => {
@@ -150,7 +151,8 @@ impl<'a> CameraResolver<'a> {
         homog::Bounds::from_points(self.points.iter().copied()).map(homog::Bounds::center)
     }
 
-    /// A camera in its place with a projection; `height` is that of a parallel window whose file leaves it open.
+    /// A camera in its place with a projection; `height` is that of a parallel window whose file
+    /// leaves it open.
     fn project_from_camera(
         &self,
         camera: Camera,

@@ -1,7 +1,9 @@
-//! Words that people bring from other programs, and words of older scene files, with the words of scene files in their place.
+//! Words that people bring from other programs, and words of older scene files, with the words of
+//! scene files in their place.
 //!
-//! A word is looked up with the struct or enum that it stands in. If that has the field or variant that is meant, the answer is its
-//! name; if another part of the scene has it, the answer shows where.
+//! A word is looked up with the struct or enum that it stands in. If that has the field or variant
+//! that is meant, the answer is its name; if another part of the scene has it, the answer shows
+//! where.
 
 mod foreign;
 mod legacy;
@@ -15,7 +17,7 @@ use foreign::FOREIGN_WORDS;
 
 /// An answer to a name that is not declared.
 pub(super) struct Suggestion {
-    /// What to write instead.
+    /// The help: a name, an example, or the names that are possible.
     pub(super) help: String,
     /// The field of the same struct that is meant, if there is one.
     pub(super) sibling: Option<&'static str>,
@@ -42,8 +44,8 @@ impl Suggestion {
 /// A field or variant: the struct, variant (`View::LookAt`) or enum that has it, and its name.
 type Target = (&'static str, &'static str);
 
-/// What a field that is not declared is called in scene files. `owner` is the struct or variant it stands in, `siblings` are its
-/// fields, and `top_level` is the field of the scene around it.
+/// Suggests the name of a field for one that is not declared. `owner` is the struct or variant it
+/// stands in, `siblings` are its fields, and `top_level` is the field of the scene around it.
 pub(super) fn suggest_field(
     owner: &str,
     siblings: &[&'static str],
@@ -60,7 +62,8 @@ pub(super) fn suggest_field(
     let similar = same_spelling.or_else(|| closest_name(word, siblings));
     let is_very_similar = similar.is_some_and(|name| strsim::jaro_winkler(word, name) > 0.9);
     if !is_very_similar && same_spelling.is_none() {
-        // A field of this very name goes before what the word means in other programs, unless that is nearer or in the tables.
+        // A field of this very name goes before what the word means in other programs, unless that
+        // is nearer or in the tables.
         let same_name = targets.iter().filter(|(_, name)| normalize(name) == normalize(word));
         let same_name: Vec<Target> = same_name.copied().collect();
         let meant = example_elsewhere(&same_name, top_level)
@@ -79,11 +82,13 @@ pub(super) fn suggest_field(
             let help = format!("did you mean `{name}`?");
             Suggestion { help, sibling: Some(name), kind: SuggestionKind::Similar }
         }
-        None => Suggestion { help: list_names(siblings), sibling: None, kind: SuggestionKind::List },
+        None => {
+            Suggestion { help: list_names(siblings), sibling: None, kind: SuggestionKind::List }
+        }
     }
 }
 
-/// What a variant that is not declared, or the name of a struct that is another's, is called in scene files.
+/// Suggests the name of a variant for one that is not declared, or for a struct of another type.
 pub(super) fn suggest_variant(
     entry: &'static TypeEntry,
     word: &str,
@@ -105,7 +110,8 @@ pub(super) fn suggest_variant(
     let same_spelling = names.iter().copied().find(|name| normalize(name) == normalize(word));
     let similar = same_spelling.or_else(|| closest_name(word, &names));
     let is_very_similar = similar.is_some_and(|name| strsim::jaro_winkler(word, name) > 0.9);
-    let elsewhere = example_elsewhere(&targets, top_level).filter(|_| !is_very_similar && same_spelling.is_none());
+    let elsewhere = example_elsewhere(&targets, top_level)
+        .filter(|_| !is_very_similar && same_spelling.is_none());
     match (elsewhere, similar) {
         (Some(example), _) => known(format!("write it as {example}")),
         (None, Some(name)) => {
@@ -116,16 +122,18 @@ pub(super) fn suggest_variant(
     }
 }
 
-/// What the tables say that a word means, in their order: older words first.
+/// The meanings of a word in the tables, in their order: older words first.
 fn targets_of(word: &str) -> Vec<Target> {
     let word = normalize(word);
     let legacy = LEGACY_WORDS.iter().filter(|legacy| normalize(legacy.old) == word);
     let legacy = legacy.map(|legacy| (legacy.owner, legacy.new));
-    let foreign = FOREIGN_WORDS.iter().filter(|(words, ..)| words.split(' ').any(|known| known == word));
+    let foreign =
+        FOREIGN_WORDS.iter().filter(|(words, ..)| words.split(' ').any(|known| known == word));
     legacy.chain(foreign.map(|&(_, owner, name)| (owner, name))).collect()
 }
 
-/// A word without capitals, underscores and hyphens: `DirectionalLight`, `directional_light` and `directional-light` are one.
+/// A word without capitals, underscores and hyphens: `DirectionalLight`, `directional_light` and
+/// `directional-light` are one.
 fn normalize(word: &str) -> String {
     word.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
@@ -137,7 +145,8 @@ fn legacy_note(owner: &str, word: &str) -> &'static str {
 
 /// How the first of the targets is written, those in the same field of the scene before others.
 fn example_elsewhere(targets: &[Target], top_level: Option<&str>) -> Option<String> {
-    let examples = targets.iter().filter_map(|(owner, name)| example_of(SceneFile::ENTRY, owner, name));
+    let examples =
+        targets.iter().filter_map(|(owner, name)| example_of(SceneFile::ENTRY, owner, name));
     nearest_example(&examples.collect::<Vec<_>>(), top_level)
 }
 
@@ -145,7 +154,8 @@ fn example_elsewhere(targets: &[Target], top_level: Option<&str>) -> Option<Stri
 fn declared_elsewhere(word: &str) -> Vec<String> {
     let word = normalize(word);
     let fields = fields_where(SceneFile::ENTRY, |field| normalize(field) == word);
-    let example = |(owner, field): &(String, &'static str)| example_of(SceneFile::ENTRY, owner, field);
+    let example =
+        |(owner, field): &(String, &'static str)| example_of(SceneFile::ENTRY, owner, field);
     fields.iter().filter_map(example).collect()
 }
 

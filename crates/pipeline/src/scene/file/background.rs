@@ -14,12 +14,15 @@ scene_enum! {
         Color(Color),
         /// A gradient across the whole image, interpolated in sRGB as web pages do.
         Gradient {
-            /// From 2 to 16 colors at equal distances; the first and the last touch the image's borders or corners.
+            /// From 2 to 16 colors at equal distances; the first and the last touch the image's
+            /// borders or corners.
             colors: Vec<Color>,
-            /// The direction the colors run to, in degrees: 0 is down, 90 to the right, 180 up. Default: 0.
+            /// The direction the colors run to, in degrees: 0 is down, 90 to the right, 180 up.
+            /// Default: 0.
             angle_degrees: Finite = Finite::ZERO,
         },
-        /// An image in a PNG, JPEG or WebP file, of 67,108,864 pixels at most. The exposure does not change its light.
+        /// An image in a PNG, JPEG or WebP file, of 67,108,864 pixels at most. The exposure does
+        /// not change its light.
         Picture {
             /// The path, from the folder of the scene file.
             path: String,

@@ -8,7 +8,8 @@ use camera::NamedView;
 scene_struct! {
     /// The camera: its position and direction, and its projection.
     pub struct CameraFile as "Camera" {
-        /// The position and direction. Default: framed from the direction that suits the projection.
+        /// The position and direction. Default: framed from the direction that suits the
+        /// projection.
         pub view: ViewFile = ViewFile::DEFAULT,
         /// The projection. Default: that of the model's camera with `FromModel`, else perspective.
         pub projection: Option<ProjectionFile> = None,

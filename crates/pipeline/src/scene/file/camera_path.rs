@@ -25,7 +25,8 @@ scene_struct! {
         pub target: Triple,
         /// The view-up vector. Default: y.
         pub up: Triple = Triple::Y_AXIS,
-        /// The vertical field of view of a perspective in degrees. Default: that of the scene's projection.
+        /// The vertical field of view of a perspective in degrees. Default: that of the scene's
+        /// projection.
         pub fov_y_degrees: Option<FieldOfView>,
     }
 }

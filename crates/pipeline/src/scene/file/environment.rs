@@ -5,7 +5,8 @@ use crate::scene::number::{Finite, NonNegative, Triple};
 use crate::scene::schema::scene_enum;
 
 scene_enum! {
-    /// Image-based light from all directions: it lights diffuse surfaces and is reflected in shiny ones.
+    /// Image-based light from all directions: it lights diffuse surfaces and is reflected in shiny
+    /// ones.
     pub enum EnvironmentFile as "Environment" {
         /// None at all, not even for a model without a scene file.
         Dark,
@@ -23,7 +24,7 @@ scene_enum! {
             /// A factor for all light. Default: 1.
             strength: NonNegative = NonNegative::ONE,
         },
-        /// The same light from all directions, in reflections too.
+        /// Uniform light from all directions, in reflections too.
         Uniform {
             /// The luminance from every direction. Default: 1.
             strength: NonNegative = NonNegative::ONE,
@@ -43,7 +44,8 @@ scene_enum! {
 }
 
 impl EnvironmentFile {
-    /// The studio around a model without a scene file: matte white, which reaches 1.4 in the full one, stays below 1.
+    /// The studio around a model without a scene file: matte white, which reaches 1.4 in the full
+    /// one, stays below 1.
     pub const STUDIO: Self =
         Self::Studio { strength: NonNegative::SIX_TENTHS, rotation_degrees: None };
     /// The sky with every default.

@@ -7,9 +7,10 @@ scene_enum! {
     /// The ground below the models.
     #[derive(Copy)]
     pub enum GroundFile as "Ground" {
-        /// A shadow catcher: a level plane that only shows the shadows on it, as under products in a catalog. In a transparent
-        /// picture its alpha is the fraction of light that the shadows take from it. It is not visible from below. If the
-        /// scene has no `shadows`, they are `On()`.
+        /// A shadow catcher: a level plane that only shows the shadows on it, as under products in
+        /// a catalog. In a transparent picture its alpha is the fraction of light that the shadows
+        /// take from it. It is not visible from below. If the scene has no `shadows`, they are
+        /// `On()`.
         Shadow {
             /// Its height, y in the world. Default: that of the lowest vertex of the models.
             height: Option<Finite>,

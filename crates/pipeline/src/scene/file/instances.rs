@@ -4,10 +4,12 @@ use crate::scene::number::{Finite, NonNegative, Scale, Triple};
 use crate::scene::schema::{scene_enum, scene_struct};
 
 scene_enum! {
-    /// Instances of a model. The model is scaled and rotated first, as its own fields say; then each instance is moved to its
-    /// position; then all of them are moved together by the model's `translation`. A scene has 100,000 instances at most.
+    /// Instances of a model. The model is scaled and rotated first, as its own fields say; then
+    /// each instance is moved to its position; then all of them are moved together by the model's
+    /// `translation`. A scene has 100,000 instances at most.
     pub enum InstancesFile as "Instances" {
-        /// In rows, columns and layers: the first instance where the model is, the others beside it.
+        /// In rows, columns and layers: the first instance where the model is, the others beside
+        /// it.
         Grid {
             /// The counts along x, y and z, each at least 1.
             count: (u32, u32, u32),
@@ -20,13 +22,17 @@ scene_enum! {
             count: u32,
             /// The radius in the world's units.
             radius: NonNegative,
-            /// The axis of the circle, which is perpendicular to it; its length does not matter, but is not 0. Default: y, a level circle.
+            /// The axis of the circle, which is perpendicular to it; its length does not matter,
+            /// but is not 0. Default: y, a level circle.
             axis: Triple = Triple::Y_AXIS,
-            /// The position of the first instance in degrees, counter-clockwise around the axis: 0 is towards x; about the axis x, towards y. Default: 0.
+            /// The position of the first instance in degrees, counter-clockwise around the axis: 0
+            /// is towards x; about the axis x, towards y. Default: 0.
             start_degrees: Finite = Finite::ZERO,
-            /// The angle that the instances divide: of a full circle the last is one step before the first, else it is at the end. Default: 360.
+            /// The angle that the instances divide: of a full circle the last is one step before
+            /// the first, else it is at the end. Default: 360.
             sweep_degrees: Finite = FULL_CIRCLE,
-            /// Whether each instance is rotated with its position, so that all show the same side to the center. Default: true.
+            /// Whether each instance is rotated with its position, so that all show the same side
+            /// to the center. Default: true.
             rotate_copies: bool = true,
         },
         /// Each with a transform of its own.

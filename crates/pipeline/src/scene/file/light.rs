@@ -12,14 +12,16 @@ scene_enum! {
         Directional {
             /// The direction in which the light travels.
             direction: Triple,
-            /// The illuminance in lux of a surface that faces the light; a white one then shows `intensity` / π.
+            /// The illuminance in lux of a surface that faces the light; a white one then shows
+            /// `intensity` / π.
             intensity: NonNegative,
             /// The color. Default: white.
             color: LightColor = LightColor::WHITE,
             /// Its shadows. Default: the scene's `shadows`.
             shadows: Option<ShadowsFile>,
         },
-        /// A point light, whose light falls off with the square of the distance. It casts no shadows; a spot does.
+        /// A point light, whose light falls off with the square of the distance. It casts no
+        /// shadows; a spot does.
         Point {
             /// The position.
             position: Triple,
@@ -51,7 +53,8 @@ scene_enum! {
         },
         /// The lights of the models' files (KHR_lights_punctual).
         FromModels,
-        /// The same diffuse light from all directions, without highlights; an environment has highlights.
+        /// Uniform diffuse light from all directions, without highlights; an environment has
+        /// highlights.
         Ambient {
             /// The illuminance in lux of every surface.
             intensity: NonNegative,

@@ -24,10 +24,11 @@ scene_struct! {
         pub cap: Cap = Cap::Round,
         /// How lines join at corners. Default: `Round`.
         pub join: Join = Join::Round,
-        /// The distance between hatch lines, in millimeters of the paper, from 0.1 to 1000: on the section cuts of `sections`, and the closest on
-        /// faces with `face_fill: Hatching`. Default: 2.
+        /// The distance between hatch lines, in millimeters of the paper, from 0.1 to 1000: on the
+        /// section cuts of `sections`, and the closest on faces with `face_fill: Hatching`.
+        /// Default: 2.
         pub hatch_spacing_mm: HatchSpacing = HatchSpacing::DEFAULT,
-        /// What is drawn on the faces under the lines. Default: `None`.
+        /// The fill of the faces under the lines. Default: `None`.
         pub face_fill: FaceFill = FaceFill::None,
     }
 }
@@ -40,8 +41,8 @@ scene_enum! {
         Px(Positive),
         /// In millimeters.
         Mm(Positive),
-        /// A line group of ISO 128 by the width of its wide lines in millimeters: 0.25, 0.35, 0.5, 0.7, 1, 1.4 or 2. Narrow lines are half as
-        /// wide.
+        /// A line group of ISO 128 by the width of its wide lines in millimeters: 0.25, 0.35, 0.5,
+        /// 0.7, 1, 1.4 or 2. Narrow lines are half as wide.
         Iso(Positive),
     }
 }

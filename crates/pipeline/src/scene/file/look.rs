@@ -14,17 +14,20 @@ scene_enum! {
         Shaded,
         /// Physically based shading, with one normal for each triangle.
         Flat,
-        /// Gouraud shading: lit at vertices and interpolated, matte, in the colors of the materials.
+        /// Gouraud shading: lit at vertices and interpolated, matte, in the colors of the
+        /// materials.
         Gouraud,
         /// Matte clay in the light of the scene.
         Clay,
-        /// A material capture of glazed clay: color by the normal in view space, whatever the lights of the scene.
+        /// A material capture of glazed clay: color by the normal in view space, whatever the
+        /// lights of the scene.
         Matcap,
         /// World-space normals as colors: red, green and blue are (n + 1) / 2.
         Normals,
         /// Depth as gray: the nearer, the brighter.
         Depth,
-        /// A checkerboard by texture coordinates, 8 squares for each unit; red grows with u, green with v.
+        /// A checkerboard by texture coordinates, 8 squares for each unit; red grows with u, green
+        /// with v.
         UvChecker,
         /// A color for each mesh primitive.
         Ids,
@@ -88,10 +91,11 @@ scene_struct! {
         pub bits: u32 = 8,
         /// The exposure in stops: each doubles all light. Default: 0.
         pub exposure_ev: Option<Finite> = None,
-        /// The tone mapping curve, which brings bright light into the range of the picture. Default: `None`.
+        /// The tone mapping curve, which brings bright light into the range of the picture.
+        /// Default: `None`.
         pub tone_mapping: ToneMapping = ToneMapping::None,
-        /// The most samples of anisotropic texture filtering, from 1 to 8: with 1, surfaces at grazing angles are blurred; with more they are
-        /// sharp. Default: 4.
+        /// The most samples of anisotropic texture filtering, from 1 to 8: with 1, surfaces at
+        /// grazing angles are blurred; with more they are sharp. Default: 4.
         pub max_anisotropy: u32 = 4,
     }
 }

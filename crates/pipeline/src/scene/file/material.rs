@@ -5,16 +5,18 @@ use crate::scene::number::{Fraction, NonNegative};
 use crate::scene::schema::{scene_enum, scene_struct};
 
 scene_struct! {
-    /// A material override. Each field that is given replaces that of the model's material, with its texture; the others are
-    /// unchanged. Of several overrides of one material, later ones win.
+    /// A material override. Each field that is given replaces that of the model's material, with
+    /// its texture; the others are unchanged. Of several overrides of one material, later ones win.
     pub struct MaterialFile as "Material" {
         /// Which materials. Default: `All`.
         pub of: MaterialsFile = MaterialsFile::All,
         /// The base color; vertex colors still multiply it. Default: as in the model.
         pub base_color: Option<Color> = None,
-        /// The base color's alpha, from 0 to 1; it counts with `Blend` and `Mask`. Default: as in the model.
+        /// The base color's alpha, from 0 to 1; it counts with `Blend` and `Mask`. Default: as in
+        /// the model.
         pub alpha: Option<Fraction> = None,
-        /// 0 for dielectrics, 1 for metals. Where it or `roughness` is given, the texture of both is left out. Default: as in the model.
+        /// 0 for dielectrics, 1 for metals. Where it or `roughness` is given, the texture of both
+        /// is left out. Default: as in the model.
         pub metallic: Option<Fraction> = None,
         /// 0 for mirrors, 1 for chalk. Default: as in the model.
         pub roughness: Option<Fraction> = None,

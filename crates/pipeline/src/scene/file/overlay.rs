@@ -19,11 +19,13 @@ scene_enum! {
         },
         /// The horizon: where horizontal directions vanish.
         Horizon,
-        /// The vanishing points of the axes, with the lines from the corners of the box around the models.
+        /// The vanishing points of the axes, with the lines from the corners of the box around the
+        /// models.
         VanishingPoints,
         /// The view volume and the eye of another camera.
         Volume(CameraFile),
-        /// The visible edges of the surfaces: silhouettes, boundaries, creases. Line drawings have them anyway.
+        /// The visible edges of the surfaces: silhouettes, boundaries, creases. Line drawings have
+        /// them anyway.
         Edges,
     }
 }

@@ -4,7 +4,8 @@ use crate::render::passes::{Pass, PassEncoding};
 use crate::scene::schema::scene_struct;
 
 scene_struct! {
-    /// The passes that `alberti render` writes beside the picture, as `picture.depth.png` and the like.
+    /// The passes that `alberti render` writes beside the picture, as `picture.depth.png` and the
+    /// like.
     pub struct PassesFile as "Passes" {
         /// Which ones. Default: none.
         pub write: Vec<Pass> = Vec::new(),

@@ -7,8 +7,8 @@ use projection::PrincipalView;
 scene_enum! {
     /// A projection.
     ///
-    /// Those from `Multiview` on are the classical ones. Each of them fits its own window around the models, and unless the view
-    /// says otherwise it shows their front.
+    /// Those from `Multiview` on are the classical ones. Each of them fits its own window around
+    /// the models, and unless the view says otherwise it shows their front.
     pub enum ProjectionFile as "Projection" {
         /// Perspective, the eye in front of the image's center.
         Perspective {
@@ -47,7 +47,8 @@ scene_enum! {
         Multiview(PrincipalView),
         /// Isometric: orthographic, all three axes foreshortened alike.
         Isometric,
-        /// Dimetric: orthographic, x and y in full and z by half, the 42°/7° of engineering drawing.
+        /// Dimetric: orthographic, x and y in full and z by half, the 42°/7° of engineering
+        /// drawing.
         Dimetric,
         /// Trimetric: orthographic, each axis foreshortened by a factor of its own.
         Trimetric,
@@ -84,24 +85,28 @@ scene_enum! {
             /// The drawn length of a unit of height. Default: 1.
             height: NonNegative = NonNegative::ONE,
         },
-        /// One-point perspective, the front parallel to the picture plane: lines in depth meet in one vanishing point. Points of the picture go
-        /// from −1 at its bottom to 1 at its top.
+        /// One-point perspective, the front parallel to the picture plane: lines in depth meet in
+        /// one vanishing point. Points of the picture go from −1 at its bottom to 1 at its top.
         OnePoint {
-            /// The vanishing point of lines in depth. Default: a little to the right and above the center.
+            /// The vanishing point of lines in depth. Default: a little to the right and above the
+            /// center.
             at: (Finite, Finite) = point(0.35, 0.45),
             /// The distance of the eye from the picture, in half heights of it. Default: 3.
             distance: Positive = Positive::constant(3.0),
         },
-        /// Two-point perspective, verticals parallel to the picture plane. Points as for `OnePoint`.
+        /// Two-point perspective, verticals parallel to the picture plane. Points as for
+        /// `OnePoint`.
         TwoPoint {
             /// The vanishing point of lines along x. Default: at the left, outside of the picture.
             x: (Finite, Finite) = point(-3.2, 0.4),
             /// The vanishing point of lines along z. Default: at the right.
             z: (Finite, Finite) = point(2.4, 0.4),
-            /// The position of the eye between the two, 0 at x and 1 at z. Default: 0.57, the center of the picture.
+            /// The position of the eye between the two, 0 at x and 1 at z. Default: 0.57, the
+            /// center of the picture.
             fraction: Finite = Finite::constant(0.57),
         },
-        /// Three-point perspective, no axis parallel to the picture plane. Points as for `OnePoint`.
+        /// Three-point perspective, no axis parallel to the picture plane. Points as for
+        /// `OnePoint`.
         ThreePoint {
             /// The vanishing point of lines along x. Default: at the left, above the center.
             x: (Finite, Finite) = point(-3.2, 1.2),
@@ -110,8 +115,8 @@ scene_enum! {
             /// The vanishing point of lines along z. Default: at the right, above the center.
             z: (Finite, Finite) = point(2.4, 1.2),
         },
-        /// Perspective by the bottom row (p, q, r, 1) of the textbooks' matrix, with the models scaled so that they just fit into a sphere
-        /// of radius 1.
+        /// Perspective by the bottom row (p, q, r, 1) of the textbooks' matrix, with the models
+        /// scaled so that they just fit into a sphere of radius 1.
         NPoint {
             /// Lines along x meet at 1/p. Default: 0.
             p: Finite = Finite::ZERO,
@@ -157,11 +162,7 @@ impl ProjectionFile {
     /// Two-point perspective with every default.
     #[must_use]
     pub const fn two_point() -> Self {
-        Self::TwoPoint {
-            x: point(-3.2, 0.4),
-            z: point(2.4, 0.4),
-            fraction: Finite::constant(0.57),
-        }
+        Self::TwoPoint { x: point(-3.2, 0.4), z: point(2.4, 0.4), fraction: Finite::constant(0.57) }
     }
 
     /// Three-point perspective with every default.

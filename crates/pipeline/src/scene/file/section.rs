@@ -4,17 +4,20 @@ use crate::scene::number::Triple;
 use crate::scene::schema::scene_struct;
 
 scene_struct! {
-    /// A section plane that cuts the models open. Line drawings and sheets show the section; other styles show the models whole.
+    /// A section plane that cuts the models open. Line drawings and sheets show the section; other
+    /// styles show the models whole.
     pub struct SectionFile as "Section" {
         /// A point of the plane, in the world. Default: the origin.
         pub point: Triple = Triple::ZERO,
-        /// The direction of the half that is removed, perpendicular to the plane; its length does not matter, but is not 0.
+        /// The direction of the half that is removed, perpendicular to the plane; its length does
+        /// not matter, but is not 0.
         pub normal: Triple,
     }
 }
 
 impl SectionFile {
-    /// The section through a point that removes what lies in a direction; `None` if a number is not finite or the direction is 0.
+    /// The section through a point that removes what lies in a direction; `None` if a number is not
+    /// finite or the direction is 0.
     #[must_use]
     pub fn new(point: [f64; 3], normal: [f64; 3]) -> Option<Self> {
         let is_finite = point.iter().chain(&normal).all(|number| number.is_finite());

@@ -4,20 +4,23 @@ use crate::scene::number::Softness;
 use crate::scene::schema::scene_enum;
 
 scene_enum! {
-    /// Whether a light casts shadows, and how soft they are. Directional and spot lights can; point lights cast none.
+    /// Whether a light casts shadows, and how soft they are. Directional and spot lights can; point
+    /// lights cast none.
     ///
-    /// Masked materials cast the shadow of their opaque parts; blended and transmissive ones cast none.
+    /// Masked materials cast the shadow of their opaque parts; blended and transmissive ones cast
+    /// none.
     #[derive(Copy)]
     pub enum ShadowsFile as "Shadows" {
         /// None.
         Off,
         /// By a shadow map: a depth image of the scene from the light.
         On {
-            /// The texels of the map's longer side, from 64 to 8192. Details finer than a texel cast no shadow; each takes 12 bytes.
-            /// Default: 2048.
+            /// The texels of the map's longer side, from 64 to 8192. Details finer than a texel
+            /// cast no shadow; each takes 12 bytes. Default: 2048.
             size: Option<u32>,
-            /// The angle that the light subtends, in degrees, from 0 to 30: shadows get softer with the distance from what casts them, and
-            /// 0 makes them all sharp. Default: 0.53, as the sun.
+            /// The angle that the light subtends, in degrees, from 0 to 30: shadows get softer with
+            /// the distance from what casts them, and 0 makes them all sharp. Default: 0.53, as the
+            /// sun.
             softness_degrees: Option<Softness>,
         },
     }

@@ -10,21 +10,25 @@ scene_struct! {
     pub struct SheetFile as "Sheet" {
         /// The paper size. Default: A3.
         pub paper: PaperSize = PaperSize::A3,
-        /// The orientation of the paper. Default: portrait for A4, A5 and Letter, landscape for all others.
+        /// The orientation of the paper. Default: portrait for A4, A5 and Letter, landscape for all
+        /// others.
         pub orientation: Option<PageOrientation> = None,
         /// The arrangement of the views. Default: first angle.
         pub projection_angle: SheetAngle = SheetAngle::First,
-        /// The scale, paper to object, as in (1, 50). Default: the largest of the standard series that fits.
+        /// The scale, paper to object, as in (1, 50). Default: the largest of the standard series
+        /// that fits.
         pub scale: Option<(u32, u32)> = None,
         /// The unit of the models. Default: meters, as in glTF.
         pub unit: ModelUnit = ModelUnit::Meter,
-        /// The view beside the front view. Default: from the left in first angle, from the right in third.
+        /// The view beside the front view. Default: from the left in first angle, from the right in
+        /// third.
         pub side_view: Option<SideView> = None,
         /// The fourth view. Default: isometric.
         pub axonometric_view: AxonometricView = AxonometricView::Isometric,
         /// How hidden lines are drawn in the first three views. Default: dashed.
         pub hidden: HiddenLines = HiddenLines::Dashed,
-        /// The width of wide lines in millimeters, a line group of ISO 128. Default: to suit the paper.
+        /// The width of wide lines in millimeters, a line group of ISO 128. Default: to suit the
+        /// paper.
         pub width: Option<Positive> = None,
         /// Whether overall dimensions are drawn. Default: true.
         pub dimensions: bool = true,

@@ -9,10 +9,12 @@ use crate::scene::number::{Fraction, Positive};
 use crate::scene::schema::{scene_enum, scene_struct};
 
 scene_struct! {
-    /// A rectangle of the picture with a view of its own, drawn over what is there. PNG pictures and frame sequences have it; SVG
-    /// and PDF, passes and `explain` show the scene's own camera alone. One of `at` and `pixels` gives its position.
+    /// A rectangle of the picture with a view of its own, drawn over what is there. PNG pictures
+    /// and frame sequences have it; SVG and PDF, passes and `explain` show the scene's own camera
+    /// alone. One of `at` and `pixels` gives its position.
     pub struct ViewportFile as "Viewport" {
-        /// Left, top, width and height as fractions of the picture, from 0 to 1, from its upper left corner. Default: by `pixels`.
+        /// Left, top, width and height as fractions of the picture, from 0 to 1, from its upper
+        /// left corner. Default: by `pixels`.
         pub at: Option<(Fraction, Fraction, Fraction, Fraction)> = None,
         /// Left, top, width and height in pixels. Default: by `at`.
         pub pixels: Option<(u32, u32, u32, u32)> = None,
@@ -41,21 +43,25 @@ scene_struct! {
 }
 
 scene_enum! {
-    /// A stereo pair: two pictures, for two eyes beside the camera. They look in one direction through off-axis windows, so that
-    /// both see what is at the convergence distance in one position, without vertical parallax. The projection must be a perspective.
+    /// A stereo pair: two pictures, for two eyes beside the camera. They look in one direction
+    /// through off-axis windows, so that both see what is at the convergence distance in one
+    /// position, without vertical parallax. The projection must be a perspective.
     #[derive(Copy)]
     pub enum StereoFile as "Stereo" {
         /// The left eye's picture in the left half, the right eye's in the right half.
         SideBySide {
-            /// The interocular distance, in the world's units. Default: a thirtieth of the convergence.
+            /// The interocular distance, in the world's units. Default: a thirtieth of the
+            /// convergence.
             eye_distance: Option<Positive>,
-            /// The distance of the plane of zero parallax: what is nearer stands out of the picture. Default: the distance of
-            /// the center of the models.
+            /// The distance of the plane of zero parallax: what is nearer stands out of the
+            /// picture. Default: the distance of the center of the models.
             convergence: Option<Positive>,
         },
-        /// One over the other for red and cyan glasses: red from the left eye's picture, green and blue from the right eye's.
+        /// One over the other for red and cyan glasses: red from the left eye's picture, green and
+        /// blue from the right eye's.
         Anaglyph {
-            /// The interocular distance, in the world's units. Default: a thirtieth of the convergence.
+            /// The interocular distance, in the world's units. Default: a thirtieth of the
+            /// convergence.
             eye_distance: Option<Positive>,
             /// As for `SideBySide`. Default: the distance of the center of the models.
             convergence: Option<Positive>,

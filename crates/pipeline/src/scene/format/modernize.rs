@@ -6,8 +6,8 @@ use crate::scene::syntax::{Group, Key, Node, NodeKind, parse_tree};
 use crate::scene::vocabulary::LEGACY_WORDS;
 use core::ops::Range;
 
-/// The text with each legacy word replaced by that of today. Words are only replaced where their struct or enum stands; everything
-/// else, mistakes included, is left as it is.
+/// The text with each legacy word replaced by that of today. Words are only replaced where their
+/// struct or enum stands; everything else, mistakes included, is left as it is.
 pub(super) fn replace_legacy_words(source: &str) -> String {
     let tree = parse_tree(source);
     let mut edits = Vec::new();
@@ -50,7 +50,10 @@ fn collect_edits(node: &Node<'_>, value_type: &ValueType, edits: &mut Vec<Edit>)
             items.iter().for_each(|item| collect_edits(&item.value, element, edits));
         }
         ValueType::Tuple(parts) => {
-            items.iter().zip(parts).for_each(|(item, part)| collect_edits(&item.value, part, edits));
+            items
+                .iter()
+                .zip(parts)
+                .for_each(|(item, part)| collect_edits(&item.value, part, edits));
         }
         ValueType::Declared(entry) => collect_declared(node, entry, edits),
     }
@@ -71,7 +74,9 @@ fn collect_declared(node: &Node<'_>, entry: &'static TypeEntry, edits: &mut Vec<
         (Shape::Variants(variants), NodeKind::Group(group)) => {
             let Some(name) = &group.name else { return };
             let name = modern_name(name, entry.name, edits);
-            let Some(variant) = variants.iter().find(|variant| variant.name == name) else { return };
+            let Some(variant) = variants.iter().find(|variant| variant.name == name) else {
+                return;
+            };
             let owner = format!("{}::{}", entry.name, variant.name);
             collect_fields(group, &owner, variant.fields, edits);
             if let Some(value_type) = variant.value_type.map(|value_type| value_type()) {
@@ -83,7 +88,12 @@ fn collect_declared(node: &Node<'_>, entry: &'static TypeEntry, edits: &mut Vec<
 }
 
 /// The value in the brackets of a variant, which may also be the brackets of the struct inside.
-fn collect_inner(node: &Node<'_>, group: &Group<'_>, value_type: &ValueType, edits: &mut Vec<Edit>) {
+fn collect_inner(
+    node: &Node<'_>,
+    group: &Group<'_>,
+    value_type: &ValueType,
+    edits: &mut Vec<Edit>,
+) {
     if let [item] = group.items.as_slice()
         && item.key.is_none()
     {

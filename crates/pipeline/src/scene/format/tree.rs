@@ -4,7 +4,7 @@ use crate::scene::syntax::{Token, TokenKind};
 
 /// An element, a comment, or an element with a comment behind it on its line.
 #[derive(Debug, Default)]
-pub(super) struct Item {
+pub(super) struct FormatItem {
     pub(super) element: Option<Element>,
     pub(super) comment: Option<String>,
     pub(super) blank_before: bool,
@@ -20,21 +20,21 @@ pub(super) struct Element {
 pub(super) enum Part {
     /// Words with the blanks between them.
     Text(String),
-    Group(Group),
+    Group(FormatGroup),
 }
 
 /// A pair of brackets.
 #[derive(Debug)]
-pub(super) struct Group {
+pub(super) struct FormatGroup {
     pub(super) open: char,
     pub(super) close: char,
     /// Whether a line break follows the opening bracket.
     pub(super) multiline: bool,
-    pub(super) items: Vec<Item>,
+    pub(super) items: Vec<FormatItem>,
 }
 
 /// The items of the whole text.
-pub(super) fn group_tokens(tokens: &[Token<'_>]) -> Vec<Item> {
+pub(super) fn group_tokens(tokens: &[Token<'_>]) -> Vec<FormatItem> {
     ItemReader { tokens, at: 0 }.read_items()
 }
 
@@ -55,8 +55,8 @@ impl<'a> ItemReader<'a> {
     }
 
     /// The items up to the closing bracket, or to the end.
-    fn read_items(&mut self) -> Vec<Item> {
-        let mut items: Vec<Item> = Vec::new();
+    fn read_items(&mut self) -> Vec<FormatItem> {
+        let mut items: Vec<FormatItem> = Vec::new();
         while let Some(token) = self.peek() {
             match token.kind {
                 TokenKind::Close => return items,
@@ -72,14 +72,14 @@ impl<'a> ItemReader<'a> {
                 _ => {
                     let blank_before = token.line_breaks_before > 1;
                     let (element, comments) = self.read_element();
-                    let own = |(number, text): (usize, &str)| Item {
+                    let own = |(number, text): (usize, &str)| FormatItem {
                         comment: Some(text.to_owned()),
                         blank_before: blank_before && number == 0,
-                        ..Item::default()
+                        ..FormatItem::default()
                     };
                     let blank_before = blank_before && comments.is_empty();
                     items.extend(comments.into_iter().enumerate().map(own));
-                    items.push(Item { element: Some(element), comment: None, blank_before });
+                    items.push(FormatItem { element: Some(element), comment: None, blank_before });
                 }
             }
         }
@@ -87,7 +87,7 @@ impl<'a> ItemReader<'a> {
     }
 
     /// A comment on the line of the item before it belongs to that; any other is an item.
-    fn attach_comment(&self, items: &mut Vec<Item>, token: Token<'_>) {
+    fn attach_comment(&self, items: &mut Vec<FormatItem>, token: Token<'_>) {
         let text = token.text.to_owned();
         match items.last_mut() {
             Some(last) if token.line_breaks_before == 0 && last.comment.is_none() => {
@@ -95,7 +95,7 @@ impl<'a> ItemReader<'a> {
             }
             _ => {
                 let blank_before = token.line_breaks_before > 1;
-                items.push(Item { element: None, comment: Some(text), blank_before });
+                items.push(FormatItem { element: None, comment: Some(text), blank_before });
             }
         }
     }
@@ -144,7 +144,7 @@ impl<'a> ItemReader<'a> {
     }
 
     /// The group behind an opening bracket.
-    fn read_group(&mut self, open: Token<'_>) -> Group {
+    fn read_group(&mut self, open: Token<'_>) -> FormatGroup {
         let broken = self.peek().is_some_and(|first| first.line_breaks_before > 0);
         let items = self.read_items();
         let close = self.next().and_then(|token| token.text.chars().next());
@@ -155,6 +155,6 @@ impl<'a> ItemReader<'a> {
             _ => ')',
         };
         let broken = broken && !items.is_empty();
-        Group { open, close: close.unwrap_or(usual), multiline: broken, items }
+        FormatGroup { open, close: close.unwrap_or(usual), multiline: broken, items }
     }
 }

@@ -1,7 +1,7 @@
 //! Checks a syntax tree against the declarations, and reads values from it.
 //!
-//! Every mistake is reported once, where it is. What follows from it is not: a value that could not be read has no other mistakes,
-//! and a field that was meant by a misspelt one is not missing.
+//! Every mistake is reported once, where it is. What follows from it is not: a value that could not
+//! be read has no other mistakes, and a field that was meant by a misspelt one is not missing.
 
 use super::{FieldEntry, SceneValue, Shape, TypeEntry, ValueType, VariantEntry};
 use crate::scene::mistake::Mistake;
@@ -31,7 +31,7 @@ pub(in crate::scene) struct Checker<'a> {
     retained: BTreeMap<&'static str, Vec<usize>>,
 }
 
-/// What a checker found besides the value.
+/// The results of a check besides the value.
 pub(in crate::scene) struct Checked {
     pub(in crate::scene) mistakes: Vec<Mistake>,
     /// For each list of the whole scene the indices of the elements that could be read.
@@ -58,21 +58,34 @@ impl<'a> Checker<'a> {
         self.mistakes.push(Mistake { scope, ..Mistake::new(span, message, help) });
     }
 
-    /// Reports that a value is not of the type that its field has; what `expected` says follows the path of the field.
-    pub(in crate::scene) fn report_type(&mut self, node: &Node<'_>, expected: &str, help: Option<String>) {
+    /// Reports that a value is not of the type that its field has; what `expected` says follows the
+    /// path of the field.
+    pub(in crate::scene) fn report_type(
+        &mut self,
+        node: &Node<'_>,
+        expected: &str,
+        help: Option<String>,
+    ) {
         if node.kind != NodeKind::Invalid {
-            let message = format!("{}expected {expected}, found {}", self.path_prefix(), self.describe(node));
+            let message =
+                format!("{}expected {expected}, found {}", self.path_prefix(), self.describe(node));
             self.report(node.span.clone(), message, help);
         }
     }
 
     /// Reports that a value is of the right type and out of its range.
-    pub(in crate::scene) fn report_value(&mut self, node: &Node<'_>, problem: &str, help: Option<String>) {
+    pub(in crate::scene) fn report_value(
+        &mut self,
+        node: &Node<'_>,
+        problem: &str,
+        help: Option<String>,
+    ) {
         let message = format!("{}{problem}", self.path_prefix());
         self.report(node.span.clone(), message, help);
     }
 
-    /// The path of the value that is being read, such as `camera.view.LookAt.eye[1]`; empty for the whole scene.
+    /// The path of the value that is being read, such as `camera.view.LookAt.eye[1]`; empty for the
+    /// whole scene.
     fn path_text(&self) -> String {
         let mut text = String::new();
         for segment in &self.path {
@@ -131,7 +144,8 @@ impl<'a> Checker<'a> {
             NodeKind::Invalid => None,
             NodeKind::Word(word) if suggest_variant(entry, word, None).is_known() => {
                 let suggestion = suggest_variant(entry, word, self.top_level_field());
-                let message = format!("{}expected `{}`, found `{word}`", self.path_prefix(), entry.name);
+                let message =
+                    format!("{}expected `{}`, found `{word}`", self.path_prefix(), entry.name);
                 self.report(node.span.clone(), message, Some(suggestion.help));
                 None
             }
@@ -143,17 +157,23 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Reports that a struct has another name than its type. Returns whether it is likely to be that type all the same.
+    /// Reports that a struct has another name than its type. Returns whether it is likely to be
+    /// that type all the same.
     fn report_struct_name(&mut self, name: &Key<'_>, entry: &'static TypeEntry) -> Option<()> {
         let message = format!("expected `{}`, found `{}`", entry.name, name.name);
         let suggestion = suggest_variant(entry, name.name, self.top_level_field());
         let is_known = suggestion.is_known();
-        let help = if is_known { suggestion.help } else { format!("write {}(…), or just (…)", entry.name) };
+        let help = if is_known {
+            suggestion.help
+        } else {
+            format!("write {}(…), or just (…)", entry.name)
+        };
         self.report(name.span.clone(), message, Some(help));
         (!is_known).then_some(())
     }
 
-    /// Finds the declared fields among the items of a group, and reports those that are unknown, doubled or missing.
+    /// Finds the declared fields among the items of a group, and reports those that are unknown,
+    /// doubled or missing.
     fn read_fields<'n>(
         &mut self,
         group: &'n Group<'n>,
@@ -163,6 +183,7 @@ impl<'a> Checker<'a> {
     ) -> Option<Fields<'n>> {
         let mut found: Vec<(&'static str, &'n Item<'n>)> = Vec::new();
         let mut meant: Vec<&'static str> = Vec::new();
+        let mut unknown = 0;
         for item in &group.items {
             self.scopes.push(item.span());
             match &item.key {
@@ -174,17 +195,26 @@ impl<'a> Checker<'a> {
                     }
                 }
                 Some(key) => match declared.iter().find(|field| field.name == key.name) {
-                    None => meant.extend(self.report_unknown_field(key, &owner, declared)),
+                    None => {
+                        unknown += 1;
+                        meant.extend(self.report_unknown_field(key, &owner, declared));
+                    }
                     Some(field) if found.iter().any(|(name, _)| *name == field.name) => {
                         let message = format!("the field `{}` is there twice", field.name);
-                        self.report(key.span.clone(), message, Some("remove one of them".to_owned()));
+                        self.report(
+                            key.span.clone(),
+                            message,
+                            Some("remove one of them".to_owned()),
+                        );
                     }
                     Some(field) => found.push((field.name, item)),
                 },
             }
             self.scopes.pop();
         }
-        for field in declared {
+        // A field that nobody knows may stand for one that is missing.
+        let has_unexplained = unknown > meant.len();
+        for field in declared.iter().filter(|_| !has_unexplained) {
             let is_there = field.is_optional || meant.contains(&field.name);
             if !is_there && !found.iter().any(|(name, _)| *name == field.name) {
                 let message = format!("the field `{}` of `{}` is missing", field.name, owner.shown);
@@ -205,7 +235,8 @@ impl<'a> Checker<'a> {
         self.report(item.value.span.clone(), message, Some(help.to_owned()));
     }
 
-    /// Reports a field that is not declared. Returns the field of the same struct that is probably meant.
+    /// Reports a field that is not declared. Returns the field of the same struct that is probably
+    /// meant.
     fn report_unknown_field(
         &mut self,
         key: &Key<'_>,
@@ -252,7 +283,8 @@ impl<'a> Checker<'a> {
         self.path.pop();
     }
 
-    /// Reports a value that names no variant, with the variant that holds such values, if there is one.
+    /// Reports a value that names no variant, with the variant that holds such values, if there is
+    /// one.
     fn report_no_variant(
         &mut self,
         node: &Node<'_>,
@@ -260,25 +292,32 @@ impl<'a> Checker<'a> {
         variants: &'static [VariantEntry],
     ) {
         let text = &self.source[node.span.clone()];
-        let inner = |variant: &VariantEntry| variant.value_type.map(|value_type| value_type().words());
+        let inner =
+            |variant: &VariantEntry| variant.value_type.map(|value_type| value_type().words());
         let kinds: &[&str] = match node.kind {
             NodeKind::String(_) => &["string", "Color"],
             NodeKind::Number(_) => &["whole number", "Positive"],
             _ => &[],
         };
-        let fitting = variants.iter().find(|&variant| inner(variant).is_some_and(|words| kinds.contains(&words.as_str())));
+        let fitting = variants
+            .iter()
+            .find(|&variant| inner(variant).is_some_and(|words| kinds.contains(&words.as_str())));
         let help = match fitting {
             Some(variant) => format!("did you mean `{}({text})`?", variant.name),
             None => format!("`alberti scene doc {}` lists the words that are possible", entry.name),
         };
-        let quotes = if matches!(node.kind, NodeKind::String(_)) { ", without quotation marks" } else { "" };
+        let quotes =
+            if matches!(node.kind, NodeKind::String(_)) { ", without quotation marks" } else { "" };
         let expected = format!("one of the words of `{}`{quotes}", entry.name);
         self.report_type(node, &expected, Some(help));
     }
 
-    /// Reads the elements of a list. Of a list of the whole scene those that cannot be read are left out; any other list is read
-    /// whole or not at all.
-    pub(in crate::scene) fn read_list<T: SceneValue>(&mut self, items: &[Item<'_>]) -> Option<Vec<T>> {
+    /// Reads the elements of a list. Of a list of the whole scene those that cannot be read are
+    /// left out; any other list is read whole or not at all.
+    pub(in crate::scene) fn read_list<T: SceneValue>(
+        &mut self,
+        items: &[Item<'_>],
+    ) -> Option<Vec<T>> {
         let mut values = Vec::new();
         let mut indices = Vec::new();
         for (index, item) in items.iter().enumerate() {
@@ -295,12 +334,20 @@ impl<'a> Checker<'a> {
     }
 
     /// Reads an element of a list or a tuple.
-    pub(in crate::scene) fn read_element<T: SceneValue>(&mut self, index: usize, item: &Item<'_>) -> Option<T> {
+    pub(in crate::scene) fn read_element<T: SceneValue>(
+        &mut self,
+        index: usize,
+        item: &Item<'_>,
+    ) -> Option<T> {
         self.path.push(Segment::Index(index));
         self.scopes.push(item.span());
         let value = if let Some(key) = &item.key {
             let message = format!("elements of lists have no names, found `{}: …`", key.name);
-            self.report(key.span.clone(), message, Some("remove the name, or put it in round brackets".to_owned()));
+            self.report(
+                key.span.clone(),
+                message,
+                Some("remove the name, or put it in round brackets".to_owned()),
+            );
             None
         } else {
             T::from_node(&item.value, self)
@@ -325,7 +372,8 @@ pub(in crate::scene) struct Fields<'n> {
 }
 
 impl Fields<'_> {
-    /// The value of a field. A field that is left out, or that cannot be read, has the value of `default`, if it has one.
+    /// The value of a field. A field that is left out, or that cannot be read, has the value of
+    /// `default`, if it has one.
     pub(in crate::scene) fn read<T: SceneValue>(
         &self,
         checker: &mut Checker<'_>,
@@ -378,11 +426,18 @@ impl<'n> Variant<'n> {
         checker.read_fields(group, self.span.clone(), owner, self.variant.fields)
     }
 
-    /// The value in the brackets. The brackets of the variant are also those of a struct, list or vector inside.
-    pub(in crate::scene) fn read_inner<T: SceneValue>(&self, checker: &mut Checker<'_>) -> Option<T> {
+    /// The value in the brackets. The brackets of the variant are also those of a struct, list or
+    /// vector inside.
+    pub(in crate::scene) fn read_inner<T: SceneValue>(
+        &self,
+        checker: &mut Checker<'_>,
+    ) -> Option<T> {
         let Some(group) = self.group else {
             let message = format!("`{}` needs a value in brackets", self.variant.name);
-            let words = self.variant.value_type.map_or(String::new(), |value_type: fn() -> ValueType| value_type().words());
+            let words = self
+                .variant
+                .value_type
+                .map_or(String::new(), |value_type: fn() -> ValueType| value_type().words());
             let help = format!("write {}(…) with a {words}", self.variant.name);
             checker.report(self.span.clone(), message, Some(help));
             return None;

@@ -1,7 +1,7 @@
 //! The macros that declare the types of scene files.
 
-/// Joins the lines of a doc comment to paragraphs, with a blank line between them. Links to Rust's items say nothing to the author
-/// of a scene: ``[`a`](b)`` and ``[`a`]`` become `` `a` ``.
+/// Joins the lines of a doc comment to paragraphs, with a blank line between them. Links to Rust's
+/// items say nothing to the author of a scene: ``[`a`](b)`` and ``[`a`]`` become `` `a` ``.
 #[must_use]
 pub(super) fn join_doc_lines(doc: &str) -> String {
     let lines: Vec<&str> = doc.lines().map(str::trim).collect();
@@ -26,8 +26,8 @@ fn remove_links(text: &str) -> String {
     plain + rest
 }
 
-/// Declares a struct of scene files. `as "Name"` is its name in scene files; a field with `= value` may be left out. If every field
-/// has a default, so has the struct.
+/// Declares a struct of scene files. `as "Name"` is its name in scene files; a field with `= value`
+/// may be left out. If every field has a default, so has the struct.
 macro_rules! scene_struct {
     (
         $(#[doc = $doc:literal])*
@@ -246,8 +246,8 @@ macro_rules! scene_variant {
 
 pub(crate) use {default_value, field_entry, inner_type, scene_enum, scene_struct, scene_variant};
 
-/// Names the values of an enum without fields: implements `NamedOption`, and reads it from scene files. Each summary is the entry of
-/// the value in the reference.
+/// Names the values of an enum without fields: implements `NamedOption`, and reads it from scene
+/// files. Each summary is the entry of the value in the reference.
 macro_rules! named_values {
     (
         $(#[doc = $doc:literal])*

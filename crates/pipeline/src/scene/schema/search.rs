@@ -15,8 +15,8 @@ struct Site {
     variants: Vec<&'static str>,
 }
 
-/// The fields that `is_meant` accepts, each with its owner such as `Model` or `View::LookAt`, those nearest to the scene's own
-/// brackets first.
+/// The fields that `is_meant` accepts, each with its owner such as `Model` or `View::LookAt`, those
+/// nearest to the scene's own brackets first.
 pub(in crate::scene) fn fields_where(
     root: &'static TypeEntry,
     is_meant: impl Fn(&str) -> bool,
@@ -29,9 +29,13 @@ pub(in crate::scene) fn fields_where(
     found
 }
 
-/// How a field or a variant is written in a scene, from the scene's own brackets on: `camera: (view: LookAt(eye: …))`. `None` if the
-/// owner has none of this name.
-pub(in crate::scene) fn example_of(root: &'static TypeEntry, owner: &str, name: &str) -> Option<String> {
+/// How a field or a variant is written in a scene, from the scene's own brackets on: `camera:
+/// (view: LookAt(eye: …))`. `None` if the owner has none of this name.
+pub(in crate::scene) fn example_of(
+    root: &'static TypeEntry,
+    owner: &str,
+    name: &str,
+) -> Option<String> {
     let sites = sites(root);
     let site = sites.iter().find(|site| site.owner == owner)?;
     let Site { before, after, .. } = site;
@@ -101,7 +105,9 @@ fn add_sites(
                 if let Some(value_type) = variant.value_type {
                     // The brackets of the variant are those of the struct inside.
                     let declared = value_type().declared();
-                    next.extend(declared.into_iter().map(|entry| (entry, before.clone(), after.clone())));
+                    next.extend(
+                        declared.into_iter().map(|entry| (entry, before.clone(), after.clone())),
+                    );
                 }
                 if !inner.fields.is_empty() || variant.value_type.is_some() {
                     sites.push(inner);

@@ -1,4 +1,5 @@
-//! Values without declared parts: numbers with bounds, strings, lists, tuples, and what may be left out.
+//! Values without declared parts: numbers with bounds, strings, lists, tuples, and what may be left
+//! out.
 
 use super::{Checker, SceneValue, ValueType};
 use crate::scene::syntax::{Node, NodeKind, parse_integer, parse_number, unescape_string};
@@ -85,7 +86,11 @@ impl Checker<'_> {
             return None;
         };
         let Some(value) = parse_integer(word) else {
-            self.report_type(node, "a whole number", Some("such as 4, without a decimal point".to_owned()));
+            self.report_type(
+                node,
+                "a whole number",
+                Some("such as 4, without a decimal point".to_owned()),
+            );
             return None;
         };
         let value = u64::try_from(value).ok().filter(|value| *value <= most);
@@ -171,7 +176,9 @@ impl<T: SceneValue> SceneValue for Option<T> {
     fn from_node(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Self> {
         match &node.kind {
             NodeKind::Word("None") => Some(None),
-            NodeKind::Group(group) if group.name.as_ref().is_some_and(|name| name.name == "Some") => {
+            NodeKind::Group(group)
+                if group.name.as_ref().is_some_and(|name| name.name == "Some") =>
+            {
                 group.items.first().and_then(|item| T::from_node(&item.value, checker)).map(Some)
             }
             _ => T::from_node(node, checker).map(Some),

@@ -1,6 +1,7 @@
 //! Values of RON literals: the escapes of strings and the notations of numbers.
 
-/// The text that a string literal stands for: `"…"` with escapes, or `r"…"` and `r#"…"#` as they are.
+/// The text that a string literal stands for: `"…"` with escapes, or `r"…"` and `r#"…"#` as they
+/// are.
 ///
 /// # Errors
 /// The byte offset of the first bad escape in the literal, and how it is wrong.
@@ -24,8 +25,9 @@ pub(in crate::scene) fn unescape_string(literal: &str) -> Result<String, (usize,
     Ok(text)
 }
 
-/// The character of an escape behind its backslash, and the length of what it is written with. A backslash at the end of a line
-/// continues the string behind the blanks of the next line, and stands for no character.
+/// The character of an escape behind its backslash, and the length of what it is written with. A
+/// backslash at the end of a line continues the string behind the blanks of the next line, and
+/// stands for no character.
 fn unescape_character(rest: &str) -> Result<(Option<char>, usize), &'static str> {
     let single = |character: char| Ok((Some(character), 1));
     match rest.chars().next() {
@@ -38,7 +40,9 @@ fn unescape_character(rest: &str) -> Result<(Option<char>, usize), &'static str>
         Some('x') => {
             let digits = rest.get(1..3).filter(|digits| is_hexadecimal(digits));
             let code = digits.and_then(|digits| u8::from_str_radix(digits, 16).ok());
-            let code = code.filter(u8::is_ascii).ok_or("\\x is followed by two hexadecimal digits up to 7f")?;
+            let code = code
+                .filter(u8::is_ascii)
+                .ok_or("\\x is followed by two hexadecimal digits up to 7f")?;
             Ok((Some(char::from(code)), 3))
         }
         Some('u') => {
@@ -56,15 +60,16 @@ fn is_hexadecimal(digits: &str) -> bool {
     !digits.is_empty() && digits.chars().all(|digit| digit.is_ascii_hexdigit())
 }
 
-/// Whether a word is written like a number, valid or not: it begins with a digit, or with a sign or point before one.
+/// Whether a word is written like a number, valid or not: it begins with a digit, or with a sign or
+/// point before one.
 pub(in crate::scene) fn looks_like_number(word: &str) -> bool {
     let unsigned = word.strip_prefix(['+', '-']).unwrap_or(word);
     let digits = unsigned.strip_prefix('.').unwrap_or(unsigned);
     digits.starts_with(|c: char| c.is_ascii_digit()) || matches!(unsigned, "inf" | "NaN")
 }
 
-/// The value of a number: decimal with an optional point and exponent, `0x…`, `0o…`, `0b…`, `inf` or `NaN`; digits may be grouped
-/// by underscores. `None` if the word is no number.
+/// The value of a number: decimal with an optional point and exponent, `0x…`, `0o…`, `0b…`, `inf`
+/// or `NaN`; digits may be grouped by underscores. `None` if the word is no number.
 pub(in crate::scene) fn parse_number(word: &str) -> Option<f64> {
     let digits = without_underscores(word)?;
     // `f64::from_str` takes "infinity" and "nan" in any case; RON does not.
@@ -76,14 +81,16 @@ pub(in crate::scene) fn parse_number(word: &str) -> Option<f64> {
     decimal.or_else(|| parse_integer(word).map(|integer| integer as f64))
 }
 
-/// The value of a whole number without point and exponent; `None` if the word is none, or out of range.
+/// The value of a whole number without point and exponent; `None` if the word is none, or out of
+/// range.
 pub(in crate::scene) fn parse_integer(word: &str) -> Option<i128> {
     let (negative, unsigned) = match word.strip_prefix('-') {
         Some(rest) => (true, rest),
         None => (false, word.strip_prefix('+').unwrap_or(word)),
     };
     let radices = [("0x", 16), ("0o", 8), ("0b", 2)];
-    let prefixed = radices.iter().find_map(|(prefix, radix)| Some((unsigned.strip_prefix(prefix)?, *radix)));
+    let prefixed =
+        radices.iter().find_map(|(prefix, radix)| Some((unsigned.strip_prefix(prefix)?, *radix)));
     let (digits, radix) = prefixed.unwrap_or((unsigned, 10));
     let digits = without_underscores(digits)?;
     let is_plain = digits.starts_with(|c: char| c.is_digit(radix));

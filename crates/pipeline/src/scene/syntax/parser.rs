@@ -1,8 +1,10 @@
-//! Error-tolerant recursive-descent parser of RON: reports every error of grammar and still makes a tree.
+//! Error-tolerant recursive-descent parser of RON: reports every error of grammar and still makes a
+//! tree.
 //!
-//! Resynchronization: a missing comma or colon is reported and supplied; a token that cannot begin a value is reported and skipped
-//! up to the next comma or bracket; a closing bracket of the wrong kind closes the innermost group if the brackets that follow are
-//! then balanced, and otherwise the group that it fits.
+//! Resynchronization: a missing comma or colon is reported and supplied; a token that cannot begin
+//! a value is reported and skipped up to the next comma or bracket; a closing bracket of the wrong
+//! kind closes the innermost group if the brackets that follow are then balanced, and otherwise the
+//! group that it fits.
 
 use super::literal::looks_like_number;
 use super::tokens::{Token, TokenKind, tokenize};
@@ -13,14 +15,16 @@ use core::ops::Range;
 /// Groups are nested this deep at most, so that no text overflows the stack.
 const MAX_DEPTH: usize = 128;
 
-pub(in crate::scene) const SAMPLE_SCENE: &str = "a scene looks like this: Scene(models: [(path: \"model.glb\")])";
+pub(in crate::scene) const SAMPLE_SCENE: &str =
+    "a scene looks like this: Scene(models: [(path: \"model.glb\")])";
 
 /// The tree of a text, and the errors of grammar that it has.
 pub(in crate::scene) struct SyntaxTree<'a> {
     /// The value of the file; `None` if there is none.
     pub(in crate::scene) root: Option<Node<'a>>,
     pub(in crate::scene) errors: Vec<Mistake>,
-    /// Whether the brackets or strings are so wrong that the tree may have values in the wrong group.
+    /// Whether the brackets or strings are so wrong that the tree may have values in the wrong
+    /// group.
     pub(in crate::scene) is_unreliable: bool,
 }
 
@@ -84,8 +88,12 @@ impl<'a> Parser<'a> {
     fn report_unterminated(&mut self, tokens: &[Token<'a>]) {
         let Some(last) = tokens.last() else { return };
         let (message, help) = match last.kind {
-            TokenKind::Word if last.text.starts_with(['"', 'r']) && !is_terminated_string(last.text) => {
-                if !last.text.starts_with('"') && !last.text.trim_start_matches('r').trim_start_matches('#').starts_with('"') {
+            TokenKind::Word
+                if last.text.starts_with(['"', 'r']) && !is_terminated_string(last.text) =>
+            {
+                if !last.text.starts_with('"')
+                    && !last.text.trim_start_matches('r').trim_start_matches('#').starts_with('"')
+                {
                     return;
                 }
                 ("the string that begins here has no end", "close it with a quotation mark")
@@ -95,8 +103,10 @@ impl<'a> Parser<'a> {
             }
             _ => return,
         };
-        // Where a quotation mark is missing, the strings behind it are inside out: the first that spans lines is the likely one.
-        let spans_lines = |token: &&Token<'_>| token.kind == TokenKind::Word && token.text.contains('\n');
+        // Where a quotation mark is missing, the strings behind it are inside out: the first that
+        // spans lines is the likely one.
+        let spans_lines =
+            |token: &&Token<'_>| token.kind == TokenKind::Word && token.text.contains('\n');
         let first = tokens.iter().find(spans_lines).filter(|_| last.kind == TokenKind::Word);
         let start = first.unwrap_or(last).start;
         self.is_unreliable = true;
@@ -171,7 +181,11 @@ impl<'a> Parser<'a> {
         self.open.push(open);
         let mut items = Vec::new();
         if self.open.len() > MAX_DEPTH {
-            self.report(open.span(), "the brackets are nested too deeply", "no field of a scene needs that many");
+            self.report(
+                open.span(),
+                "the brackets are nested too deeply",
+                "no field of a scene needs that many",
+            );
             self.is_unreliable = true;
             self.at = self.tokens.len();
         }
@@ -198,7 +212,8 @@ impl<'a> Parser<'a> {
         Node { span: start..end, kind: NodeKind::Group(Group { name, open, items }) }
     }
 
-    /// Moves past the bracket `close`, if it is the innermost group's or stands for that. Returns where the group ends.
+    /// Moves past the bracket `close`, if it is the innermost group's or stands for that. Returns
+    /// where the group ends.
     fn close_group(&mut self, close: Token<'a>) -> usize {
         let open = self.open.last().copied().unwrap_or(close);
         if close.text == closing(open.text) {
@@ -206,7 +221,8 @@ impl<'a> Parser<'a> {
             return close.span().end;
         }
         let line = line_of(self.source, open.start);
-        let help = format!("the `{}` of line {line} is closed by `{}`", open.text, closing(open.text));
+        let help =
+            format!("the `{}` of line {line} is closed by `{}`", open.text, closing(open.text));
         self.report(close.span(), "expected a comma or a closing bracket here", help);
         // Brackets that the rest of the text closes without opening them.
         let mut depth = 0_usize;
@@ -237,10 +253,15 @@ impl<'a> Parser<'a> {
         let help = self.open.last().map(|open| {
             format!("close the `{}` of line {}", open.text, line_of(self.source, open.start))
         });
-        self.report(end - last..end, "the file ends too early", help.unwrap_or(SAMPLE_SCENE.to_owned()));
+        self.report(
+            end - last..end,
+            "the file ends too early",
+            help.unwrap_or(SAMPLE_SCENE.to_owned()),
+        );
     }
 
-    /// Whether a field begins here although the innermost group is a list: then the list's bracket is missing.
+    /// Whether a field begins here although the innermost group is a list: then the list's bracket
+    /// is missing.
     fn is_field_in_list(&self, token: Token<'_>) -> bool {
         let in_list = self.open.last().is_some_and(|open| open.text == "[")
             && self.open.iter().any(|open| open.text == "(");
@@ -282,7 +303,9 @@ impl<'a> Parser<'a> {
         if self.eat(TokenKind::Comma) {
             return;
         }
-        let Some(token) = self.peek().filter(|token| token.kind != TokenKind::Close) else { return };
+        let Some(token) = self.peek().filter(|token| token.kind != TokenKind::Close) else {
+            return;
+        };
         if self.is_field_in_list(token) || self.resumed_at == Some(self.at) {
             return;
         }
@@ -293,7 +316,11 @@ impl<'a> Parser<'a> {
             "fields and elements are separated by commas"
         };
         let first = token.text.chars().next().map_or(0, char::len_utf8);
-        self.report(token.start..token.start + first, "expected a comma or a closing bracket here", help);
+        self.report(
+            token.start..token.start + first,
+            "expected a comma or a closing bracket here",
+            help,
+        );
         if !is_missing {
             self.at += 1;
         }
@@ -301,7 +328,9 @@ impl<'a> Parser<'a> {
 }
 
 fn is_string(word: &str) -> bool {
-    word.starts_with('"') || (word.starts_with('r') && word.trim_start_matches('r').trim_start_matches('#').starts_with('"'))
+    word.starts_with('"')
+        || (word.starts_with('r')
+            && word.trim_start_matches('r').trim_start_matches('#').starts_with('"'))
 }
 
 /// Whether a string literal has its closing quotation mark.

@@ -1,7 +1,7 @@
 //! Lexer for RON text: words, strings, punctuation and comments, each with its place in the text.
 //!
-//! The lexer accepts any text. A string or comment without an end runs to the end of the text, and the parser reports it; the
-//! formatter only sees text that has been parsed without errors.
+//! The lexer accepts any text. A string or comment without an end runs to the end of the text, and
+//! the parser reports it; the formatter only sees text that has been parsed without errors.
 
 use core::ops::Range;
 
@@ -71,13 +71,15 @@ fn token_kind_and_length(rest: &str, first: char) -> (TokenKind, usize) {
         '"' => (TokenKind::Word, 1 + string_length(&rest[1..])),
         '/' if rest.starts_with("//") => (TokenKind::LineComment, line()),
         '/' if rest.starts_with("/*") => (TokenKind::BlockComment, block_comment_length(rest)),
-        // An equals sign or a semicolon is never right; as a word of its own the parser can point at it.
+        // An equals sign or a semicolon is never right; as a word of its own the parser can point
+        // at it.
         '=' | ';' => (TokenKind::Word, 1),
         _ => (TokenKind::Word, raw_string_length(rest).unwrap_or_else(|| word_length(rest, first))),
     }
 }
 
-/// The length of an identifier, a number, or text that is neither. A single slash belongs to the word, as in an unquoted path.
+/// The length of an identifier, a number, or text that is neither. A single slash belongs to the
+/// word, as in an unquoted path.
 fn word_length(rest: &str, first: char) -> usize {
     let ends = |(at, c): (usize, char)| {
         c.is_whitespace()

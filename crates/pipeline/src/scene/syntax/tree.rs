@@ -65,7 +65,8 @@ impl<'a> Node<'a> {
         }
     }
 
-    /// The child that `step` leads to. Brackets around a single value, as in `Lines((width: Px(2)))`, are no level of their own.
+    /// The child that `step` leads to. Brackets around a single value, as in `Lines((width:
+    /// Px(2)))`, are no level of their own.
     fn child(&self, step: PathStep<'_>) -> Option<&Self> {
         let items = &self.group()?.items;
         let found = match step {
@@ -107,5 +108,8 @@ pub(in crate::scene) fn span_of(source: &str, path: &[PathStep<'_>]) -> Range<us
 /// Whether the text has a value at the end of `path`.
 pub(in crate::scene) fn has_value(source: &str, path: &[PathStep<'_>]) -> bool {
     let tree = parse_tree(source);
-    path.iter().try_fold(tree.root.as_ref(), |node, step| node?.child(*step).map(Some)).flatten().is_some()
+    path.iter()
+        .try_fold(tree.root.as_ref(), |node, step| node?.child(*step).map(Some))
+        .flatten()
+        .is_some()
 }

@@ -1,12 +1,19 @@
-//! Words of three.js, Blender, glTF, f3d and others, each with the field or variant that it means here.
+//! Words of three.js, Blender, glTF, f3d and others, each with the field or variant that it means
+//! here.
 
-/// Words without capitals and separators, parted by blanks; the struct, variant or enum that has what they mean; and its name there.
+/// Words without capitals and separators, parted by blanks; the struct, variant or enum that has
+/// what they mean; and its name there.
 ///
-/// Of several rows for a word the one goes first that has the struct in which the word stands, then those in the same field of the
-/// scene, then the first.
+/// Of several rows for a word the one goes first that has the struct in which the word stands, then
+/// those in the same field of the scene, then the first.
 pub(super) const FOREIGN_WORDS: &[(&str, &str, &str)] = &[
-    // Cameras: three.js PerspectiveCamera and OrthographicCamera, glTF camera.perspective, Blender and f3d's --camera-… options.
-    ("fov fovy yfov vfov xfov fieldofview viewangle camerafov cameraviewangle focallength lens angley", "Projection::Perspective", "fov_y_degrees"),
+    // Cameras: three.js PerspectiveCamera and OrthographicCamera, glTF camera.perspective, Blender
+    // and f3d's --camera-… options.
+    (
+        "fov fovy yfov vfov xfov fieldofview viewangle camerafov cameraviewangle focallength lens angley",
+        "Projection::Perspective",
+        "fov_y_degrees",
+    ),
     ("fov fovy yfov fieldofview viewangle", "CameraKey", "fov_y_degrees"),
     ("znear clipstart nearclip nearplane nearclippingplane", "Projection::Perspective", "near"),
     ("zfar clipend farclip farplane farclippingplane", "Projection::Perspective", "far"),
@@ -14,7 +21,11 @@ pub(super) const FOREIGN_WORDS: &[(&str, &str, &str)] = &[
     ("zfar clipend farclip farplane", "Projection::Orthographic", "far"),
     ("znear clipstart nearclip nearplane", "Projection::Frustum", "near"),
     ("zfar clipend farclip farplane", "Projection::Frustum", "far"),
-    ("ymag xmag orthoscale orthographicscale parallelscale zoom", "Projection::Orthographic", "height"),
+    (
+        "ymag xmag orthoscale orthographicscale parallelscale zoom",
+        "Projection::Orthographic",
+        "height",
+    ),
     ("perspectivecamera persp", "Projection", "Perspective"),
     ("orthographiccamera ortho parallel orthogonal", "Projection", "Orthographic"),
     ("lookat", "View", "LookAt"),
@@ -30,23 +41,43 @@ pub(super) const FOREIGN_WORDS: &[(&str, &str, &str)] = &[
     ("position location", "CameraKey", "eye"),
     ("lookat center focalpoint", "CameraKey", "target"),
     // Lights: three.js lights, Blender's light types, KHR_lights_punctual.
-    ("directionallight sun sunlight directional distantlight infinitelight", "Light", "Directional"),
+    (
+        "directionallight sun sunlight directional distantlight infinitelight",
+        "Light",
+        "Directional",
+    ),
     ("pointlight omnilight omni point", "Light", "Point"),
     ("spotlight arealight area rectarealight spot", "Light", "Spot"),
     ("ambientlight constantlight", "Light", "Ambient"),
     ("hemispherelight hemilight skylight domelight physicalsky nishita sky", "Environment", "Sky"),
     ("energy strength power brightness illuminance lux watts", "Light::Directional", "intensity"),
-    ("energy strength power brightness candela lumens watts luminousintensity", "Light::Point", "intensity"),
-    ("energy strength power brightness candela lumens watts luminousintensity", "Light::Spot", "intensity"),
+    (
+        "energy strength power brightness candela lumens watts luminousintensity",
+        "Light::Point",
+        "intensity",
+    ),
+    (
+        "energy strength power brightness candela lumens watts luminousintensity",
+        "Light::Spot",
+        "intensity",
+    ),
     ("energy strength power brightness lux", "Light::Ambient", "intensity"),
     ("castshadow castshadows useshadow useshadows shadow", "Light::Directional", "shadows"),
     ("castshadow castshadows useshadow useshadows shadow", "Light::Spot", "shadows"),
-    ("castshadow castshadows receiveshadow useshadows shadow shadowmap shadowmapping", "Scene", "shadows"),
+    (
+        "castshadow castshadows receiveshadow useshadows shadow shadowmap shadowmapping",
+        "Scene",
+        "shadows",
+    ),
     ("rotation target lookat gaze towards", "Light::Directional", "direction"),
     ("target lookat gaze rotation towards", "Light::Spot", "direction"),
     ("translation location", "Light::Point", "position"),
     ("translation location", "Light::Spot", "position"),
-    ("angle spotsize outerconeangle outerangle cutoff coneangle", "Light::Spot", "outer_cone_degrees"),
+    (
+        "angle spotsize outerconeangle outerangle cutoff coneangle",
+        "Light::Spot",
+        "outer_cone_degrees",
+    ),
     ("penumbra spotblend innerconeangle innerangle", "Light::Spot", "inner_cone_degrees"),
     ("distance cutoffdistance radius decay", "Light::Point", "range"),
     ("distance cutoffdistance decay", "Light::Spot", "range"),
@@ -57,7 +88,11 @@ pub(super) const FOREIGN_WORDS: &[(&str, &str, &str)] = &[
     ("mapsize shadowmapsize resolution", "Shadows::On", "size"),
     ("radius softness lightsize angle blur", "Shadows::On", "softness_degrees"),
     // Environments: three.js scene.environment, Blender's world, f3d's --hdri-… options.
-    ("hdri hdrifile envmap environmentmap environmenttexture equirectangular ibl skybox hdr world", "Environment", "File"),
+    (
+        "hdri hdrifile envmap environmentmap environmenttexture equirectangular ibl skybox hdr world",
+        "Environment",
+        "File",
+    ),
     ("hdriambient imagebasedlighting", "Scene", "environment"),
     ("world", "Scene", "environment"),
     ("intensity energy environmentintensity exposure", "Environment::File", "strength"),
@@ -70,7 +105,11 @@ pub(super) const FOREIGN_WORDS: &[(&str, &str, &str)] = &[
     ("url src file uri filename", "Environment::File", "path"),
     // Models: glTF nodes, three.js objects, Blender's transforms.
     ("position location translate offset", "Model", "translation"),
-    ("rotation rotate rotationeuler eulerangles orientation quaternion", "Model", "rotation_degrees"),
+    (
+        "rotation rotate rotationeuler eulerangles orientation quaternion",
+        "Model",
+        "rotation_degrees",
+    ),
     ("position location translate offset", "Instance", "translation"),
     ("rotation rotate rotationeuler eulerangles", "Instance", "rotation_degrees"),
     ("file uri url src mesh filename source gltf glb", "Model", "path"),
@@ -80,8 +119,13 @@ pub(super) const FOREIGN_WORDS: &[(&str, &str, &str)] = &[
     ("materialvariant", "Model", "variant"),
     ("copies array instancing instancedmesh duplicates count", "Model", "instances"),
     ("material materialoverrides", "Model", "materials"),
-    // Materials: glTF pbrMetallicRoughness, three.js MeshStandardMaterial, Blender's Principled BSDF.
-    ("basecolorfactor color colour albedo diffuse diffusecolor basecolour", "Material", "base_color"),
+    // Materials: glTF pbrMetallicRoughness, three.js MeshStandardMaterial, Blender's Principled
+    // BSDF.
+    (
+        "basecolorfactor color colour albedo diffuse diffusecolor basecolour",
+        "Material",
+        "base_color",
+    ),
     ("metalness metallicfactor metal", "Material", "metallic"),
     ("roughnessfactor glossiness shininess rough", "Material", "roughness"),
     ("emissivefactor emission emissioncolor emissivecolor", "Material", "emissive"),

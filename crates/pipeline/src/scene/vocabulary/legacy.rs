@@ -3,7 +3,8 @@
 /// A word that was replaced.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::scene) struct LegacyWord {
-    /// The struct, variant (`Light::Directional`) or enum that the word stands in, by its name of today.
+    /// The struct, variant (`Light::Directional`) or enum that the word stands in, by its name of
+    /// today.
     pub(in crate::scene) owner: &'static str,
     pub(in crate::scene) old: &'static str,
     pub(in crate::scene) new: &'static str,
