@@ -10,6 +10,8 @@ use pipeline::Scene;
 use std::path::Path;
 
 /// Writes the panels of a scene, then prints the warnings of its models and panels.
+///
+/// The progress line is removed before the first warning.
 pub(super) fn finish_panels(
     output: &Path,
     panels: &Panels,

@@ -41,6 +41,9 @@ pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, CliError> {
 }
 
 /// Renders one picture; returns whether it agrees with its reference, if it has one.
+///
+/// The overrides, the region and the passes are applied to the scene file in this order; then the
+/// scene is resolved and everything is rendered from it.
 fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
     let progress = Progress::start("loading");
     let timings = if args.timings || args.json { Timings::enabled() } else { Timings::default() };
@@ -79,6 +82,8 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
 }
 
 /// Compares the scene's line drawing with its z-buffer image, with hidden lines removed.
+///
+/// The drawing is made again, because dashed or drawn hidden lines would count as visible.
 fn verify_drawing(scene: &Scene, threads: usize) -> Result<Agreement, CliError> {
     let options = DrawOptions {
         hidden_edges: HiddenEdges::Removed,

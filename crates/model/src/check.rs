@@ -6,7 +6,8 @@
 //!
 //! ```text
 //!  bytes ─glb─► JSON ─schema_walk, by the tables of schema─► references
-//!        ─nodes, meshes, skins, animations─► rules for elements ─data─► diagnostics ◄─load_outcome─ loader
+//!        ─nodes, meshes, skins, animations─► rules for elements ─data─► diagnostics
+//!  loader ─load_outcome─► diagnostics
 //! ```
 //!
 //! It works on the raw JSON, in which members may be missing or of any type. The rules are those of

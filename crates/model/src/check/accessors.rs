@@ -8,6 +8,8 @@ use super::usage::{UsageMap, ViewUse};
 use serde_json::Value;
 
 /// Validates the layout of all accessors.
+///
+/// Only the declarations are compared here; the elements are read by [`data`](super::data).
 pub(super) fn check_accessors(
     document: &CheckedDocument<'_>,
     store: &BufferStore<'_>,
@@ -144,6 +146,8 @@ impl AccessorChecker<'_> {
 
     /// The indices or values of a sparse accessor: `count` elements of `length` bytes with
     /// components of `size` bytes.
+    ///
+    /// Both are tightly packed: their buffer view must not have a `byteStride`.
     fn check_sparse_part(
         &self,
         part: &Value,
@@ -193,6 +197,8 @@ impl AccessorChecker<'_> {
     }
 
     /// The sparse indices are strictly increasing and less than the accessor's count.
+    ///
+    /// They are the only data that is read here, because the elements cannot be read without them.
     fn check_sparse_indices(&self, sparse: &Value, layout: AccessorLayout, pointer: &str) {
         let Some(indices) = self.store.sparse_indices(sparse) else { return };
         let diagnostics = self.document.diagnostics;

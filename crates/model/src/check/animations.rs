@@ -13,6 +13,8 @@ use std::collections::BTreeSet;
 use std::fmt::Display;
 
 /// Validates all animations, and records rules for the elements of their accessors.
+///
+/// Samplers come first, because channels refer to them; samplers that no channel uses get a note.
 pub(super) fn check_animations(
     document: &CheckedDocument<'_>,
     usage: &UsageMap<'_>,
@@ -168,7 +170,8 @@ impl<'a> AnimationChecker<'a, '_> {
         self.check_output(sampler, path, targets as u64, &format!("{member}/sampler"));
     }
 
-    /// A target by JSON pointer (KHR_animation_pointer).
+    /// A target by JSON pointer (KHR_animation_pointer): the path is `pointer`, and there is no
+    /// node.
     fn check_pointer_target(&self, target: &Value, path: &str, member: &str) {
         if path != "pointer" {
             let message = format_args!(

@@ -10,6 +10,9 @@ use serde_json::Value;
 use std::collections::BTreeSet;
 
 /// Validates the declared version of glTF and the minimum version.
+///
+/// Another major version stops the validation, because its schema is unknown; a later minor version
+/// is only a warning, because minor versions are compatible (glTF 2.0 §3.2).
 pub(super) fn check_asset(document: &CheckedDocument<'_>) {
     let diagnostics = document.diagnostics;
     let Some(asset) = document.root.get("asset") else { return };
@@ -37,7 +40,10 @@ pub(super) fn check_asset(document: &CheckedDocument<'_>) {
     }
 }
 
-/// Validates the extension lists: required ones must be used, unsupported ones get a note.
+/// Validates the extension lists.
+///
+/// A required extension must also be used (glTF 2.0 §3.12). An extension without schema tables gets
+/// a note, because its content is not validated.
 pub(super) fn check_extensions(document: &CheckedDocument<'_>) {
     let diagnostics = document.diagnostics;
     for (at, name) in array_items(document.root, "extensionsRequired").iter().enumerate() {
@@ -62,7 +68,9 @@ fn is_known(extension: &str) -> bool {
     EXTENSION_OBJECTS.iter().any(|place| place.name == extension)
 }
 
-/// Validates KHR_materials_variants: variants are declared, and map each primitive at most once.
+/// Validates KHR_materials_variants.
+///
+/// The root must declare the variants, and each of them maps a primitive to at most one material.
 pub(super) fn check_variants(document: &CheckedDocument<'_>) {
     const NAME: &str = "KHR_materials_variants";
     let diagnostics = document.diagnostics;
@@ -146,8 +154,10 @@ pub(super) fn check_cameras(document: &CheckedDocument<'_>) {
     }
 }
 
-/// Reports objects that nothing refers to. Skipped with unsupported extensions, which may refer to
-/// anything.
+/// Reports objects that nothing refers to.
+///
+/// Skipped with unsupported extensions, which may refer to anything. Nodes and scenes are never
+/// reported: a viewer may select them.
 pub(super) fn check_unused(document: &CheckedDocument<'_>) {
     let names = array_items(document.root, "extensionsUsed").iter().filter_map(Value::as_str);
     if names.into_iter().any(|name| !is_known(name)) {

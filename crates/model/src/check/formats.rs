@@ -22,6 +22,8 @@ pub(super) enum Semantic<'a> {
 
 impl<'a> Semantic<'a> {
     /// Parses the name of an attribute; `None` for a name that glTF does not define.
+    ///
+    /// A set index has no leading zeros: `TEXCOORD_01` is not an attribute.
     pub(super) fn from_name(name: &'a str) -> Option<Self> {
         if name.starts_with('_') {
             return Some(Self::Custom);
@@ -46,6 +48,9 @@ impl<'a> Semantic<'a> {
     }
 
     /// The formats that an attribute may have; `None` for a custom name, which may have any.
+    ///
+    /// `in_target` is for displacements of morph targets: tangents have three components there, and
+    /// signed integers are allowed for texture coordinates and colors.
     pub(super) fn allowed_formats(
         self,
         in_target: bool,

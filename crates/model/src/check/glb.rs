@@ -21,6 +21,8 @@ pub(super) struct ContainerParts {
 }
 
 /// Validates the container, and finds its parts.
+///
+/// A file that does not start with `glTF` is taken for JSON.
 pub(super) fn check_container(bytes: &[u8], diagnostics: &Diagnostics) -> ContainerParts {
     if !bytes.starts_with(b"glTF") {
         let mark = if bytes.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
@@ -96,7 +98,7 @@ impl ContainerReader<'_> {
         self.check_chunks();
     }
 
-    /// All chunks, remembering the first JSON and BIN chunk in their places.
+    /// All chunks; the JSON chunk counts only as the first, and the BIN chunk only as the second.
     fn check_chunks(&mut self) {
         let (mut at, mut number, mut known) = (12, 0, [false; 2]);
         while at < self.bytes.len() {
@@ -129,6 +131,8 @@ impl ContainerReader<'_> {
     }
 
     /// The rules for one chunk: alignment, type, order and duplicates.
+    ///
+    /// Unknown types are allowed and ignored (glTF 2.0 §4.4.3).
     fn check_chunk(
         &self,
         number: usize,

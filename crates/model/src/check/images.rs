@@ -10,7 +10,10 @@ use crate::import::uri_resolver::UriResolver;
 use serde_json::Value;
 use std::borrow::Cow;
 
-/// Validates all images, and the textures that use them.
+/// Validates all images, then the textures that use them.
+///
+/// The media types of the images, by their bytes or as declared, decide which textures may refer to
+/// them.
 pub(super) fn check_images(
     document: &CheckedDocument<'_>,
     store: &BufferStore<'_>,
@@ -43,7 +46,9 @@ const IMAGE_FORMATS: [(&str, Option<&str>); 4] = [
     ("image/ktx2", Some("KHR_texture_basisu")),
 ];
 
-/// The media type of an image, from its first bytes.
+/// The media type of an image, from its first bytes (glTF 2.0 §3.8.3).
+///
+/// The bytes decide, not the declared type, as in every viewer.
 fn sniff_media_type(bytes: &[u8]) -> Option<&'static str> {
     match bytes {
         [0x89, b'P', b'N', b'G', ..] => Some("image/png"),
@@ -68,6 +73,9 @@ struct ImageChecker<'a> {
 
 impl ImageChecker<'_> {
     /// Validates an image; returns its media type, from its bytes or as declared.
+    ///
+    /// The declared `mimeType` and that of a data URI must agree with the bytes, and formats other
+    /// than PNG and JPEG need their extension.
     fn check_image(&self, image: &Value) -> Option<String> {
         let diagnostics = self.document.diagnostics;
         let declared = string_member(image, "mimeType");
@@ -159,6 +167,8 @@ impl ImageChecker<'_> {
 }
 
 /// A texture refers to PNG or JPEG directly, and to other formats through their extensions.
+///
+/// An extension such as EXT_texture_webp has a `source` of its own, which must be of its format.
 fn check_texture(
     document: &CheckedDocument<'_>,
     at: usize,

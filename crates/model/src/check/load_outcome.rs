@@ -6,6 +6,9 @@ use crate::Model;
 use crate::diagnostic::{Diagnostic, Severity, codes as load};
 
 /// Adds the warnings or the error of the loader; returns the error.
+///
+/// A warning at a location that already has a diagnostic of the validation is dropped: both are
+/// about the same defect, and that of the validation has the specific code.
 pub(super) fn add_load_outcome(
     loaded: Result<Model, Diagnostic>,
     diagnostics: &Diagnostics,

@@ -8,6 +8,9 @@ use super::document::{
 use serde_json::Value;
 
 /// Validates all materials, and the lights of KHR_lights_punctual.
+///
+/// The schema covers single values; here are the rules about two members, and the gap in the range
+/// of `ior`.
 pub(super) fn check_materials(document: &CheckedDocument<'_>) {
     for (at, material) in document.root_array("materials").iter().enumerate() {
         let mode = material.get("alphaMode").and_then(Value::as_str).unwrap_or("OPAQUE");
@@ -92,7 +95,10 @@ pub(super) fn material_requirements(document: &CheckedDocument<'_>) -> Vec<Mater
 }
 
 impl MaterialRequirements {
-    /// Validates a primitive with `sets` sets of texture coordinates; `pointer` is its `material`.
+    /// Validates the attributes of a primitive against the material.
+    ///
+    /// `sets` is the number of its sets of texture coordinates, and `pointer` its `material`
+    /// member.
     pub(super) fn check_primitive(
         self,
         diagnostics: &Diagnostics,
@@ -119,7 +125,10 @@ impl MaterialRequirements {
     }
 }
 
-/// Finds the largest `texCoord` of all texture infos below a JSON value, extensions included.
+/// Finds the largest `texCoord` of all texture infos below a JSON value.
+///
+/// A texture info is any object with an `index`, so that those of extensions are found without a
+/// list; KHR_texture_transform may override its `texCoord`.
 fn find_max_uv_set(value: &Value, most: &mut Option<u64>) {
     let Some(members) = value.as_object() else { return };
     if index_member(value, "index").is_some() {

@@ -15,6 +15,8 @@ use std::collections::BTreeMap;
 use std::fmt::Display;
 
 /// Validates all meshes, and records rules for the elements of their accessors.
+///
+/// All primitives of a mesh have the same number of morph targets, and `weights` has one for each.
 pub(super) fn check_meshes(
     document: &CheckedDocument<'_>,
     usage: &UsageMap<'_>,
@@ -126,6 +128,9 @@ impl<'a> PrimitiveChecker<'a, '_> {
 
     /// Validates the names of attributes and their numbering; returns the number of `TEXCOORD`
     /// sets.
+    ///
+    /// Sets are numbered from 0 without gaps, and there are as many of joints as of weights (glTF
+    /// 2.0 §3.7.2.1).
     fn check_names(&self, named: &Map<String, Value>) -> u64 {
         for name in named.keys().filter(|name| Semantic::from_name(name).is_none()) {
             let message = format_args!("unknown attribute {name:?}");
@@ -172,6 +177,8 @@ impl<'a> PrimitiveChecker<'a, '_> {
     }
 
     /// Validates the formats and counts of all attributes; returns the number of vertices.
+    ///
+    /// That is the count of `POSITION`, or of the first attribute without it.
     fn check_attributes(&mut self, attributes: &ResolvedAttributes<'_>) -> Option<u64> {
         let mut vertices = None;
         // POSITION comes first, because its count is the number of vertices.
@@ -264,6 +271,8 @@ impl<'a> PrimitiveChecker<'a, '_> {
     }
 
     /// Validates the format of the indices; returns their number.
+    ///
+    /// Their range, restart values and degenerate triangles are rules for the pass over the data.
     fn check_indices(&mut self, vertices: Option<u64>) -> Option<u64> {
         let at = index_member(self.primitive, "indices")?;
         let accessor = self.document.root_array("accessors").get(at)?;

@@ -31,7 +31,9 @@ impl NodeTree {
     }
 }
 
-/// Validates all nodes and scenes.
+/// Validates all nodes and scenes; returns the hierarchy.
+///
+/// The root nodes of a scene must have no parent.
 pub(super) fn check_nodes(document: &CheckedDocument<'_>) -> NodeTree {
     let meshes = document.root_array("meshes");
     let shapes: Vec<MeshSummary> = meshes.iter().map(MeshSummary::from_mesh).collect();
@@ -168,6 +170,8 @@ fn check_mesh_use(document: &CheckedDocument<'_>, at: usize, node: &Value, shape
 }
 
 /// Builds the hierarchy, and reports nodes with several parents or in a cycle.
+///
+/// Of several parents the first counts, so that the rest of the validation has a forest.
 fn build_tree(document: &CheckedDocument<'_>) -> NodeTree {
     let nodes = document.root_array("nodes");
     let mut parents: Vec<Option<usize>> = vec![None; nodes.len()];

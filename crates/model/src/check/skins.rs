@@ -13,6 +13,9 @@ use super::usage::{AccessorUse, UsageMap};
 use serde_json::{Map, Value};
 
 /// Validates all skins, and records rules for the elements of their accessors.
+///
+/// The weights of vertices are validated later, by [`check_skinned_meshes`], because they need a
+/// mesh and a skin together.
 pub(super) fn check_skins(
     document: &CheckedDocument<'_>,
     tree: &NodeTree,
@@ -90,6 +93,8 @@ fn check_inverse_bind_matrices(
 }
 
 /// Validates the joints and weights of all skinned meshes.
+///
+/// It runs after the accessors have been validated, so that only data in a valid format is decoded.
 pub(super) fn check_skinned_meshes(document: &CheckedDocument<'_>, store: &BufferStore<'_>) {
     // A mesh may be used with several skins: its joint indices must fit the smallest.
     let mut fewest_joints: Vec<Option<usize>> = vec![None; document.root_array("meshes").len()];

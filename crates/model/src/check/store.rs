@@ -115,7 +115,10 @@ impl<'a> BufferStore<'a> {
         }
     }
 
-    /// Charges bytes to the budget; the first time it is exceeded, that is reported.
+    /// Charges bytes to the budget; returns whether they may be read.
+    ///
+    /// The first time the budget is exceeded, that is reported; after that nothing is read, so that
+    /// a hostile file cannot keep the validation busy.
     pub(super) fn charge_budget(&self, pointer: &str, bytes: u64) -> bool {
         if self.exhausted.get() {
             return false;
@@ -143,7 +146,9 @@ impl<'a> BufferStore<'a> {
         }
     }
 
-    /// The bytes of a buffer view, decompressed if necessary, if all of them are present.
+    /// The bytes of a buffer view, if all of them are present.
+    ///
+    /// A view of EXT_meshopt_compression is decompressed on first use and kept.
     pub(super) fn view_bytes(&self, view: usize) -> Option<&[u8]> {
         let json = self.document.root_array("bufferViews").get(view)?;
         let packed = ["KHR_meshopt_compression", "EXT_meshopt_compression"];
@@ -180,6 +185,9 @@ impl<'a> BufferStore<'a> {
     }
 
     /// The elements of an accessor, if all of their bytes are present.
+    ///
+    /// A missing part has been reported elsewhere; the data is then not looked at, so that no
+    /// diagnostic is a consequence of another.
     pub(super) fn accessor_elements(
         &self,
         accessor: &Value,

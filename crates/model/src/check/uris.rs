@@ -6,6 +6,8 @@ use crate::diagnostic::{Diagnostic, codes as load};
 use crate::import::uri_resolver::UriResolver;
 
 /// The media type of a data URI in lower case; `None` for another URI.
+///
+/// It is empty for `data:,`, whose type is text/plain by RFC 2397.
 pub(super) fn media_type(uri: &str) -> Option<String> {
     let (scheme, rest) = uri.split_once(':')?;
     let kind = rest.split([';', ',']).next()?;
@@ -13,6 +15,9 @@ pub(super) fn media_type(uri: &str) -> Option<String> {
 }
 
 /// Checks the syntax of any URI.
+///
+/// Data URIs are discouraged in a GLB, and absolute URIs anywhere, because they break when the file
+/// is moved.
 pub(super) fn check_uri(uri: &str, pointer: &str, is_binary: bool, diagnostics: &Diagnostics) {
     let is_data = media_type(uri).is_some();
     if is_data && is_binary {
@@ -36,6 +41,8 @@ pub(super) fn check_uri(uri: &str, pointer: &str, is_binary: bool, diagnostics: 
 }
 
 /// Checks the syntax of a buffer's URI, and its media type if it is a data URI.
+///
+/// glTF 2.0 §3.6.1.1 allows two media types for buffers.
 pub(super) fn check_buffer_uri(
     uri: &str,
     pointer: &str,
@@ -52,6 +59,8 @@ pub(super) fn check_buffer_uri(
 }
 
 /// The bytes a URI refers to; `None`, with a diagnostic, if they cannot be read.
+///
+/// Only files below the allowed folders are read, and only as much as the limits allow.
 pub(super) fn read_uri(
     resolver: &UriResolver<'_>,
     uri: &str,
