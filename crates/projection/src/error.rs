@@ -1,4 +1,4 @@
-//! What can be wrong with the parameters of a projection.
+//! Errors of projection parameters.
 
 use thiserror::Error;
 
@@ -66,7 +66,7 @@ pub enum ProjectionError {
     /// Three or two vanishing points to which no eye belongs.
     #[error("no eye sees these vanishing points at right angles: {reason}")]
     ImpossibleVanishingPoints {
-        /// What prevents it.
+        /// The reason.
         reason: &'static str,
     },
     /// Three foreshortening ratios that no axonometric projection has.

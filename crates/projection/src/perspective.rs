@@ -91,7 +91,7 @@ impl Perspective {
         self.far
     }
 
-    /// The same projection by its window on the near plane: top = near·tan(θ/2), right =
+    /// This projection as a frustum, by its window on the near plane: top = near·tan(θ/2), right =
     /// aspect·top.
     #[must_use]
     pub fn to_frustum(self) -> Frustum {
