@@ -132,12 +132,12 @@ impl TryFrom<Frustum> for Perspective {
     /// The way back, for windows that are centred on the line of sight and not mirrored (C69, M31).
     ///
     /// # Errors
-    /// [`ProjectionError::OffCentre`] for all others.
+    /// [`ProjectionError::OffCenter`] for all others.
     fn try_from(frustum: Frustum) -> Result<Self, ProjectionError> {
         let slopes = frustum.slopes();
         let centred = slopes.left() == -slopes.right() && slopes.bottom() == -slopes.top();
         if !centred || slopes.right() < 0.0 || slopes.top() < 0.0 {
-            return Err(ProjectionError::OffCentre);
+            return Err(ProjectionError::OffCenter);
         }
         let half = HalfSlopes { x: slopes.right(), y: slopes.top() };
         Ok(Self { half, near: frustum.near(), far: frustum.far() })

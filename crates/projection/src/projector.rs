@@ -51,7 +51,7 @@ impl<S: Space> Projector<S> {
         for value in <[f64; 3]>::from(eye) {
             check_finite("eye", value)?;
         }
-        Self::new_checked(HPoint::from(eye), plane, ProjectionError::CentreOnPlane)
+        Self::new_checked(HPoint::from(eye), plane, ProjectionError::CenterOnPlane)
     }
 
     /// Parallel projection along `direction` onto `plane`.
