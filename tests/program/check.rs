@@ -85,7 +85,7 @@ fn all_mistakes_of_a_scene_are_pointed_at_and_its_models_are_checked() {
     sandbox.write_file(
         "scene.ron",
         "Scene(\n  models: [(path: \"crate.glb\"), (path: \"faulty.gltf\"), (path: \"../other.glb\")],\n  \
-         lights: [Sun(direction: (0, 0, 0), lux: 1)],\n  image: (samples: 3),\n)\n",
+         lights: [Directional(direction: (0, 0, 0), intensity: 1)],\n  image: (samples: 3),\n)\n",
     );
     let run = sandbox.run(&["check", "scene.ron"]);
     assert_eq!((run.code, run.stderr.as_str()), (1, ""), "{}", run.stdout);

@@ -247,7 +247,7 @@ fn drawing_errors_are_reported_and_leave_no_file() {
     };
     for (more, message) in [
         ("style: Lines(width: Iso(0.4))", "ISO 128 has no group of line widths 0.4"),
-        ("style: Lines(color: \"blue\")", "`blue` is no colour"),
+        ("style: Lines(color: \"bleu\")", "`bleu` is not a color"),
         ("sheet: (scale: (1, 0))", "scale of the thing"),
         ("camera: (projection: NPoint())", "p, q and r are all 0"),
         ("camera: (projection: NPoint(r: -3))", "behind the eye"),
@@ -269,7 +269,7 @@ fn a_sheet_is_described_by_the_scene_and_flags_go_before_it() {
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     sandbox.write_file(
         "scene.ron",
-        "Scene(models: [(path: \"box.gltf\")], sheet: (paper: A4, orientation: Landscape, angle: Third,
+        "Scene(models: [(path: \"box.gltf\")], sheet: (paper: A4, orientation: Landscape, projection_angle: Third,
          scale: (1, 2), title: \"A <box> & more\", author: \"Zoë\"))",
     );
     assert_succeeds(&sandbox, &["sheet", "scene.ron", "-o", "out.svg"]);

@@ -24,7 +24,8 @@ fn cut_out(
 }
 
 /// Lights that say nothing of theirs are where the scene's own camera has them, and not the film's.
-const IMAGE: &str = "image: (size: (40, 30)), lights: [Sun(direction: (-1, -2, -1), lux: 3)]";
+const IMAGE: &str =
+    "image: (size: (40, 30)), lights: [Directional(direction: (-1, -2, -1), intensity: 3)]";
 const GRADIENT: &str = "Gradient(colors: [\"#102030\", \"#f0e0d0\"])";
 
 #[test]

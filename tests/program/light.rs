@@ -100,7 +100,7 @@ fn shadows_and_the_ground_are_switched_by_flags() {
     sandbox.write_file(
         "scene.ron",
         "Scene(models: [(path: \"teapot.glb\")], ground: Shadow(),
-        lights: [Sun(direction: (1, -1, 0), lux: 3, shadows: On()), Ambient(lux: 1)])",
+        lights: [Directional(direction: (1, -1, 0), intensity: 3, shadows: On()), Ambient(intensity: 1)])",
     );
     let own = render_pixels(&sandbox, "scene.ron", &[]);
     assert_eq!(render_pixels(&sandbox, "scene.ron", &["--shadows", "on"]), own);
@@ -121,12 +121,12 @@ fn settings_of_shadows_out_of_range_are_pointed_at() {
         ("shadows: On(size: 10)", "2:19", "a shadow map cannot have 10 texels on a side"),
         ("shadows: On(softness_degrees: 40)", "2:31", "an angle from 0 to 30 degrees"),
         (
-            "lights: [Sun(direction: (0, -1, 0), lux: 1, shadows: On(size: 9000))]",
-            "2:63",
+            "lights: [Directional(direction: (0, -1, 0), intensity: 1, shadows: On(size: 9000))]",
+            "2:77",
             "a shadow map cannot have 9000 texels on a side",
         ),
         ("ambient_occlusion: (radius: 0)", "2:29", "a number greater than 0"),
-        ("image: (anisotropy: 9)", "2:21", "textures cannot be read at 9 places"),
+        ("image: (max_anisotropy: 9)", "2:25", "anisotropic filtering cannot take 9 samples"),
         ("ground: Shadow(height: inf)", "2:24", "a finite number"),
     ] {
         sandbox

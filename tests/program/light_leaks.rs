@@ -69,7 +69,7 @@ fn scene_with_sun(model: &Arc<Model>, travel: DVec3, shadows: &str) -> Scene {
         r#"Scene(
             models: [(path: "made")],
             camera: (view: Frame(from: Direction((0.6, 0.5, 1)))),
-            lights: [Sun(direction: ({x}, {y}, {z}), lux: 3, shadows: {shadows})],
+            lights: [Directional(direction: ({x}, {y}, {z}), intensity: 3, shadows: {shadows})],
             image: (size: {SIZE:?}, samples: 1),
         )"#
     );

@@ -76,11 +76,11 @@ fn what_makes_no_sense_is_pointed_at_as_well() {
         ("camera: (view: FromModel(Index(0)))", "3:18", "no camera"),
         ("camera: (view: Frame(padding_percent: 50))", "3:18", "padding"),
         ("camera: (projection: Perspective(near: 5, far: 2))", "3:24", "far"),
-        ("lights: [Sun(direction: (0, 0, 0), lux: 1)]", "3:27", "direction"),
+        ("lights: [Directional(direction: (0, 0, 0), intensity: 1)]", "3:35", "direction"),
         ("image: (samples: 3)", "3:20", "1, 4, 8 and 16"),
         ("image: (size: (0, 10))", "3:17", "0 x 10"),
         ("image: (size: (2000000, 10))", "3:17", "1048576"),
-        ("image: (background: Color(\"mauve\"))", "3:23", "#rrggbb"),
+        ("image: (background: Color(\"mauve\"))", "3:29", "#rrggbb"),
     ] {
         sandbox.write_file("scene.ron", scene(rest));
         let run = sandbox.run(&["render", "scene.ron"]);

@@ -110,6 +110,11 @@ fn check_table(name: &str) {
 }
 
 #[test]
+fn many() {
+    check_table("many");
+}
+
+#[test]
 fn grammar() {
     check_table("grammar");
 }

@@ -118,7 +118,7 @@ fn c76_c77_axes_are_drawn_as_long_and_at_the_angles_of_the_textbooks() {
         ("Cavalier()", [[1.0, 0.0], [0.0, 1.0], [-half_angle, -half_angle]]),
         ("Cabinet()", [[1.0, 0.0], [0.0, 1.0], [-half_angle / 2.0, -half_angle / 2.0]]),
         ("Oblique(length: 0.75, angle_degrees: 0)", [[1.0, 0.0], [0.0, 1.0], [-0.75, 0.0]]),
-        ("Military(turn_degrees: 90)", [[0.0, 1.0], [0.0, 1.0], [1.0, 0.0]]),
+        ("Military(rotation_degrees: 90)", [[0.0, 1.0], [0.0, 1.0], [1.0, 0.0]]),
     ];
     for (projection, expected) in cases {
         let camera = format!("projection: {projection}, view: Frame(padding_percent: 30)");

@@ -41,12 +41,12 @@ fn crops_and_bands_are_the_pixels_of_the_whole() {
 const EVERYTHING: &str = r#"Scene(
     models: [
         (path: "crate.glb"),
-        (path: "panes.glb", translate: (1.5, 0.3, 0), scale: 0.5),
+        (path: "panes.glb", translation: (1.5, 0.3, 0), scale: 0.5),
     ],
     camera: (view: Frame(from: ThreeQuarter)),
     lights: [
-        Sun(direction: (-1, -1.4, -0.4), lux: 2, shadows: On(size: 256, softness_degrees: 4)),
-        Spot(position: (3, 4, 3), direction: (-3, -4, -3), candela: 50, shadows: On(size: 256)),
+        Directional(direction: (-1, -1.4, -0.4), intensity: 2, shadows: On(size: 256, softness_degrees: 4)),
+        Spot(position: (3, 4, 3), direction: (-3, -4, -3), intensity: 50, shadows: On(size: 256)),
     ],
     ground: Shadow(),
     environment: Studio(),

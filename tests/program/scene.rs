@@ -165,7 +165,7 @@ fn a_model_beside_the_picture_is_named() {
     sandbox.copy_model("crate.glb");
     sandbox.write_file(
         "scene.ron",
-        "Scene(\n  models: [(path: \"crate.glb\"), (path: \"crate.glb\", translate: (30, 0, -16))],\n  \
+        "Scene(\n  models: [(path: \"crate.glb\"), (path: \"crate.glb\", translation: (30, 0, -16))],\n  \
          camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0))),\n)",
     );
     let run = sandbox.run(&["scene", "check", "scene.ron"]);
@@ -198,13 +198,13 @@ fn included_files_are_joined_and_mistakes_point_into_the_right_one() {
     sandbox.write_file("lib/paper.ron", format!("Scene({image}, style: Flat)"));
     let main = |rest: &str| {
         format!(
-            "Scene(\n  include: [\"lib/studio.ron\"],\n  models: [(path: \"crate.glb\", translate: (1, 0, 0))],\n  {rest}\n)"
+            "Scene(\n  include: [\"lib/studio.ron\"],\n  models: [(path: \"crate.glb\", translation: (1, 0, 0))],\n  {rest}\n)"
         )
     };
     sandbox.write_file("scene.ron", main("style: Shaded"));
     let run = sandbox.run(&["render", "scene.ron", "-o", "out.png"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
-    let one = "models: [(path: \"lib/other.glb\"), (path: \"crate.glb\", translate: (1, 0, 0))]";
+    let one = "models: [(path: \"lib/other.glb\"), (path: \"crate.glb\", translation: (1, 0, 0))]";
     sandbox.write_file("one.ron", format!("Scene({one}, {view}, {image}, style: Shaded)"));
     assert_eq!(sandbox.run(&["render", "one.ron", "-o", "one.png"]).code, 0);
     assert!(sandbox.read_picture("out.png") == sandbox.read_picture("one.png"));

@@ -54,8 +54,8 @@ fn invalid_sections_are_reported() {
     for (more, message) in [
         ("sections: [Section(normal: (0, 0, 0))]", "wrong.ron:2:28"),
         ("sections: [Section(point: (1, 0, 0))]", "normal"),
-        ("style: Lines(hatch_mm: 0.01)", "a distance from 0.1 to 1000 millimetres"),
-        ("style: Lines(tone: Grey)", "Grey"),
+        ("style: Lines(hatch_spacing_mm: 0.01)", "a distance from 0.1 to 1000 millimeters"),
+        ("style: Lines(face_fill: Grey)", "Grey"),
     ] {
         sandbox.write_file("wrong.ron", format!("Scene(models: [(path: \"box.gltf\")],\n{more})"));
         let run = sandbox.run(&["render", "wrong.ron", "-o", "out.svg"]);
@@ -109,7 +109,7 @@ fn tones_lie_under_the_lines_in_all_formats() {
     let sandbox = Sandbox::new("tones");
     sandbox.copy_model("house.glb");
     let scene = |tone: &str| {
-        let style = format!("style: Lines(tone: {tone}), image: (size: (320, 240))");
+        let style = format!("style: Lines(face_fill: {tone}), image: (size: (320, 240))");
         sandbox.write_file("scene.ron", format!("Scene(models: [(path: \"house.glb\")], {style})"));
     };
     let drawn = |name: &str| {

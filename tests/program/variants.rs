@@ -49,7 +49,7 @@ fn a_variant_is_chosen_by_name_or_number() {
         [TRANSPARENT, RED]
     );
     let models = "(path: \"offer.gltf\", variant: Name(\"blue\")), \
-                  (path: \"offer.gltf\", translate: (0, 4, 0))";
+                  (path: \"offer.gltf\", translation: (0, 4, 0))";
     sandbox.write_file("two.ron", format!("Scene(models: [{models}])"));
     assert_eq!(rendered_colors(&sandbox, &["render", "two.ron"]), [TRANSPARENT, BLUE, RED]);
 }

@@ -11,6 +11,7 @@ mod determinism;
 mod fuzz;
 mod gallery;
 mod golden;
+mod metadata;
 mod models;
 mod program;
 mod soak;

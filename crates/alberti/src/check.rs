@@ -9,7 +9,8 @@ use super::args::CheckArgs;
 use super::load_options::LoadArgs;
 use super::render::is_scene_file;
 use super::{CliError, color, print_stdout};
-use model::import::{CheckReport, ImportOptions, check_file};
+use model::import::ImportOptions;
+use model::{CheckReport, check_file};
 use pipeline::scene::{Lint, ResolveOptions, lint_scene, validate_scene};
 use pipeline::{Origin, ResolveError, Scene, SceneError, SceneFile};
 use std::fmt::Write as _;
@@ -88,7 +89,7 @@ fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, Cli
     };
     let (origin, file) = match Origin::read_scene_allowing(input, &options.allow_outside) {
         Err(ResolveError::Scene(mistake)) => {
-            return Ok(found(vec![mistake], Vec::new(), Vec::new()));
+            return Ok(found(mistake.into(), Vec::new(), Vec::new()));
         }
         read => read?,
     };
@@ -99,7 +100,7 @@ fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, Cli
         // Whatever `render` would reject is an error, even if the review does not look for it.
         match Scene::resolve(&origin, &file, &resolve) {
             Ok(scene) => advice = lint_scene(&origin, &file, &scene),
-            Err(ResolveError::Scene(mistake)) => mistakes.push(mistake),
+            Err(ResolveError::Scene(mistake)) => mistakes.extend(Vec::from(mistake)),
             // Errors of models are in the reports of the models.
             Err(_) => {}
         }

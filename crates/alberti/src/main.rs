@@ -20,7 +20,9 @@ mod light;
 mod load_options;
 mod manual;
 mod matrix;
+mod messages;
 mod model_state;
+mod options;
 mod page_output;
 mod panel_subject;
 mod passes;
@@ -41,7 +43,7 @@ mod terminal_image;
 use args::{Args, Command};
 use clap::{CommandFactory, Parser};
 use error::CliError;
-use std::io::Write;
+use messages::{print_message, print_stdout};
 use std::process::ExitCode;
 
 /// Exit codes: 0 success, 1 failure or errors found by a check, 2 wrong usage (set by clap).
@@ -80,19 +82,4 @@ pub(crate) fn run(args: Args) -> Result<ExitCode, CliError> {
         Command::Reference(args) => reference::run(&args, Args::command())?,
     }
     Ok(ExitCode::SUCCESS)
-}
-
-/// Writes to the standard output. A closed pipe, as in `alberti info … | head`, is not an error.
-pub(crate) fn print_stdout(bytes: &[u8]) -> Result<(), CliError> {
-    let mut stdout = std::io::stdout().lock();
-    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error.into()),
-        _ => Ok(()),
-    }
-}
-
-/// Prints `LEVEL: MESSAGE` on the standard error stream; a closed stream is not an error.
-pub(crate) fn print_message(level: &str, message: &str) {
-    let level = color::style_level(level, color::stderr_has_color());
-    let _ = writeln!(std::io::stderr(), "{level}: {message}");
 }

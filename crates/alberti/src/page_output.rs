@@ -2,8 +2,8 @@
 
 use super::CliError;
 use super::format::OutputFormat;
+use super::messages::print_warnings;
 use super::progress::Progress;
-use super::render::print_warnings;
 use super::sheet;
 use drawing::{Page, Panels};
 use pipeline::Scene;

@@ -3,18 +3,24 @@
 //! They are applied to the parsed scene file before it is resolved, so that a flag and a field have
 //! the same meaning and the same errors. A bare model is a scene in which every field is default.
 
+use super::CliError;
 use super::args::{OverlayArg, ProjectionArg, StyleArg};
 use super::light::LightArgs;
 use super::load_options::LoadArgs;
 use super::model_state::ModelStateArgs;
+use super::render::open_input;
 use super::section::SectionArgs;
 use camera::NamedView;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use model::import::ImportOptions;
+use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::{
-    BackgroundFile, CameraChoice, CameraFile, DEFAULT_PADDING, OverlayFile, PrincipalFile,
-    ProjectionFile, SceneFile, StyleFile, ViewFile,
+    BackgroundFile, CameraChoice, CameraFile, Color, DEFAULT_PADDING, OverlayFile, ProjectionFile,
+    SceneFile, StyleFile, ViewFile,
 };
+use pipeline::{Origin, Scene};
+use projection::PrincipalView;
+use std::path::Path;
 
 /// Flags that replace fields of the scene.
 #[derive(Clone, Debug, clap::Args)]
@@ -46,7 +52,7 @@ pub(crate) struct SceneOverrideArgs {
     pub(crate) section: SectionArgs,
     /// Background: transparent, or a color such as #f4f1ea
     #[arg(long, value_name = "COLOR", value_parser = parse_background)]
-    pub(crate) background: Option<String>,
+    pub(crate) background: Option<BackgroundFile>,
     /// Samples per pixel for anti-aliasing: 1, 4, 8 or 16
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     pub(crate) samples: Option<u32>,
@@ -74,12 +80,10 @@ impl SceneOverrideArgs {
             file.image.samples = samples;
         }
         if let Some(anisotropy) = self.max_anisotropy {
-            file.image.anisotropy = anisotropy;
+            file.image.max_anisotropy = anisotropy;
         }
-        if let Some(text) = &self.background {
-            let transparent = text.eq_ignore_ascii_case("transparent");
-            let color = BackgroundFile::Color(text.clone());
-            file.image.background = if transparent { BackgroundFile::Transparent } else { color };
+        if let Some(background) = &self.background {
+            file.image.background.clone_from(background);
         }
         if let Some(style) = self.style {
             file.style = style.into();
@@ -96,6 +100,24 @@ impl SceneOverrideArgs {
         let mut options = load.import_options();
         options.allow_outside.extend(self.light.environment_file());
         options
+    }
+
+    /// Opens a scene or a model, applies the flags to it, and resolves it.
+    ///
+    /// The scene file is returned too, for commands that resolve it again or look things up in it.
+    ///
+    /// # Errors
+    /// If the input or a file it refers to cannot be read or is invalid.
+    pub(crate) fn open_scene(
+        &self,
+        input: &Path,
+        load_options: &LoadArgs,
+    ) -> Result<(Origin, SceneFile, Scene), CliError> {
+        let import = self.import_options(load_options);
+        let (origin, mut file) = open_input(input, &import)?;
+        self.apply_to(&mut file);
+        let scene = Scene::resolve(&origin, &file, &ResolveOptions { import })?;
+        Ok((origin, file, scene))
     }
 
     /// Replaces view and projection of the scene by the flags that were given.
@@ -149,7 +171,7 @@ impl From<ProjectionArg> for ProjectionFile {
         match projection {
             ProjectionArg::Perspective => Self::PERSPECTIVE,
             ProjectionArg::Orthographic => Self::ORTHOGRAPHIC,
-            ProjectionArg::Multiview => Self::Multiview(PrincipalFile::Front),
+            ProjectionArg::Multiview => Self::Multiview(PrincipalView::Front),
             ProjectionArg::Isometric => Self::Isometric,
             ProjectionArg::Dimetric => Self::Dimetric,
             ProjectionArg::Trimetric => Self::Trimetric,
@@ -190,14 +212,13 @@ fn parse_scale_factor(text: &str) -> Result<f64, String> {
     factor.ok_or_else(|| "expected a number greater than 0, up to 64, such as 2 or 0.5".to_owned())
 }
 
-/// Parses `transparent`, `#rgb` or `#rrggbb`.
-fn parse_background(text: &str) -> Result<String, String> {
-    let digits = text.strip_prefix('#').unwrap_or("");
-    let is_color = matches!(digits.len(), 3 | 6) && digits.chars().all(|c| c.is_ascii_hexdigit());
-    if is_color || text.eq_ignore_ascii_case("transparent") {
-        return Ok(text.to_owned());
+/// Parses `transparent`, or a color as in scene files: `#rgb`, `#rrggbb` or a CSS name.
+fn parse_background(text: &str) -> Result<BackgroundFile, String> {
+    if text.eq_ignore_ascii_case("transparent") {
+        return Ok(BackgroundFile::Transparent);
     }
-    Err("expected transparent, or a color such as #fff or #f4f1ea".to_owned())
+    let color = Color::parse(text).map(BackgroundFile::Color);
+    color.ok_or_else(|| "expected transparent, or a color such as #f4f1ea or white".to_owned())
 }
 
 /// Parses a number of samples that the rasterizer has a pattern for.

@@ -139,7 +139,7 @@ impl<C: Channel> RegionCanvas<'_, C> {
         });
     }
 
-    /// Calls `each` with the pixels that the region and a canvas have in common.
+    /// Calls `each` with the pixels that the region and a canvas have in common, row by row.
     fn for_each_shared_pixel(
         &mut self,
         shown: PixelRect,
@@ -238,6 +238,13 @@ impl Canvas {
     }
 
     /// Draws an image under all lines: each pixel is the mean of the area it covers (box filter).
+    ///
+    /// ```text
+    ///   canvas pixel ─► image columns [from, to) in real numbers, clamped to the image
+    /// ```
+    ///
+    /// The mean is weighted by area and alpha and composited over what is there, so edges of the
+    /// fill are anti-aliased.
     fn draw_image(&mut self, pasted: &PlacedImage, scale: [f64; 2]) {
         let PlacedImage { corner, size, picture, .. } = pasted;
         let (width, height) = (self.pixmap.width(), self.pixmap.height());
@@ -293,6 +300,9 @@ fn skia_stroke(pen: &Pen, dashes: &[f64], scale: f64) -> Stroke {
 
 /// The mean of an area of a picture: premultiplied red, green and blue, and alpha, 0 to 255;
 /// transparent outside the picture.
+///
+/// Each image pixel counts with the area it shares with the rectangle. Colors are weighted by
+/// alpha, or the color of transparent pixels would bleed into the edges.
 fn area_mean(picture: &Picture, columns: [f64; 2], rows: [f64; 2]) -> [f64; 4] {
     let cells = |[from, to]: [f64; 2]| {
         let first = from as u32;
@@ -318,6 +328,10 @@ fn area_mean(picture: &Picture, columns: [f64; 2], rows: [f64; 2]) -> [f64; 4] {
 }
 
 /// Porter–Duff *over*: a premultiplied color over a straight one, as a straight one.
+///
+/// ```text
+///   α = αₐ + α_b (1 − αₐ)        c = (cₐ + c_b α_b (1 − αₐ)) / α
+/// ```
 fn composite_over([r, g, b, alpha]: [f64; 4], below: [u8; 4]) -> [u8; 4] {
     let rest = f64::from(below[3]) * (1.0 - alpha / 255.0);
     let whole = alpha + rest;
@@ -331,6 +345,9 @@ fn composite_over([r, g, b, alpha]: [f64; 4], below: [u8; 4]) -> [u8; 4] {
 }
 
 /// Lines as paths of about `most` points, in pixels of the canvas.
+///
+/// Coordinates are subtracted from the corner of the tile in f64 and only then rounded to f32, as
+/// tiny-skia wants them: far from the origin of a large picture f32 has no subpixel bits left.
 fn skia_paths<'a>(
     lines: impl IntoIterator<Item = &'a Polyline>,
     scale: [f64; 2],

@@ -1,10 +1,20 @@
 //! Drawing a subject: candidate edges, hatching, hidden-line removal, face fill.
 //!
 //! ```text
-//!   WeldedSurface ─► candidate edges ─┐
-//!               └──► hatch lines ─────┴─► EdgeDivider ─► visible and hidden segments
-//!               └──► occluders ───────────────┘
+//!   models, sections ─► WeldedSurface          (once, for every view)
+//!                           │
+//!       ┌───────────────────┼───────────────────┐
+//!       ▼                   ▼                   ▼
+//!   candidate edges     hatch lines         occluders
+//!       └─────────┬─────────┘                   │
+//!                 ▼                             │
+//!            EdgeDivider ◄──────────────────────┘
+//!                 ▼
+//!   visible and hidden segments + flat fill = LineDrawing
 //! ```
+//!
+//! The surface depends on models and sections only, everything below it on the viewer too. Edges
+//! keep the order of their objects, so drawings are reproducible and diffs of files are small.
 
 use super::edges::{CandidateEdge, WeldedSurface};
 use super::face_fill::{KeyLight, rasterize_flat_fill};
@@ -97,7 +107,9 @@ fn hatch_surface(
     hatchings
 }
 
-/// Divides edges into visible and hidden segments.
+/// Divides edges into visible and hidden segments against the occluders of one view.
+///
+/// Edges are independent of each other, so this is where threads are used.
 struct EdgeDivider {
     projector: Projector,
     occluders: Occluders,

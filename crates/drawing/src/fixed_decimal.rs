@@ -5,6 +5,9 @@
 //! Leading and trailing zeros are omitted, as both grammars allow.
 
 /// Writes a number of thousandths: 12500 as `12.5`, −250 as `-.25`.
+///
+/// Zero is `0`; an integer part of zero is omitted otherwise. All of `i64` is written, including
+/// its least value.
 pub(super) fn write_thousandths(out: &mut Vec<u8>, number: i64) {
     if number < 0 {
         out.push(b'-');
@@ -27,6 +30,8 @@ pub(super) fn format_thousandths(number: i64) -> String {
 }
 
 /// A length in millimeters, rounded to the micrometer, as text.
+///
+/// For sizes and line widths, which are not on the grid; halves round away from zero.
 pub(super) fn format_millimeters(millimeters: f64) -> String {
     format_thousandths(libm::round(millimeters * 1000.0) as i64)
 }

@@ -147,6 +147,8 @@ struct CoveredIntervals(BTreeMap<i64, LineInterval>);
 
 /// An integer that is ordered as the number is (IEEE 754 total order), so that it can be a key of a
 /// map.
+///
+/// Negative numbers have descending bit patterns; flipping all bits but the sign makes them ascend.
 fn total_order_key(number: f64) -> i64 {
     let bits = number.to_bits() as i64;
     bits ^ (((bits >> 63) as u64) >> 1) as i64
@@ -241,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_visible_covers_what_is_hidden() {
+    fn visible_segments_cover_hidden_ones() {
         let rest = remaining_on_line(&[(1, 0, 4.0, 9.0), (0, 0, 0.0, 5.0), (1, 1, 8.0, 12.0)]);
         assert_eq!(rest, [(1, 0, 5.0, 9.0), (0, 0, 0.0, 5.0), (1, 1, 9.0, 12.0)]);
         // From both sides, and from the middle; backwards too.
@@ -257,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn what_continues_itself_is_one_and_equal_lines_are_drawn_once() {
+    fn touching_segments_merge_and_duplicates_are_drawn_once() {
         assert_eq!(
             remaining_on_line(&[(0, 0, 0.0, 1.0), (0, 0, 1.0, 2.0), (0, 0, 0.5, 3.0)]),
             [(0, 0, 0.0, 3.0)]
@@ -269,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hundred_thousand_pieces_on_one_line_take_no_long_time() {
+    fn a_hundred_thousand_collinear_segments_take_little_time() {
         let count = 100_000_u32;
         let at = |k: u32| f64::from(k) * 0.25;
         let many: Vec<PageSegment> =
@@ -283,7 +285,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbors_and_crossings_are_left_alone() {
+    fn parallel_and_crossing_segments_are_retained() {
         let segments = [
             segment(0, 0, [0.0, 0.0, 10.0, 0.0]),
             segment(1, 0, [0.0, 0.01, 10.0, 0.01]),

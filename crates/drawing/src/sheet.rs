@@ -116,10 +116,9 @@ pub enum SheetError {
         /// The reason.
         reason: String,
     },
-    /// The views are too large for the paper.
     #[error(
-        "the views do not fit on {paper} at {scale}: they need {:.0} x {:.0} mm and there are {:.0} x {:.0} mm{remedy}",
-        need[0], need[1], room[0], room[1]
+        "the views do not fit on {paper} at {scale}: they need {:.0} x {:.0} mm, and {:.0} x {:.0} mm are available{remedy}",
+        need[0], need[1], available[0], available[1]
     )]
     /// The views are too large for the paper.
     TooLarge {
@@ -130,7 +129,7 @@ pub enum SheetError {
         /// Width and height of the views at this scale, in millimeters.
         need: [f64; 2],
         /// Width and height that are available to them, in millimeters.
-        room: [f64; 2],
+        available: [f64; 2],
         /// A change that would make them fit.
         remedy: String,
     },

@@ -21,7 +21,7 @@ const FEATURES: [(&str, &str, &str, Change); 19] = [
     ("flat style", "style: Flat", "", AS_IT_IS),
     ("one sun, no environment", "environment: Dark", "", AS_IT_IS),
     ("sky", "environment: Sky()", "", AS_IT_IS),
-    ("sun beside the studio", "lights: [Sun(lux: 2, direction: (-1, -2, -1))]", "", AS_IT_IS),
+    ("sun beside the studio", "lights: [Directional(intensity: 2, direction: (-1, -2, -1))]", "", AS_IT_IS),
     ("… casting shadows", SUN_WITH_SHADOWS, "", AS_IT_IS),
     ("… on the ground", SUN_ON_THE_GROUND, "", AS_IT_IS),
     ("spot casting shadows", SPOT_WITH_SHADOWS, "", AS_IT_IS),
@@ -29,7 +29,7 @@ const FEATURES: [(&str, &str, &str, Change); 19] = [
     ("tone curve AgX", "", "tone_mapping: AgX", AS_IT_IS),
     ("1 sample", "", "samples: 1", AS_IT_IS),
     ("16 samples", "", "samples: 16", AS_IT_IS),
-    ("anisotropic textures off", "", "anisotropy: 1", AS_IT_IS),
+    ("anisotropic textures off", "", "max_anisotropy: 1", AS_IT_IS),
     ("clearcoat", "", "", |of| {
         of.clearcoat = Some(Box::new(Clearcoat { factor: 1.0, ..Default::default() }))
     }),
@@ -53,11 +53,11 @@ const FEATURES: [(&str, &str, &str, Change); 19] = [
 type Change = fn(&mut MaterialExtensions);
 
 const AS_IT_IS: Change = |_| {};
-const SUN_WITH_SHADOWS: &str = "lights: [Sun(lux: 2, direction: (-1, -2, -1), shadows: On())]";
+const SUN_WITH_SHADOWS: &str = "lights: [Directional(intensity: 2, direction: (-1, -2, -1), shadows: On())]";
 const SUN_ON_THE_GROUND: &str =
-    "lights: [Sun(lux: 2, direction: (-1, -2, -1), shadows: On())], ground: Shadow()";
+    "lights: [Directional(intensity: 2, direction: (-1, -2, -1), shadows: On())], ground: Shadow()";
 const SPOT_WITH_SHADOWS: &str =
-    "lights: [Spot(position: (1, 1.5, 1), direction: (-1, -1.2, -1), candela: 6, shadows: On())]";
+    "lights: [Spot(position: (1, 1.5, 1), direction: (-1, -1.2, -1), intensity: 6, shadows: On())]";
 const GLASS: Transmission = Transmission { factor: 0.6, texture: None };
 const TINT: Volume = Volume {
     thickness: 0.01,

@@ -1,7 +1,7 @@
 //! `alberti scene fmt`: formats scene files.
 
 use crate::{CliError, print_stdout};
-use pipeline::scene::{format_source, parse_scene};
+use pipeline::scene::format_source;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -23,7 +23,6 @@ pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, CliError> {
     for path in &args.files {
         let text = read_source(path)?;
         let name = path.display().to_string();
-        parse_scene(&name, &text).map_err(pipeline::ResolveError::from)?;
         let better = format_source(&name, &text).map_err(pipeline::ResolveError::from)?;
         let same = better == text;
         if !same {

@@ -79,15 +79,15 @@ fn starter_scene(path: &str, output: &str, scene: &Scene) -> String {
     let _ = write!(text, "Scene(\nmodels: [\nModel(\npath: {path:?},\n");
     write_model_states(&mut text, model);
     text.push_str(
-        "// translate: (0, 0, 0), rotate_degrees: (0, 30, 0), scale: 1,\n),\n],\ncamera: Camera(\n",
+        "// translation: (0, 0, 0), rotation_degrees: (0, 30, 0), scale: 1,\n),\n],\ncamera: Camera(\n",
     );
     write_views(&mut text, scene);
     text.push_str("// or Orthographic(), Isometric, Cavalier(), TwoPoint() …\nprojection: Perspective(fov_y_degrees: 35),\n),\n");
     if model.lights.is_empty() {
-        text.push_str("// Lux of a sun, besides the light from all around; a white matt surface shows lux / π.\n");
-        text.push_str("// lights: [Sun(direction: (-1, -2, -1), lux: 2.6)],\n");
+        text.push_str("// The intensity of a directional light is in lux; a white matte surface shows intensity / π.\n");
+        text.push_str("// lights: [Directional(direction: (-1, -2, -1), intensity: 2.6)],\n");
     } else {
-        text.push_str("// The lights of the model; more can be added: Sun(direction: (-1, -2, -1), lux: 2.6).\n");
+        text.push_str("// The lights of the model; more can be added: Directional(direction: (-1, -2, -1), intensity: 2.6).\n");
         text.push_str("lights: [FromModels],\n");
     }
     text.push_str(

@@ -62,27 +62,27 @@ pub(super) fn intersect_faces(
         triangle.border_distance = 2.0 * weld_radii.edge_radius(*ends);
     }
     let boxes: Vec<Aabb> = triangles.iter().map(|t| Aabb::from_points(t.vertices)).collect();
-    let tree = Bvh::new(&boxes, half_surface_area);
+    let bvh = Bvh::new(&boxes, half_surface_area);
     // Each pair is tested once, by the smaller box: few large boxes overlap it.
-    let size = |at: usize| (half_surface_area(boxes[at].max - boxes[at].min), at);
+    let size = |face: usize| (half_surface_area(boxes[face].max - boxes[face].min), face);
     let count = mesh.faces.len();
-    let (most, most_crossed) =
-        (Bvh::query_budget(count), (MAX_INTERSECTIONS / count.max(1)).max(16));
+    let budget = Bvh::query_budget(count);
+    let most_per_face = (MAX_INTERSECTIONS / count.max(1)).max(16);
     let is_cut_off = AtomicBool::new(false);
-    let segments = map_in_order(count, threads, |range, open: &mut Vec<u32>, found| {
+    let segments = map_in_order(count, threads, |range, stack: &mut Vec<u32>, segments| {
         for one in range {
-            let before = found.len();
-            let visited = tree.for_each_overlapping(&boxes[one], most, open, |other| {
+            let before = segments.len();
+            let visited = bvh.for_each_overlapping(&boxes[one], budget, stack, |other| {
                 let other = other as usize;
                 let faces = [&mesh.faces[one], &mesh.faces[other]];
-                let is_asked = size(one) < size(other) && found.len() - before < most_crossed;
-                if !is_asked || shares_edge(faces) {
-                    return;
+                let is_asked = size(one) < size(other) && segments.len() - before < most_per_face;
+                if is_asked && !shares_edge(faces) {
+                    let segment = triangles[one].intersect_triangle(&triangles[other], touching);
+                    let object = faces[0].object.min(faces[1].object);
+                    segments.extend(segment.map(|ends| (ends, object)));
                 }
-                let segment = triangles[one].intersect_triangle(&triangles[other], touching);
-                found.extend(segment.map(|ends| (ends, faces[0].object.min(faces[1].object))));
             });
-            if !visited || found.len() - before >= most_crossed {
+            if !visited || segments.len() - before >= most_per_face {
                 is_cut_off.store(true, Ordering::Relaxed);
             }
         }

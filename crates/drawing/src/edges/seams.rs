@@ -72,33 +72,33 @@ pub(super) fn weld_near_borders(
 ) -> bool {
     let points = border_vertices(borders);
     let boxes: Vec<Aabb> =
-        points.iter().map(|&at| Aabb::from_points([mesh.points[at as usize]])).collect();
-    let tree = Bvh::new(&boxes, half_surface_area);
-    let mut same: Vec<u32> = (0..mesh.points.len() as u32).collect();
+        points.iter().map(|&vertex| Aabb::from_points([mesh.points[vertex as usize]])).collect();
+    let bvh = Bvh::new(&boxes, half_surface_area);
+    let mut representative: Vec<u32> = (0..mesh.points.len() as u32).collect();
     let mut is_taken = vec![false; points.len()];
-    let mut open = Vec::new();
-    let mut any = false;
-    for (index, &at) in points.iter().enumerate() {
+    let mut stack = Vec::new();
+    let mut has_welded = false;
+    for (index, &vertex) in points.iter().enumerate() {
         if is_taken[index] {
             continue;
         }
-        let (here, far) = (boxes[index].min, radii.0[at as usize]);
-        let area = boxes[index].expanded_by(DVec3::splat(far));
-        tree.for_each_overlapping(&area, usize::MAX, &mut open, |item| {
+        let (position, radius) = (boxes[index].min, radii.0[vertex as usize]);
+        let area = boxes[index].expanded_by(DVec3::splat(radius));
+        bvh.for_each_overlapping(&area, usize::MAX, &mut stack, |item| {
             let other = points[item as usize];
-            let radius = far.min(radii.0[other as usize]);
-            let is_near = (boxes[item as usize].min - here).length() <= radius;
+            let radius = radius.min(radii.0[other as usize]);
+            let is_near = (boxes[item as usize].min - position).length() <= radius;
             if item as usize > index && !is_taken[item as usize] && is_near {
                 is_taken[item as usize] = true;
-                same[other as usize] = at;
-                any = true;
+                representative[other as usize] = vertex;
+                has_welded = true;
             }
         });
     }
-    if any {
-        remap_vertices(mesh, &same);
+    if has_welded {
+        remap_vertices(mesh, &representative);
     }
-    any
+    has_welded
 }
 
 /// Cuts boundary edges at the boundary vertices that lie on them, and returns the parts and the
@@ -121,35 +121,34 @@ pub(super) fn split_at_t_junctions(
     radii: &WeldRadii,
 ) -> (Vec<BorderEdge>, Vec<Face>) {
     let points = border_vertices(borders);
-    let position = |at: u32| mesh.points[at as usize];
-    let boxes: Vec<Aabb> = points.iter().map(|&at| Aabb::from_points([position(at)])).collect();
-    let tree = Bvh::new(&boxes, half_surface_area);
-    let (mut open, mut cuts) = (Vec::new(), Vec::new());
-    let most = Bvh::query_budget(borders.len());
+    let position = |vertex: u32| mesh.points[vertex as usize];
+    let boxes: Vec<Aabb> =
+        points.iter().map(|&vertex| Aabb::from_points([position(vertex)])).collect();
+    let bvh = Bvh::new(&boxes, half_surface_area);
+    let (mut stack, mut cuts) = (Vec::new(), Vec::new());
+    let budget = Bvh::query_budget(borders.len());
     let (mut parts, mut fillings) = (Vec::with_capacity(borders.len()), Vec::new());
     for &([a, b], side) in borders {
         let (from, along) = (position(a), position(b) - position(a));
         let radius = radii.edge_radius([a, b]);
         cuts.clear();
         let area = Aabb::from_points([position(a), position(b)]).expanded_by(DVec3::splat(radius));
-        tree.for_each_overlapping(&area, most, &mut open, |item| {
-            let (at, offset) = (points[item as usize], boxes[item as usize].min - from);
+        bvh.for_each_overlapping(&area, budget, &mut stack, |item| {
+            let (vertex, offset) = (points[item as usize], boxes[item as usize].min - from);
             let t = offset.dot(along) / along.length_squared();
             let is_on = t > 0.0 && t < 1.0 && (offset - along * t).length() <= radius;
-            if at != a && at != b && is_on {
-                cuts.push((t, at));
+            if vertex != a && vertex != b && is_on {
+                cuts.push((t, vertex));
             }
         });
         cuts.sort_unstable_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
-        let neighbors =
-            cuts.iter().map(|&(_, at)| at).zip(cuts.iter().skip(1).map(|&(_, at)| at).chain([b]));
+        let stops = || cuts.iter().map(|&(_, vertex)| vertex).chain([b]);
+        // A fan of slivers about `a`: one between each cut and the next stop.
         let face = mesh.faces[side.face as usize];
-        let filling = |(from, to)| Face { vertices: [a, from, to], ..face };
-        fillings.extend(neighbors.map(filling));
-        let stops = cuts.iter().map(|&(_, at)| at).chain([b]);
-        parts.extend(
-            stops.scan(a, |from, to| Some(border_part([std::mem::replace(from, to), to], side))),
-        );
+        let sliver = |(from, to)| Face { vertices: [a, from, to], ..face };
+        fillings.extend(stops().zip(stops().skip(1)).map(sliver));
+        let ends = stops().scan(a, |from, to| Some([std::mem::replace(from, to), to]));
+        parts.extend(ends.map(|ends| border_part(ends, side)));
     }
     parts.sort_unstable();
     (parts, fillings)
@@ -157,11 +156,9 @@ pub(super) fn split_at_t_junctions(
 
 /// A part of a boundary edge as an edge of its own, with the orientation of the original.
 fn border_part([from, to]: [u32; 2], side: HalfEdge) -> BorderEdge {
-    let rises = side.is_forward == (from < to);
-    (
-        [from.min(to), from.max(to)],
-        HalfEdge { high_vertex: from.max(to), is_forward: rises, ..side },
-    )
+    let (low, high) = (from.min(to), from.max(to));
+    let is_forward = side.is_forward == (from < to);
+    ([low, high], HalfEdge { high_vertex: high, is_forward, ..side })
 }
 
 /// The vertices of boundary edges, sorted, each once.

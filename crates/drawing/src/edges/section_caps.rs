@@ -1,10 +1,20 @@
 //! Section caps: nesting of the loops of a cut into outlines and holes, and their triangulation.
 //!
+//! ```text
+//!   ┌──────────────┐ ↺ outline, area > 0
+//!   │  ┌────────┐  │
+//!   │  │ ↻ hole │  │   area < 0: belongs to the smallest outline around it
+//!   │  │ ┌────┐ │  │
+//!   │  │ │ ↺  │ │  │   an island is an outline again
+//!   │  │ └────┘ │  │
+//!   │  └────────┘  │
+//!   └──────────────┘
+//! ```
+//!
 //! Loops of a consistently oriented surface run counterclockwise around matter and clockwise around
-//! holes. Each hole is given to the smallest outline around it, and each outline is capped by
-//! itself: bodies of one object that overlap, as in many game models, are capped one over the
-//! other, and no part of one makes a hole in the other. An even-odd rule over all loops would do
-//! that.
+//! holes. Each outline is capped by itself: bodies of one
+//! object that overlap, as in many game models, are capped one over the other, and no part of one
+//! makes a hole in the other. An even-odd rule over all loops would do that.
 
 use clip::Outline;
 use homog::{Plane, Point, World};
@@ -154,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn surfaces_turned_inside_out_are_filled_alike() {
+    fn inside_out_surfaces_get_the_same_caps() {
         assert_eq!(
             cap_area(vec![square_loop(0.0, 3.0, false), square_loop(0.0, 2.0, true)]),
             36.0 - 16.0

@@ -1,7 +1,13 @@
 //! Welded surface: the mesh that is drawn and that hides, and the search for its feature edges.
 //!
+//! ```text
+//!   gather ─► weld equal ─► weld near borders ─► split T-junctions ─┐
+//!                 ┌── for each section: cut, cap, weld equal ◄──────┘
+//! ```
+//!
 //! Welding depends on the models and the section planes and not on the viewer, so one surface
-//! serves every view of a drawing sheet.
+//! serves every view of a drawing sheet. Edges with several half-edges are classified at once;
+//! boundary edges only after they are split, by the runs of their coincident parts.
 
 use super::classify::EdgeClassifier;
 use super::half_edges::{HalfEdge, HalfEdges};
@@ -53,6 +59,9 @@ pub(crate) struct WeldedSurface {
 
 impl WeldedSurface {
     /// Gathers and welds models, and cuts them open by section planes.
+    ///
+    /// While bodies are being cut, coincident faces of different objects are both retained, since
+    /// each body must be closed by itself; the last welding removes them.
     pub(crate) fn new(models: &[ModelInstance], sections: &[Plane<World>]) -> Self {
         let mut mesh = WorldMesh::from_models(models);
         mesh.keeps_duplicates = !sections.is_empty();
@@ -150,6 +159,9 @@ impl WeldedSurface {
 
     /// The edges of the wanted classes for one viewer, sorted by object and within an object by
     /// their vertices; `true` if intersections are missing because there were too many.
+    ///
+    /// The viewer matters for silhouettes only, but their test runs over all faces: O(faces +
+    /// edges), apart from the intersections, which are found once.
     pub(crate) fn candidate_edges(
         &self,
         projector: &Projector,

@@ -100,48 +100,42 @@ impl WorldMesh {
         let to_position =
             |position: &[f32; 3]| to_world.transform_point(position.map(f64::from).into()).raw();
         self.points.extend(positions.iter().map(to_position));
-        let points = &self.points;
-        let is_here = |vertices: &[u32]| vertices.iter().all(|&at| points[at as usize].is_finite());
         match primitive.topology {
             Topology::Points => {}
             Topology::Lines => {
-                let ends =
-                    primitive.indices.as_chunks::<2>().0.iter().map(|e| e.map(|v| v + first));
-                let lines = ends.filter(|ends| is_here(ends));
-                self.line_edges.extend(lines.map(|ends| LineEdge {
-                    ends,
-                    object,
-                    is_marked: false,
-                }));
+                let (pairs, _) = primitive.indices.as_chunks::<2>();
+                self.add_lines(pairs, first, object, false);
             }
             Topology::Triangles => {
-                let edges = primitive.edges.as_deref();
-                let marks = |at: usize| Some(*edges?.visibility.as_ref()?.get(at)?);
-                // A file that lists visible edges draws no others but silhouettes.
-                let rest = edges.map(|_| [EdgeVisibility::Silhouette; 3]);
-                let vertices = primitive.indices.as_chunks::<3>().0.iter();
-                let faces = vertices.enumerate().map(|(at, vertices)| {
-                    let vertices = vertices.map(|vertex| vertex + first);
-                    Face {
-                        vertices,
-                        object,
-                        material,
-                        edge_visibility: marks(at).or(rest),
-                        cap_section: None,
-                    }
-                });
-                self.faces.extend(faces.filter(|face| is_here(&face.vertices)));
-                let lines = edges.into_iter().flat_map(|edges| &edges.lines);
-                let ends =
-                    lines.flat_map(|lines| &lines.vertex_pairs).map(|ends| ends.map(|v| v + first));
-                let lines = ends.filter(|ends| is_here(ends));
-                self.line_edges.extend(lines.map(|ends| LineEdge {
-                    ends,
-                    object,
-                    is_marked: true,
-                }));
+                self.add_faces(primitive, first, (object, material));
+                let lists = primitive.edges.as_deref().into_iter().flat_map(|edges| &edges.lines);
+                lists.for_each(|list| self.add_lines(&list.vertex_pairs, first, object, true));
             }
         }
+    }
+
+    /// Appends lines with finite ends; `first` is the index of the primitive's first vertex.
+    fn add_lines(&mut self, pairs: &[[u32; 2]], first: u32, object: u32, is_marked: bool) {
+        let ends = pairs.iter().map(|pair| pair.map(|vertex| vertex + first));
+        let finite = ends.filter(|ends| are_finite(&self.points, ends));
+        self.line_edges.extend(finite.map(|ends| LineEdge { ends, object, is_marked }));
+    }
+
+    /// Appends the triangles of a primitive that have finite vertices.
+    fn add_faces(&mut self, primitive: &Primitive, first: u32, (object, material): (u32, u32)) {
+        let edges = primitive.edges.as_deref();
+        let listed = |face: usize| Some(*edges?.visibility.as_ref()?.get(face)?);
+        // A file that lists visible edges draws no others but silhouettes.
+        let unlisted = edges.map(|_| [EdgeVisibility::Silhouette; 3]);
+        let (triangles, _) = primitive.indices.as_chunks::<3>();
+        let faces = triangles.iter().enumerate().map(|(index, triangle)| Face {
+            vertices: triangle.map(|vertex| vertex + first),
+            object,
+            material,
+            cap_section: None,
+            edge_visibility: listed(index).or(unlisted),
+        });
+        self.faces.extend(faces.filter(|face| are_finite(&self.points, &face.vertices)));
     }
 
     /// The diagonal of the bounding box of all finite points, 0 if there are none.
@@ -153,6 +147,11 @@ impl WorldMesh {
         let diagonal = (max - min).length();
         if diagonal.is_finite() { diagonal } else { 0.0 }
     }
+}
+
+/// Whether all these vertices have finite coordinates.
+fn are_finite(points: &[DVec3], vertices: &[u32]) -> bool {
+    vertices.iter().all(|&vertex| points[vertex as usize].is_finite())
 }
 
 /// The name of an object: of its node, else of its mesh, else `node N`.

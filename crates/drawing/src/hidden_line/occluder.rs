@@ -1,9 +1,9 @@
 //! Occlusion of one edge by one face: the interval of the edge that the face hides (rule HL-1).
 //!
 //! ```text
-//!              ╱╲            screen: inside the triangle where three linear functions of s are positive
+//!              ╱╲            screen: inside where three linear functions of s are positive
 //!    a ───────╱██╲─── b      world:  behind the plane where its height, linear in u, is negative
-//!            ╱    ╲          each condition leaves a half-line; their intersection is one interval, █
+//!            ╱    ╲          each leaves a half-line; their intersection is one interval, █
 //!           ╱──────╲
 //! ```
 //!

@@ -16,6 +16,9 @@ const CIRCLE_SIDES: u32 = 48;
 
 /// The symbol of a projection angle about a center. The cone is as long as it is high, and half as
 /// high at its narrow end.
+///
+/// The second view shows the narrow end as two circles: in first angle it is drawn on the right of
+/// the cone, in third angle on the left.
 pub(super) fn projection_symbol(angle: SheetAngle, middle: DVec2, height: f64) -> Vec<Polyline> {
     let half = height * 0.5;
     // In first angle the view from the left, which shows the narrow end, is right of the cone.

@@ -2,10 +2,13 @@
 //!
 //! ```text
 //!   ┌────┬────┬─────────┐
-//!   │████│    │█████████│      0 to a round length
+//!   │████│    │█████████│      0 to a round length of the object
 //!   └────┴────┴─────────┘
 //!   0              100 mm
 //! ```
+//!
+//! A scale such as 1:50 in the title block is wrong on a copy of another size; a bar that is
+//! printed along with the drawing scales with it.
 
 use super::{Sheet, rectangle_from_size};
 use crate::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline, TextAlign};
@@ -74,6 +77,9 @@ fn bar_segment(corner: DVec2, from: f64, length: f64) -> Polyline {
 }
 
 /// The greatest length of the form 1, 2 or 5 · 10ⁿ that is not above `most`.
+///
+/// Lengths below 1 mm are rounded to the quotient of 1 and an integer, so that their shortest
+/// decimal is the label.
 fn round_length(most: f64) -> f64 {
     let mut power = 1e-6;
     while power * 10.0 <= most {

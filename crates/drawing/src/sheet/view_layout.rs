@@ -265,16 +265,10 @@ impl<'a> ViewGrid<'a> {
         let scale = sheet.scale.unwrap_or(smallest);
         let remedy = match fitting {
             Some(fitting) => format!("; {fitting} fits"),
-            None => "; take larger paper, or say what a unit of the model is".to_owned(),
+            None => "; use larger paper, or set the unit of the model".to_owned(),
         };
         let need = self.total_size().map(|size| scale.to_paper_length(size));
         let available = self.available_size(area).map(|side| side.max(0.0));
-        SheetError::TooLarge {
-            paper: sheet.paper_name.clone(),
-            scale,
-            need,
-            room: available,
-            remedy,
-        }
+        SheetError::TooLarge { paper: sheet.paper_name.clone(), scale, need, available, remedy }
     }
 }

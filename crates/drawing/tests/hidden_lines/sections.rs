@@ -60,8 +60,8 @@ fn a_cube_cut_in_half_shows_its_cap() {
     assert!(drawing.warnings.is_empty());
 }
 
-/// Lines of hatching lie in the matter and nowhere else, at equal distances and under 45°; as there are many of them, they measure
-/// its area.
+/// Lines of hatching lie in the matter and nowhere else, at equal distances and under 45°; as there
+/// are many of them, they measure its area.
 #[test]
 fn hatching_fills_caps_and_spares_holes() {
     let tube = merge_primitives(
@@ -189,7 +189,8 @@ fn adjacent_parts_have_different_hatching() {
     }
 }
 
-/// Whatever the view, what is visible and what is hidden make up the whole, and the z-buffer agrees.
+/// Whatever the view, what is visible and what is hidden make up the whole, and the z-buffer
+/// agrees.
 #[test]
 fn cut_drawings_agree_with_their_z_buffer_images() {
     let frustum = projection::Frustum::new(-0.5, 0.5, -0.5, 0.5, 1.0, 20.0).unwrap();

@@ -48,10 +48,13 @@ fn a_cube_within_a_cube_is_hidden() {
 ///
 /// ```text
 ///          ╱╲
-///        ╱   ╲──────╮     Where it comes out is a square, of which two sides are visible. It hides a part of the cube's
-///       │     │ ╲____╲    lower right and of its rear right edge.
+///        ╱   ╲──────╮
+///       │     │ ╲____╲
 ///        ╲    │ │    │
 /// ```
+///
+/// The intersection is a square, of which two sides are visible. The bar hides a part of the cube's
+/// lower right edge and of its rear right edge.
 #[test]
 fn a_bar_through_the_side_of_a_cube() {
     let solids =
@@ -84,7 +87,8 @@ fn a_bar_through_the_side_of_a_cube() {
     assert_segments_cover(&segments_where(&drawing, |line| line.visible && line.object == 1), &bar);
 }
 
-/// A column in front of the cube's left: its outline is where x − z/2 of its corners is least and greatest.
+/// A column in front of the cube's left: its outline is where x − z/2 of its corners is least and
+/// greatest.
 #[test]
 fn a_cylinder_before_a_box() {
     let sides = 48;
@@ -181,8 +185,8 @@ fn a_cycle_of_three() {
     );
 }
 
-/// A floor that begins behind the eye, at height −1, and a line below it at height −2: where the near plane has cut the floor
-/// away, the line is visible.
+/// A floor that begins behind the eye, at height −1, and a line below it at height −2: where the
+/// near plane has cut the floor away, the line is visible.
 #[test]
 fn a_floor_cut_by_the_near_plane() {
     let floor =
@@ -206,8 +210,8 @@ fn a_floor_cut_by_the_near_plane() {
     assert_segments_cover(&hidden, &[[[0.0, -2.0], [0.0, -4.0 / 15.0]]]);
 }
 
-/// Where two faces meet, seen from the front, a line runs exactly behind their common edge: together they hide it. Behind the
-/// border of one it touches, and stays.
+/// Where two faces meet, seen from the front, a line runs exactly behind their common edge:
+/// together they hide it. Behind the border of one it touches, and stays.
 #[test]
 fn a_line_exactly_behind_a_shared_edge_is_hidden() {
     let roof = triangle_mesh(

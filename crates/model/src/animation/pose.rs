@@ -1,4 +1,8 @@
 //! Posing: applies an animation at a time to the nodes, morph weights and materials of a model.
+//!
+//! Channels are sampled and set in the order of the file; then all global transforms are computed
+//! anew. Deformed vertices are not stored: [`Model::skin_primitive`] computes them from the posed
+//! nodes when a primitive is drawn.
 
 use crate::{
     Animation, AnimationChannel, AnimationTarget, Model, NodeProperty, ObjectProperty, Trs,
@@ -9,7 +13,17 @@ impl Model {
     /// Sets the model to the pose of an animation at a time in seconds.
     ///
     /// Everything that the animation does not change stays as it is, and so do nodes whose
-    /// transforms would overflow. An index that is out of range changes nothing.
+    /// transforms would overflow. An index that is out of range changes nothing. Times outside of
+    /// the animation give its first or last pose: to loop, take the remainder by
+    /// [`Animation::duration_seconds`].
+    ///
+    /// ```
+    /// # let mut model = model::Model::default();
+    /// for frame in 0..48 {
+    ///     model.apply_animation(0, f64::from(frame) / 24.0);
+    ///     // … draw the pose
+    /// }
+    /// ```
     pub fn apply_animation(&mut self, animation: usize, seconds: f64) {
         let animations = std::mem::take(&mut self.animations);
         if let Some(Animation { channels, .. }) = animations.get(animation) {
@@ -43,21 +57,27 @@ impl Model {
                 }
             }
             AnimationTarget::ObjectProperty {
-                property: ObjectProperty::Material(at),
+                property: ObjectProperty::Material(index),
                 index: of,
             } => {
                 if let Some(material) = self.materials.get_mut(of) {
-                    material.set_property(at, value);
+                    material.set_property(index, value);
                 }
             }
-            AnimationTarget::ObjectProperty { property: ObjectProperty::Light(at), index: of } => {
+            AnimationTarget::ObjectProperty {
+                property: ObjectProperty::Light(index),
+                index: of,
+            } => {
                 if let Some(light) = self.lights.get_mut(of) {
-                    light.set_property(at, value);
+                    light.set_property(index, value);
                 }
             }
-            AnimationTarget::ObjectProperty { property: ObjectProperty::Camera(at), index: of } => {
+            AnimationTarget::ObjectProperty {
+                property: ObjectProperty::Camera(index),
+                index: of,
+            } => {
                 if let (Some(lens), &[value]) = (self.cameras.get_mut(of), value) {
-                    lens.projection.set_property(at, value);
+                    lens.projection.set_property(index, value);
                 }
             }
             AnimationTarget::TextureTransform { transform, part } => {
@@ -76,8 +96,8 @@ impl Model {
         let Some(node) = self.nodes.get_mut(node) else { return };
         if property == NodeProperty::Weights {
             set_morph_weights(node.morph_weights.get_or_insert_default(), None, value);
-        } else if let Some(parts) = &mut node.trs {
-            set_trs_property(parts, property, value);
+        } else if let Some(trs) = &mut node.trs {
+            set_trs_property(trs, property, value);
         }
     }
 
@@ -86,18 +106,19 @@ impl Model {
     /// A local transform that is invalid or would overflow falls back to the previous one, then to
     /// the identity.
     fn update_node_transforms(&mut self) {
-        let mut open: Vec<usize> =
-            (0..self.nodes.len()).filter(|&at| self.nodes[at].parent.is_none()).collect();
-        while let Some(at) = open.pop() {
-            let above =
-                self.nodes[at].parent.map_or(Affine::IDENTITY, |up| self.nodes[up].to_model);
-            let node = &mut self.nodes[at];
-            let posed = node.trs.and_then(|parts| parts.to_affine());
+        let mut stack: Vec<usize> =
+            (0..self.nodes.len()).filter(|&index| self.nodes[index].parent.is_none()).collect();
+        while let Some(index) = stack.pop() {
+            let parent_transform =
+                self.nodes[index].parent.map_or(Affine::IDENTITY, |up| self.nodes[up].to_model);
+            let node = &mut self.nodes[index];
+            let posed = node.trs.and_then(|trs| trs.to_affine());
             let candidates = [posed.unwrap_or(node.to_parent), node.to_parent, Affine::IDENTITY];
-            let fits = candidates.into_iter().find(|map| map.then(above).is_finite());
-            node.to_parent = fits.unwrap_or(Affine::IDENTITY);
-            node.to_model = node.to_parent.then(above);
-            open.extend(&node.children);
+            let valid_transform =
+                candidates.into_iter().find(|map| map.then(parent_transform).is_finite());
+            node.to_parent = valid_transform.unwrap_or(Affine::IDENTITY);
+            node.to_model = node.to_parent.then(parent_transform);
+            stack.extend(&node.children);
         }
     }
 }
@@ -117,11 +138,11 @@ fn set_morph_weights(weights: &mut Vec<f32>, target: Option<usize>, value: &[f64
 }
 
 /// Sets translation, rotation or scale; a value of another length changes nothing.
-fn set_trs_property(parts: &mut Trs, property: NodeProperty, value: &[f64]) {
+fn set_trs_property(trs: &mut Trs, property: NodeProperty, value: &[f64]) {
     match (property, value) {
-        (NodeProperty::Translation, &[x, y, z]) => parts.translation = [x, y, z],
-        (NodeProperty::Rotation, &[x, y, z, w]) => parts.rotation = [x, y, z, w],
-        (NodeProperty::Scale, &[x, y, z]) => parts.scale = [x, y, z],
+        (NodeProperty::Translation, &[x, y, z]) => trs.translation = [x, y, z],
+        (NodeProperty::Rotation, &[x, y, z, w]) => trs.rotation = [x, y, z, w],
+        (NodeProperty::Scale, &[x, y, z]) => trs.scale = [x, y, z],
         _ => {}
     }
 }
@@ -142,14 +163,14 @@ mod tests {
 
     #[test]
     fn a_pose_moves_nodes_and_what_hangs_on_them() {
-        let node = |parent: Option<usize>, children: &[usize], parts: Trs| Node {
-            to_parent: parts.to_affine().unwrap(),
-            trs: Some(parts),
+        let node = |parent: Option<usize>, children: &[usize], trs: Trs| Node {
+            to_parent: trs.to_affine().unwrap(),
+            trs: Some(trs),
             parent,
             children: children.to_vec(),
             ..Node::default()
         };
-        let above = Trs { scale: [2.0; 3], ..Trs::default() };
+        let parent_transform = Trs { scale: [2.0; 3], ..Trs::default() };
         let below = Trs { translation: [1.0, 0.0, 0.0], ..Trs::default() };
         let channel =
             |node: usize, property: NodeProperty, values: &[f32], width: usize| AnimationChannel {
@@ -164,7 +185,7 @@ mod tests {
             channel(9, NodeProperty::Scale, &[largest; 6], 3),
         ];
         let mut model = Model {
-            nodes: vec![node(None, &[1], above), node(Some(0), &[], below)],
+            nodes: vec![node(None, &[1], parent_transform), node(Some(0), &[], below)],
             roots: vec![0],
             animations: vec![Animation { name: None, channels, duration_seconds: 1.0 }],
             ..Model::default()

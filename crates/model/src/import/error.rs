@@ -19,25 +19,25 @@ pub struct ImportError {
 
 impl Diagnostic {
     /// The file breaks a rule of the specification.
-    pub(super) fn invalid(pointer: &str, problem: impl Into<String>) -> Self {
-        Self::error(codes::INVALID_DATA, pointer, problem.into(), "export the file again")
+    pub(super) fn invalid(pointer: &str, message: impl Into<String>) -> Self {
+        Self::error(codes::INVALID_DATA, pointer, message.into(), "export the file again")
     }
 
     /// An index is out of range; `what` names the collection in the singular.
     pub(super) fn unresolved_index(pointer: &str, what: &str, index: usize, count: usize) -> Self {
-        let problem = match count {
+        let message = match count {
             0 => format!("there is no {what} {index}: the file has none"),
             1 => format!("there is no {what} {index}: the file has only {what} 0"),
             _ => format!("there is no {what} {index}: the file has {what}s 0 to {}", count - 1),
         };
-        Self::invalid(pointer, problem)
+        Self::invalid(pointer, message)
     }
 
     /// The file declares too much; `limit` is the name of a field of [`Limits`](super::Limits).
     pub(super) fn limit_exceeded(pointer: &str, what: &str, limit: &str, allowed: u64) -> Self {
-        let problem = format!("{what}, more than the limit of {allowed}");
-        let remedy = Self::raise_limit_help(limit);
-        Self::error(codes::LIMIT_EXCEEDED, pointer, problem, &remedy)
+        let message = format!("{what}, more than the limit of {allowed}");
+        let help = Self::raise_limit_help(limit);
+        Self::error(codes::LIMIT_EXCEEDED, pointer, message, &help)
     }
 
     /// The remedy for an exceeded limit: its name and its flag on the command line.
@@ -47,11 +47,11 @@ impl Diagnostic {
     }
 
     /// Data is absent, or in an encoding that is not supported.
-    pub(super) fn missing_data(pointer: &str, problem: &str) -> Self {
+    pub(super) fn missing_data(pointer: &str, message: &str) -> Self {
         Self::error(
             codes::MISSING_DATA,
             pointer,
-            problem.to_owned(),
+            message.to_owned(),
             "export the file uncompressed",
         )
     }

@@ -35,6 +35,9 @@ pub(crate) struct EncodedImage<'a> {
 /// Width and height from the header alone.
 ///
 /// Refuses decompression bombs: sizes that so few bytes cannot hold.
+///
+/// # Errors
+/// A message for people: the format is not known, the header is broken, or the size is implausible.
 pub(crate) fn image_size(bytes: &[u8]) -> Result<(u32, u32), String> {
     catch_decoder_panic(|| match ImageFormat::from_magic(bytes)? {
         ImageFormat::Png => {
@@ -78,6 +81,11 @@ pub(crate) fn format_name(bytes: &[u8]) -> &'static str {
 }
 
 /// Decodes an image with at most `most` texels; the header is checked before anything is allocated.
+///
+/// ```
+/// let message = model::import::decode_image(b"GIF89a", 1 << 20).unwrap_err();
+/// assert_eq!(message, "this is a GIF image; only PNG, JPEG and WebP are read");
+/// ```
 ///
 /// # Errors
 /// A message for people: the format is not known, the data is broken, or the image is too large.
@@ -171,23 +179,23 @@ fn png_problem(error: &png::DecodingError) -> String {
 
 /// Decodes a PNG, converting palettes, gray and 16 bits to RGBA of 8 bits.
 fn decode_png(bytes: &[u8]) -> Result<Image, String> {
-    let problem = |error: png::DecodingError| png_problem(&error);
+    let message = |error: png::DecodingError| png_problem(&error);
     let mut decoder =
         png::Decoder::new_with_limits(Cursor::new(bytes), png::Limits { bytes: 1 << 30 });
     decoder.set_transformations(Transformations::normalize_to_color8() | Transformations::ALPHA);
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
-    let mut reader = decoder.read_info().map_err(problem)?;
+    let mut reader = decoder.read_info().map_err(message)?;
     let (width, height) = reader.info().size();
     match reader.output_color_type() {
         (ColorType::Rgba, BitDepth::Eight) => {
             let mut rgba = blank_texels(width, height);
-            reader.next_frame(rgba.as_flattened_mut()).map_err(problem)?;
+            reader.next_frame(rgba.as_flattened_mut()).map_err(message)?;
             Ok(Image { width, height, rgba })
         }
         (ColorType::GrayscaleAlpha, BitDepth::Eight) => {
             let mut grey = vec![0; reader.output_buffer_size().ok_or("the PNG is too large")?];
-            reader.next_frame(&mut grey).map_err(problem)?;
+            reader.next_frame(&mut grey).map_err(message)?;
             let pairs = grey.as_chunks().0.iter();
             checked_image(width, height, pairs.map(|&[y, alpha]| [y, y, y, alpha]).collect())
         }
@@ -279,8 +287,8 @@ mod tests {
         bytes
     }
 
-    /// A baseline JPEG of 8 x 8 texels, all of middle grey: every coefficient is 0, and each of the two Huffman tables has
-    /// the single code `0`, for "no difference" and for "end of block".
+    /// A baseline JPEG of 8 x 8 texels, all of middle gray: every coefficient is 0, and each of the
+    /// two Huffman tables has the single code `0`, for "no difference" and for "end of block".
     fn jpeg(components: u8) -> Vec<u8> {
         let numbers = || 1..=components;
         let mut bytes = vec![0xFF, 0xD8, 0xFF, 0xDB, 0, 67, 0];
@@ -333,7 +341,7 @@ mod tests {
             assert_eq!((image.width, image.height), (8, 8));
             assert_eq!(image.rgba, [[128, 128, 128, 255]; 64], "{components} components");
         }
-        let problem = decode_rgba(&jpeg(4)).unwrap_err();
-        assert_eq!(problem, "the JPEG is in CMYK, for printing; only RGB and grey are read");
+        let message = decode_rgba(&jpeg(4)).unwrap_err();
+        assert_eq!(message, "the JPEG is in CMYK, for printing; only RGB and grey are read");
     }
 }

@@ -1,4 +1,9 @@
 //! Memory budget for the arrays that a file asks for: the defense against decompression bombs.
+//!
+//! Two bounds apply: an absolute one, and one relative to the bytes that have been read. The second
+//! catches small files that ask for much: an honest model's arrays are at most a few times as large
+//! as its files, even when compressed. Charges are made before an array is allocated and never
+//! refunded, as the arrays live as long as the model.
 
 use super::limits::Limits;
 use crate::diagnostic::{Diagnostic, codes};
@@ -37,9 +42,9 @@ impl<'a> MemoryBudget<'a> {
             return Err(Diagnostic::limit_exceeded(pointer, &what, "array_bytes", array_bytes));
         }
         if made.saturating_sub(FREE_ARRAY_BYTES) > files.saturating_mul(array_growth) {
-            let problem = format!("{what}, more than {array_growth} times the files");
-            let remedy = Diagnostic::raise_limit_help("array_growth");
-            return Err(Diagnostic::error(codes::LIMIT_EXCEEDED, pointer, problem, &remedy));
+            let message = format!("{what}, more than {array_growth} times the files");
+            let help = Diagnostic::raise_limit_help("array_growth");
+            return Err(Diagnostic::error(codes::LIMIT_EXCEEDED, pointer, message, &help));
         }
         Ok(())
     }

@@ -1,4 +1,7 @@
 //! Selection of a scene or a variant of a file, by name or by index.
+//!
+//! Users type `--scene 2` or `--scene Kitchen`; both are a [`NameOrIndex`]. An error lists what
+//! there is to choose from.
 
 use crate::diagnostic::{Diagnostic, codes};
 
@@ -22,23 +25,23 @@ impl NameOrIndex {
         pointer: &str,
     ) -> Result<usize, Diagnostic> {
         let named = |wanted: &str| names.iter().position(|name| *name == Some(wanted));
-        let (found, wanted) = match self {
+        let (selected, wanted) = match self {
             Self::Index(at) if *at < names.len() => (Some(*at), at.to_string()),
             Self::Index(at) => (named(&at.to_string()), at.to_string()),
             Self::Name(name) => (named(name), name.clone()),
         };
-        found.ok_or_else(|| {
-            let known = names.iter().enumerate().map(|(at, name)| match name {
+        selected.ok_or_else(|| {
+            let available = names.iter().enumerate().map(|(at, name)| match name {
                 Some(name) => format!("{at} `{name}`"),
                 None => at.to_string(),
             });
-            let known: Vec<String> = known.collect();
-            let problem = format!("there is no {what} `{wanted}`");
-            let remedy = match known.as_slice() {
+            let available: Vec<String> = available.collect();
+            let message = format!("there is no {what} `{wanted}`");
+            let help = match available.as_slice() {
                 [] => format!("leave it out: the file has no {what}s"),
-                known => format!("choose one of {}", known.join(", ")),
+                available => format!("choose one of {}", available.join(", ")),
             };
-            Diagnostic::error(codes::NO_SUCH_ITEM, pointer, problem, &remedy)
+            Diagnostic::error(codes::NO_SUCH_ITEM, pointer, message, &help)
         })
     }
 }
@@ -54,11 +57,11 @@ mod tests {
         assert_eq!(among(NameOrIndex::Index(1)), Ok(1));
         assert_eq!(among(NameOrIndex::Index(7)), Ok(2), "a name of digits");
         assert_eq!(among(NameOrIndex::Name("day".to_owned())), Ok(0));
-        let fault = among(NameOrIndex::Name("night".to_owned())).unwrap_err();
-        assert_eq!(fault.code, codes::NO_SUCH_ITEM);
-        assert_eq!(fault.message, "there is no scene `night`");
-        assert_eq!(fault.help.unwrap(), "choose one of 0 `day`, 1, 2 `7`");
-        let fault = NameOrIndex::Index(0).find_among(&[], "variant", "/v").unwrap_err();
-        assert_eq!(fault.help.unwrap(), "leave it out: the file has no variants");
+        let diagnostic = among(NameOrIndex::Name("night".to_owned())).unwrap_err();
+        assert_eq!(diagnostic.code, codes::NO_SUCH_ITEM);
+        assert_eq!(diagnostic.message, "there is no scene `night`");
+        assert_eq!(diagnostic.help.unwrap(), "choose one of 0 `day`, 1, 2 `7`");
+        let diagnostic = NameOrIndex::Index(0).find_among(&[], "variant", "/v").unwrap_err();
+        assert_eq!(diagnostic.help.unwrap(), "leave it out: the file has no variants");
     }
 }

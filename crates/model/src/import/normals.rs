@@ -20,7 +20,7 @@ pub(super) struct NormalRepairs {
 pub(super) fn normalize_normals(primitive: &mut Primitive) -> NormalRepairs {
     let mut repairs = NormalRepairs::default();
     let Some(mut normals) = primitive.normals.take() else { return repairs };
-    let mut lost = Vec::new();
+    let mut undirected = Vec::new();
     for (vertex, normal) in normals.iter_mut().enumerate() {
         let [x, y, z] = normal.map(f64::from);
         let square = x * x + y * y + z * z;
@@ -32,13 +32,13 @@ pub(super) fn normalize_normals(primitive: &mut Primitive) -> NormalRepairs {
             *normal = [x / length, y / length, z / length].map(|x| x as f32);
             repairs.lengths += usize::from((length - 1.0).abs() > 0.02);
         } else {
-            lost.push(vertex);
+            undirected.push(vertex);
         }
     }
-    repairs.replaced = lost.len();
-    if !lost.is_empty() {
+    repairs.replaced = undirected.len();
+    if !undirected.is_empty() {
         let means = area_weighted_normals(primitive);
-        for vertex in lost {
+        for vertex in undirected {
             let mean = means[vertex];
             let unit = if mean.length_squared() > 0.0 { mean.normalize() } else { DVec3::Z };
             normals[vertex] = unit.to_array().map(|x| x as f32);

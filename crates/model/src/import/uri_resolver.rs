@@ -67,18 +67,18 @@ impl<'a> UriResolver<'a> {
 
     /// A resolver for assets whose paths begin at a folder and stay below a root.
     fn with_sandbox(
-        place: Option<(PathBuf, PathBuf)>,
+        sandbox: Option<(PathBuf, PathBuf)>,
         length: usize,
         options: &'a ImportOptions,
     ) -> Result<Self, Diagnostic> {
         let ImportOptions { limits, lenient, allow_outside, .. } = options;
-        let others = allow_outside.iter().map(|folder| canonical_allowed_folder(folder));
-        let others: Vec<PathBuf> = others.collect::<Result<_, _>>()?;
-        let place = place.map(|(folder, root)| {
-            let roots = std::iter::once(root).chain(others).collect();
+        let further = allow_outside.iter().map(|folder| canonical_allowed_folder(folder));
+        let further: Vec<PathBuf> = further.collect::<Result<_, _>>()?;
+        let sandbox = sandbox.map(|(folder, root)| {
+            let roots = std::iter::once(root).chain(further).collect();
             AssetSandbox { folder, roots }
         });
-        Ok(Self { sandbox: place, limits, lenient: *lenient, bytes_read: Cell::new(length as u64) })
+        Ok(Self { sandbox, limits, lenient: *lenient, bytes_read: Cell::new(length as u64) })
     }
 
     /// The bytes that a URI refers to; `pointer` is the location of the URI.
@@ -111,21 +111,27 @@ impl<'a> UriResolver<'a> {
     }
 
     /// The file that a URI names: taken literally, else percent-decoded, else with `\` read as `/`.
+    ///
+    /// Exporters disagree about escaping, and some write paths of Windows; the first candidate that
+    /// exists is taken. Each candidate is checked against the sandbox.
+    ///
+    /// # Errors
+    /// The path leaves the sandbox, has a scheme, or no candidate exists.
     fn locate_file(&self, uri: &str, pointer: &str) -> Result<PathBuf, Diagnostic> {
         if uri.is_empty() {
             return Err(Diagnostic::invalid(pointer, "the URI is empty"));
         }
-        let Some(place) = &self.sandbox else {
-            let problem = format!("the model is in memory and may not read the file {uri:?}");
-            return Err(forbidden_path(pointer, &problem));
+        let Some(sandbox) = &self.sandbox else {
+            let message = format!("the model is in memory and may not read the file {uri:?}");
+            return Err(forbidden_path(pointer, &message));
         };
         let decoded = percent_decode(uri).and_then(|bytes| String::from_utf8(bytes).ok());
         let candidates =
             [Some(uri.to_owned()), decoded.clone(), decoded.map(|d| d.replace('\\', "/"))];
         for candidate in candidates.into_iter().flatten() {
-            let path = place.path_below_root(&candidate, pointer)?;
+            let path = sandbox.path_below_root(&candidate, pointer)?;
             if let Ok(path) = path.canonicalize() {
-                return place.check_path(path, uri, pointer);
+                return sandbox.check_path(path, uri, pointer);
             }
         }
         Err(match uri_scheme(uri) {
@@ -150,21 +156,27 @@ impl AssetSandbox {
 
     /// Joins a relative path to the folder, if it stays below a root by its components alone.
     ///
+    /// This is the first of two checks, made before the file system is asked anything: a file that
+    /// contains `../../secret` learns nothing, not even whether that file exists.
+    /// [`check_path`](Self::check_path) is the second, on the canonical path, and catches symbolic
+    /// links.
+    ///
     /// With a single root the path never leaves it; with several, `..` must be able to cross from
     /// one to another.
     fn path_below_root(&self, name: &str, pointer: &str) -> Result<PathBuf, Diagnostic> {
         let outside =
             || Err(forbidden_path(pointer, &format!("{name:?} is outside of the model's folder")));
-        let drive = cfg!(windows) && name.contains(':');
-        if name.starts_with(['/', '\\']) || name.contains('\0') || drive {
+        let has_drive_letter = cfg!(windows) && name.contains(':');
+        if name.starts_with(['/', '\\']) || name.contains('\0') || has_drive_letter {
             return outside();
         }
-        let (mut path, several) = (self.folder.clone(), self.roots.len() > 1);
+        let (mut path, has_several_roots) = (self.folder.clone(), self.roots.len() > 1);
         for part in Path::new(name).components() {
             match part {
                 Component::Normal(part) => path.push(part),
                 Component::CurDir => {}
-                Component::ParentDir if (several || path != self.roots[0]) && path.pop() => {}
+                Component::ParentDir
+                    if (has_several_roots || path != self.roots[0]) && path.pop() => {}
                 _ => return outside(),
             }
         }
@@ -188,25 +200,31 @@ impl AssetSandbox {
 }
 
 /// Reads a whole regular file, but no more than the limit.
+///
+/// The size is checked before reading and the read is bounded as well: a file may grow in between,
+/// and special files report a size of 0. One byte more than the limit is read to detect the excess.
+///
+/// # Errors
+/// The file does not exist, may not be read, is not a regular file, or is too large.
 pub(crate) fn read_file(
     path: &Path,
     limits: &Limits,
     pointer: &str,
 ) -> Result<Vec<u8>, Diagnostic> {
-    let fault = |error: std::io::Error| unreadable_file(pointer, path, &error);
-    let metadata = path.metadata().map_err(fault)?;
+    let to_diagnostic = |error: std::io::Error| unreadable_file(pointer, path, &error);
+    let metadata = path.metadata().map_err(to_diagnostic)?;
     if !metadata.is_file() {
-        let problem =
+        let message =
             if metadata.is_dir() { "this is a folder" } else { "this is not a regular file" };
-        return Err(Diagnostic::error(codes::IO_ERROR, pointer, problem.to_owned(), "give a file"));
+        return Err(Diagnostic::error(codes::IO_ERROR, pointer, message.to_owned(), "give a file"));
     }
     let allowed = limits.file_bytes;
     let mut bytes = Vec::new();
     if metadata.len() <= allowed {
         // Room for one byte more: reading to the end then needs no second allocation.
         bytes.reserve_exact(usize::try_from(metadata.len()).unwrap_or(0).saturating_add(1));
-        let file = File::open(path).map_err(fault)?;
-        file.take(allowed.saturating_add(1)).read_to_end(&mut bytes).map_err(fault)?;
+        let file = File::open(path).map_err(to_diagnostic)?;
+        file.take(allowed.saturating_add(1)).read_to_end(&mut bytes).map_err(to_diagnostic)?;
     }
     let length = metadata.len().max(bytes.len() as u64);
     if length > allowed {
@@ -219,9 +237,9 @@ pub(crate) fn read_file(
 /// Canonical path of a folder that the user allows files to be in.
 fn canonical_allowed_folder(folder: &Path) -> Result<PathBuf, Diagnostic> {
     folder.canonicalize().map_err(|error| {
-        let problem =
+        let message =
             format!("the folder {}, allowed for files, cannot be used: {error}", folder.display());
-        Diagnostic::error(codes::IO_ERROR, "", problem, "name a folder that exists")
+        Diagnostic::error(codes::IO_ERROR, "", message, "name a folder that exists")
     })
 }
 
@@ -233,21 +251,21 @@ fn canonical_folder(folder: &Path) -> Result<PathBuf, Diagnostic> {
 fn unreadable_file(pointer: &str, path: &Path, error: &std::io::Error) -> Diagnostic {
     // Without a pointer it is the file that the message begins with anyway.
     let name = if pointer.is_empty() { "the file".to_owned() } else { path.display().to_string() };
-    let (problem, remedy) = match error.kind() {
+    let (message, help) = match error.kind() {
         std::io::ErrorKind::NotFound => (format!("{name} does not exist"), "check the name"),
         std::io::ErrorKind::PermissionDenied => {
             (format!("{name} may not be read"), "check its permissions")
         }
         _ => (format!("{name} cannot be read: {error}"), "check the file"),
     };
-    Diagnostic::error(codes::IO_ERROR, pointer, problem, remedy)
+    Diagnostic::error(codes::IO_ERROR, pointer, message, help)
 }
 
 /// The error for a path outside of the sandbox.
-fn forbidden_path(pointer: &str, problem: &str) -> Diagnostic {
-    let remedy = "copy the file beside the glTF file and name it by a relative path, or allow its folder \
+fn forbidden_path(pointer: &str, message: &str) -> Diagnostic {
+    let help = "copy the file beside the glTF file and name it by a relative path, or allow its folder \
                   with --allow-outside DIR";
-    Diagnostic::error(codes::FORBIDDEN_PATH, pointer, problem.to_owned(), remedy)
+    Diagnostic::error(codes::FORBIDDEN_PATH, pointer, message.to_owned(), help)
 }
 
 /// The scheme of a URI (RFC 3986 §3.1), if it has one.
@@ -292,8 +310,8 @@ fn decode_data_uri(data: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
         return Err(Diagnostic::invalid(pointer, "the data URI has no comma before its data"));
     };
     if !kind.to_ascii_lowercase().ends_with(";base64") {
-        let problem = "the data URI is neither base64 nor has it two digits after every %";
-        return percent_decode(data).ok_or_else(|| Diagnostic::invalid(pointer, problem));
+        let message = "the data URI is neither base64 nor has it two digits after every %";
+        return percent_decode(data).ok_or_else(|| Diagnostic::invalid(pointer, message));
     }
     let standard = GeneralPurpose::new(&alphabet::STANDARD, LENIENT_BASE64).decode(data);
     let bytes = standard.or_else(|error| {

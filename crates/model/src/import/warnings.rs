@@ -1,4 +1,9 @@
 //! The importer's list of warnings, bounded even if a file has millions of faults.
+//!
+//! Errors become warnings in two ways: some always do, because only the look suffers
+//! ([`ImportWarnings::downgrade`]); others only when reading leniently
+//! ([`ImportWarnings::downgrade_if_lenient`]). The message then ends with the consequence: what is
+//! left out, or what replaces it.
 
 use crate::diagnostic::{Diagnostic, Severity, codes};
 
@@ -40,11 +45,11 @@ impl ImportWarnings {
     }
 
     /// Adds an error as a warning; `consequence` says what is left out or replaced because of it.
-    pub(super) fn downgrade(&mut self, fault: &Diagnostic, consequence: &str) {
+    pub(super) fn downgrade(&mut self, diagnostic: &Diagnostic, consequence: &str) {
         self.push(warning(
-            fault.code,
-            &fault.location,
-            format!("{}; {consequence}", fault.message),
+            diagnostic.code,
+            &diagnostic.location,
+            format!("{}; {consequence}", diagnostic.message),
         ));
     }
 
@@ -54,13 +59,13 @@ impl ImportWarnings {
     /// returned always.
     pub(super) fn downgrade_if_lenient(
         &mut self,
-        fault: Diagnostic,
+        diagnostic: Diagnostic,
         consequence: &str,
     ) -> Result<(), Diagnostic> {
-        if !self.lenient || matches!(fault.code, codes::LIMIT_EXCEEDED | codes::NO_SUCH_ITEM) {
-            return Err(fault);
+        if !self.lenient || matches!(diagnostic.code, codes::LIMIT_EXCEEDED | codes::NO_SUCH_ITEM) {
+            return Err(diagnostic);
         }
-        self.downgrade(&fault, consequence);
+        self.downgrade(&diagnostic, consequence);
         Ok(())
     }
 

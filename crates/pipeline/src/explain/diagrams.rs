@@ -1,6 +1,7 @@
-//! The figures of an explanation: the view volume from above and from the side, the canonical volume, and the picture.
+//! SVG diagrams of an explanation: the view volume from above and from the side, the canonical volume,
+//! and the picture.
 //!
-//! They show the numbers that the steps tell: what is not among these is not drawn.
+//! They show numbers of the steps and nothing else.
 
 use super::plain_text::format_number;
 use super::transform_chain::TransformChain;
@@ -10,31 +11,32 @@ use base64::engine::general_purpose::STANDARD;
 use homog::HPoint;
 use shade::Picture;
 
-/// Width and height of a figure, and the room around what it shows, in its own units.
+/// Width and height of a diagram in its own units.
 const SIZE: [f64; 2] = [300.0, 220.0];
+/// The margin around its contents.
 const MARGIN: f64 = 24.0;
 
-/// A point of the subject in one of the spaces, with its name.
+/// A point of the subject in one space, with its label.
 struct LabeledPoint {
     name: String,
     coordinates: Vec<f64>,
 }
 
-/// A figure: what it shows, and the SVG element.
+/// A diagram: caption and SVG element.
 pub(super) struct Diagram {
     pub(super) caption: String,
     pub(super) svg: String,
 }
 
-/// All figures that an explanation has the numbers for.
+/// All diagrams for which an explanation has the numbers.
 pub(super) fn draw_diagrams(
-    told: &Explanation,
+    explanation: &Explanation,
     chain: &TransformChain,
     picture: Option<&Picture>,
 ) -> Vec<Diagram> {
     let mut figures = Vec::new();
     if let Some(corners) = view_volume_corners(chain) {
-        let marks = labeled_points(told, "view");
+        let marks = labeled_points(explanation, "view");
         let ahead = if chain.looks_along_z() { 1.0 } else { -1.0 };
         let plan = |place: &[f64]| [ahead * place[2], place[0]];
         let side = |place: &[f64]| [ahead * place[2], place[1]];
@@ -52,7 +54,7 @@ pub(super) fn draw_diagrams(
             side,
         ));
     }
-    let marks_of_ndc = labeled_points(told, "ndc");
+    let marks_of_ndc = labeled_points(explanation, "ndc");
     if !marks_of_ndc.is_empty() {
         let corners = canonical_corners(chain);
         let front = |place: &[f64]| [place[0], place[1]];
@@ -71,14 +73,14 @@ pub(super) fn draw_diagrams(
         ));
     }
     if let Some(picture) = picture {
-        figures.push(picture_diagram(chain, picture, &labeled_points(told, "screen")));
+        figures.push(picture_diagram(chain, picture, &labeled_points(explanation, "screen")));
     }
     figures
 }
 
-/// The points that the steps tell of in a space: of a segment both ends, of a triangle all corners.
-fn labeled_points(told: &Explanation, space: &str) -> Vec<LabeledPoint> {
-    let items = told.steps.iter().flat_map(|step| &step.items);
+/// The points of the steps in a space, found by the ids of items: one, two ends or three vertices.
+fn labeled_points(explanation: &Explanation, space: &str) -> Vec<LabeledPoint> {
+    let items = explanation.steps.iter().flat_map(|step| &step.items);
     let marks = items.filter_map(|item| {
         let name = item.id.strip_prefix(space)?;
         let name = if name.is_empty() { name } else { name.strip_prefix('_')? };
@@ -89,14 +91,14 @@ fn labeled_points(told: &Explanation, space: &str) -> Vec<LabeledPoint> {
     marks.collect()
 }
 
-/// The corners of the canonical volume: x fastest, then y, then z.
+/// The corners of the canonical volume in NDC: x varies fastest, then y, then z.
 fn canonical_corners(chain: &TransformChain) -> [[f64; 3]; 8] {
     let [near, far] = chain.depth_range();
     let side = |bit: usize| if bit == 0 { -1.0 } else { 1.0 };
     std::array::from_fn(|n| [side(n & 1), side(n >> 1 & 1), if n >> 2 == 0 { near } else { far }])
 }
 
-/// The corners of the view volume in view space; `None` if it reaches to infinity.
+/// The corners of the view volume in view space; `None` if it is infinite.
 fn view_volume_corners(chain: &TransformChain) -> Option<[[f64; 3]; 8]> {
     let clip_to_view = chain.view_to_clip().inverse()?;
     let mut corners = [[0.0; 3]; 8];
@@ -107,7 +109,7 @@ fn view_volume_corners(chain: &TransformChain) -> Option<[[f64; 3]; 8]> {
     corners.as_flattened().iter().all(|c| c.abs() < 1e12).then_some(corners)
 }
 
-/// The edges of a box by the numbers of its corners.
+/// The edges of a box by the indices of its corners.
 const BOX_EDGES: [[usize; 2]; 12] = [
     [0, 1],
     [2, 3],
@@ -123,7 +125,7 @@ const BOX_EDGES: [[usize; 2]; 12] = [
     [3, 7],
 ];
 
-/// A volume seen along an axis, with the points of the subject.
+/// The diagram of a volume seen along an axis, with the points of the subject.
 fn volume_diagram(
     caption: &str,
     corners: [[f64; 2]; 8],
@@ -155,7 +157,7 @@ fn volume_diagram(
     Diagram { caption: caption.to_owned(), svg }
 }
 
-/// The picture with the points of the subject.
+/// The diagram of the picture with the points of the subject.
 fn picture_diagram(chain: &TransformChain, picture: &Picture, marks: &[LabeledPoint]) -> Diagram {
     let [width, height] = chain.image_size();
     let mut svg = open_svg([width, height]);
@@ -174,7 +176,8 @@ fn picture_diagram(chain: &TransformChain, picture: &Picture, marks: &[LabeledPo
     Diagram { caption, svg }
 }
 
-/// Points with their names, joined if there are several; `unit` is the length of a line's width.
+/// The points with their labels, joined to a polygon if there are several; `unit` scales lines and
+/// letters.
 fn subject_svg(marks: &[LabeledPoint], placed: &[[f64; 2]], unit: f64) -> String {
     let mut svg = String::new();
     if placed.len() > 1 {
@@ -204,17 +207,19 @@ fn subject_svg(marks: &[LabeledPoint], placed: &[[f64; 2]], unit: f64) -> String
     svg
 }
 
+/// The opening tag of a diagram.
 fn open_svg([width, height]: [f64; 2]) -> String {
     format!("<svg viewBox=\"0 0 {width} {height}\" role=\"img\">")
 }
 
-/// Where points of a plane, y up, are in a figure: all in it, at one scale.
+/// The window-to-viewport map of a diagram: y up to y down, equal scales on both axes.
 struct DiagramWindow {
     center: [f64; 2],
     scale: f64,
 }
 
 impl DiagramWindow {
+    /// The map that shows all points, centered.
     fn around_points<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> Self {
         let (mut min, mut max) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for point in points {
@@ -228,6 +233,7 @@ impl DiagramWindow {
         Self { center: center, scale: scale(0).min(scale(1)) }
     }
 
+    /// A point in the diagram's units.
     fn to_diagram(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [cx, cy] = self.center;
         [0.5 * SIZE[0] + (x - cx) * self.scale, 0.5 * SIZE[1] - (y - cy) * self.scale]

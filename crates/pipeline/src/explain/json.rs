@@ -1,15 +1,17 @@
-//! An explanation for programs. Numbers are exact: JSON's decimals lead back to the same f64.
+//! An explanation as JSON, for programs. Numbers are exact: the decimals parse to the same f64.
 
 use super::{Explanation, Item, ItemValue, Step};
 use serde_json::{Value as Json, json};
 
 /// The name of the schema.
 pub const SCHEMA_NAME: &str = "alberti-explain";
-/// The version of the schema. New members may come in any release; it rises when one changes its meaning or goes.
+/// The version of the schema. It rises when a member changes its meaning or is removed; new members
+/// may come in any release.
 pub const SCHEMA_VERSION: u32 = 1;
 
 impl Explanation {
-    /// The explanation as a JSON document: steps by their ids, and in each the items by theirs. What is not finite is `null`.
+    /// Formats the explanation as a JSON document: a list of steps, each with a list of items. Numbers
+    /// that are not finite become `null`.
     #[must_use]
     pub fn to_json(&self) -> Json {
         json!({

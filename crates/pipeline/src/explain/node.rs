@@ -1,4 +1,4 @@
-//! A node: why its mesh is seen, or what keeps it from being seen.
+//! Explanation of a node: why its mesh is visible or not, by the stages that could remove it.
 
 use super::plain_text::format_number;
 use super::point::{describe_node, model_point};
@@ -10,9 +10,10 @@ use homog::{Clip, HPoint, Point, World};
 use model::ModelInstance;
 use model::{AlphaMode, MeshInstance, Model, Primitive, Topology};
 
-/// Tells what becomes of all that a node shows.
+/// Counts the primitives of a node's mesh by the stage that removes them: view volume, back-face
+/// culling, transparency.
 ///
-/// That something stands in front of it is not looked at: what is hidden has come through all of these stages.
+/// Occlusion by other surfaces is not tested: it comes after all of these stages.
 #[must_use]
 pub fn explain_node(chain: &TransformChain, placed: &ModelInstance, node: usize) -> Explanation {
     let model = &placed.model;
@@ -35,11 +36,11 @@ pub fn explain_node(chain: &TransformChain, placed: &ModelInstance, node: usize)
     Explanation { subject, steps, verdict: counts.verdict() }
 }
 
-/// Where the node is in the tree.
+/// The path from the root to the node.
 fn tree_step(model: &Model, node: usize) -> Step {
     let mut path = Vec::new();
     let mut above = Some(node);
-    // A forest without cycles: the importer has seen to that.
+    // The importer refuses cycles, so this ends.
     while let Some(at) = above {
         path.push(describe_node(model, at));
         above = model.nodes.get(at).and_then(|node| node.parent);
@@ -60,7 +61,7 @@ fn tree_step(model: &Model, node: usize) -> Step {
     }
 }
 
-/// Why a node shows no mesh.
+/// The reason for a node without a visible mesh.
 fn explain_absence(model: &Model, node: usize) -> String {
     match model.nodes.get(node) {
         None => "There is no such node.".to_owned(),
@@ -75,25 +76,27 @@ fn explain_absence(model: &Model, node: usize) -> String {
     }
 }
 
-/// What becomes of all points, lines and triangles.
+/// The number of points, lines and triangles by the stage that removes them.
 #[derive(Default)]
 struct PrimitiveCounts {
+    /// The bounding box in the world.
     bounds: Option<[DVec3; 2]>,
-    /// The planes that everything is outside of.
+    /// The planes of the view volume that every vertex is outside of.
     common_outcode: Option<Outcode>,
     total: usize,
-    /// Wholly outside of one plane, for each of the six.
+    /// Trivially rejected, by the first plane that rejects; one count for each of the six.
     outside: [usize; 6],
-    /// Seen from behind, with a material that has no back.
+    /// Culled back faces of single-sided materials.
     back_facing: usize,
-    /// Without area on the screen.
+    /// Seen edge-on: no area on the screen.
     edge_on: usize,
-    /// With a material that is wholly transparent.
+    /// Blended with alpha 0.
     transparent: usize,
     visible: usize,
 }
 
 impl PrimitiveCounts {
+    /// Counts all points, lines and triangles of a primitive.
     fn count_primitive(
         &mut self,
         chain: &TransformChain,
@@ -122,12 +125,14 @@ impl PrimitiveCounts {
         }
     }
 
+    /// Extends the bounding box to a point.
     fn extend_bounds(&mut self, point: DVec3) {
         let [least, most] = self.bounds.unwrap_or([point, point]);
         self.bounds = Some([least.min(point), most.max(point)]);
     }
 
-    /// Counts a point, line or triangle. `culled` tells whether one that shows its front to the viewer (or does not) is left out.
+    /// Counts one point, line or triangle. `culled` says for a front face (`true`) or back face whether
+    /// it is culled.
     fn classify_primitive(
         &mut self,
         chain: &TransformChain,
@@ -156,6 +161,7 @@ impl PrimitiveCounts {
         }
     }
 
+    /// The bounding box and its relation to the view volume.
     fn bounds_step(&self) -> Step {
         let step = Step::new("bounds", "Where all of it is", Some("CL-1"));
         let Some([min, most]) = self.bounds else {
@@ -171,6 +177,7 @@ impl PrimitiveCounts {
             .with_item("outside", "all of it", describe_outcode(common))
     }
 
+    /// The counts as a step.
     fn count_step(&self) -> Step {
         let mut step =
             Step::new("counts", "Its points, lines and triangles", Some("CL-1, CL-3, RA-1"))
@@ -187,6 +194,7 @@ impl PrimitiveCounts {
             .with_item("left", "in the view volume", self.visible as f64)
     }
 
+    /// The result in a sentence: the stage that removes everything, or the visible fraction.
     fn verdict(&self) -> String {
         let common = self.common_outcode.unwrap_or(Outcode::INSIDE);
         if self.total == 0 {

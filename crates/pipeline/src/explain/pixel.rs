@@ -1,4 +1,5 @@
-//! A pixel: the ray that is seen in it, the triangles it shows with their weights and colours, and the place on the nearest.
+//! Explanation of a pixel: its fragments with weights and colors, and the transform chain of the
+//! nearest surface point.
 
 use super::point::{describe_node, model_point};
 use super::transform_chain::TransformChain;
@@ -8,7 +9,7 @@ use crate::scene::Scene;
 use homog::{Point, World};
 use model::Topology;
 
-/// Tells why a pixel, counted from the upper left corner, has its colour.
+/// Explains the color of a pixel; x and y count from the upper left corner.
 ///
 /// # Errors
 /// If there is no such pixel, or none of the picture's pixels is shaded; the text says which.
@@ -43,6 +44,7 @@ pub fn explain_pixel(
     Ok(Explanation { subject, steps, verdict: pixel_verdict(&pixel) })
 }
 
+/// A fragment: the primitive it comes from, weights, color, world position.
 fn fragment_step(scene: &Scene, at: usize, seen: &ShadedFragment) -> Step {
     let title = match seen.source {
         Some(owner) => format!("Seen: {}", source_name(scene, owner)),
@@ -58,6 +60,7 @@ fn fragment_step(scene: &Scene, at: usize, seen: &ShadedFragment) -> Step {
     step
 }
 
+/// The primitive of a fragment in words.
 fn source_name(scene: &Scene, owner: FragmentSource) -> String {
     let FragmentSource { model, node, primitive, element: item } = owner;
     let Some(placed) = scene.models.get(model) else { return String::new() };
@@ -73,13 +76,14 @@ fn source_name(scene: &Scene, owner: FragmentSource) -> String {
     )
 }
 
+/// The glTF primitive that a fragment comes from.
 fn find_primitive(scene: &Scene, owner: FragmentSource) -> Option<&model::Primitive> {
     let model = &scene.models.get(owner.model)?.model;
     let mesh = model.meshes.get(model.nodes.get(owner.node)?.mesh?)?;
     mesh.primitives.get(owner.primitive)
 }
 
-/// The place of a fragment of a triangle in the world: its corners times their weights.
+/// The world position of a triangle's fragment: its vertices blended by the barycentric weights.
 fn fragment_position(scene: &Scene, seen: &ShadedFragment) -> Option<Point<World>> {
     let owner = seen.source?;
     let placed = scene.models.get(owner.model)?;
@@ -97,6 +101,7 @@ fn fragment_position(scene: &Scene, seen: &ShadedFragment) -> Option<Point<World
     Some(Point::from_raw(place))
 }
 
+/// The resolved color of the pixel.
 fn color_step(makeup: &PixelFragments) -> Step {
     let [r, g, b, alpha] = makeup.color;
     Step::new("pixel", "The pixel: samples resolved in linear light, then sRGB", Some("RA-2"))
@@ -104,6 +109,7 @@ fn color_step(makeup: &PixelFragments) -> Step {
         .with_item("hex", "as on a web page", format!("#{r:02x}{g:02x}{b:02x}, alpha {alpha}"))
 }
 
+/// The result in a sentence.
 fn pixel_verdict(makeup: &PixelFragments) -> String {
     let [r, g, b, alpha] = makeup.color;
     let what = match makeup.fragments.len() {

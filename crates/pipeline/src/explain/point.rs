@@ -1,4 +1,4 @@
-//! A place of the world, or a vertex of a model, on its way to a pixel.
+//! Explanation of a world point or of a mesh vertex: all transforms to its pixel.
 
 use super::plain_text::format_number;
 use super::transform_chain::{TransformChain, describe_outcode};
@@ -7,7 +7,7 @@ use homog::{Affine, Model as ModelSpace, Point, World};
 use model::ModelInstance;
 use model::{MeshInstance, Model};
 
-/// Tells the maps themselves, without anything that passes them.
+/// Explains the transforms themselves, without a point.
 #[must_use]
 pub fn explain_transforms(chain: &TransformChain) -> Explanation {
     let [_, screen] = chain.screen_steps(&[]);
@@ -20,25 +20,25 @@ pub fn explain_transforms(chain: &TransformChain) -> Explanation {
     }
 }
 
-/// Follows a place of the world through every stage.
+/// Follows a world point through every stage.
 #[must_use]
 pub fn explain_point(chain: &TransformChain, place: Point<World>) -> Explanation {
     let [x, y, z] = <[f64; 3]>::from(place).map(format_number);
     explain_world_point(chain, place, format!("The point ({x}, {y}, {z}) of the world"), Vec::new())
 }
 
-/// A vertex of a shown mesh.
+/// The indices of a mesh vertex.
 #[derive(Clone, Copy, Debug)]
 pub struct VertexRef {
-    /// The node's number in its model.
+    /// Index of the node in its model.
     pub node: usize,
-    /// The primitive's number in the mesh of the node.
+    /// Index of the primitive in the node's mesh.
     pub primitive: usize,
-    /// The vertex's number in the primitive.
+    /// Index of the vertex in the primitive.
     pub index: usize,
 }
 
-/// Follows a vertex of a model through every stage, as the model stands.
+/// Follows a vertex of a model through every stage, in the model's current pose.
 ///
 /// # Errors
 /// If the model does not show such a vertex; the text says what there is.
@@ -65,6 +65,7 @@ pub fn explain_vertex(
     Ok(explain_world_point(chain, world, subject, vec![step]))
 }
 
+/// The steps of a world point, after those that led to it.
 fn explain_world_point(
     chain: &TransformChain,
     place: Point<World>,
@@ -87,7 +88,7 @@ fn explain_world_point(
     Explanation { subject, steps, verdict }
 }
 
-/// The way of points of a mesh to the world.
+/// The model transform: mesh to world, for labeled points.
 pub(super) fn model_step(
     placed: &ModelInstance,
     to_model: Affine<ModelSpace, ModelSpace>,
@@ -114,7 +115,10 @@ pub(super) fn model_step(
     step
 }
 
-/// The first instance of a node, and one of the primitives it shows.
+/// The first instance of a node's mesh, and one of its primitives.
+///
+/// # Errors
+/// If there is none; the message lists nodes or counts primitives that exist.
 pub(super) fn find_shown_primitive(
     model: &Model,
     node: usize,
@@ -135,7 +139,7 @@ pub(super) fn find_shown_primitive(
     Ok((instance, primitive))
 }
 
-/// A node by its name and number.
+/// A node by its index and name.
 pub(super) fn describe_node(model: &Model, node: usize) -> String {
     match model.nodes.get(node).and_then(|node| node.name.as_deref()) {
         Some(name) => format!("node {node} `{name}`"),
@@ -143,6 +147,7 @@ pub(super) fn describe_node(model: &Model, node: usize) -> String {
     }
 }
 
+/// A vertex position in f64.
 pub(super) fn model_point(position: [f32; 3]) -> Point<ModelSpace> {
     Point::from(position.map(f64::from))
 }

@@ -1,4 +1,4 @@
-//! A segment: where each plane of the view volume cuts it, before the divide (CL-2).
+//! Explanation of a segment: clipping against the view volume before the divide (CL-2).
 
 use super::plain_text::format_number;
 use super::transform_chain::{TransformChain, describe_outcode};
@@ -6,7 +6,7 @@ use super::{Explanation, Step};
 use clip::{clip_segment, segment_outcomes};
 use homog::{Clip, HPoint, Point, World};
 
-/// Follows a segment of the world through every stage.
+/// Follows a world segment through every stage.
 #[must_use]
 pub fn explain_segment(chain: &TransformChain, ends: [Point<World>; 2]) -> Explanation {
     let named = [("a", ends[0]), ("b", ends[1])];
@@ -38,6 +38,7 @@ pub fn explain_segment(chain: &TransformChain, ends: [Point<World>; 2]) -> Expla
     Explanation { subject: "A segment from a to b".to_owned(), steps, verdict }
 }
 
+/// The clipping step: the planes through which the visible part enters and leaves.
 fn clip_step(
     chain: &TransformChain,
     a: HPoint<Clip>,

@@ -1,4 +1,5 @@
-//! A triangle: what each plane cut, what polygon is left, which side it shows (CL-3, RA-1).
+//! Explanation of a triangle: clipping planes, the clipped polygon, its area and winding (CL-3,
+//! RA-1).
 
 use super::plain_text::format_number;
 use super::point::{describe_node, find_shown_primitive, model_point, model_step};
@@ -71,6 +72,7 @@ pub fn explain_triangle(
     Ok(Explanation { subject, steps, verdict })
 }
 
+/// The clipping step: planes, and the vertices of the clipped polygon with their weights.
 fn clip_step(left: &ClippedPolygon) -> Step {
     let mut step = Step::new("clip", "Clipping, in homogeneous space", Some("CL-3"))
         .with_item("cut", "cut by", plane_list(left.outcomes.clipped, "no plane"))
@@ -90,6 +92,7 @@ fn clip_step(left: &ClippedPolygon) -> Step {
     step
 }
 
+/// The planes of an outcode as a list, or `none`.
 fn plane_list(code: clip::Outcode, none: &str) -> String {
     if code.is_inside() {
         return none.to_owned();
@@ -98,7 +101,8 @@ fn plane_list(code: clip::Outcode, none: &str) -> String {
     names.join(", ")
 }
 
-/// The area on the screen in pixels: positive if the corners run clockwise as the picture is seen with y down.
+/// The signed area on the screen in pixels (shoelace formula): positive if the vertices run
+/// clockwise, with y down.
 fn screen_area(chain: &TransformChain, left: &ClippedPolygon) -> f64 {
     let corners: Vec<DVec2> = left
         .vertices()
@@ -110,6 +114,7 @@ fn screen_area(chain: &TransformChain, left: &ClippedPolygon) -> f64 {
     0.5 * ring.map(|(p, q)| p.perp_dot(*q)).sum::<f64>()
 }
 
+/// The area and winding on the screen.
 fn area_step(area: f64) -> Step {
     let orientation = match area {
         area if area > 0.0 => "from +x towards +y",

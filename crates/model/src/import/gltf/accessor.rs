@@ -49,14 +49,14 @@ impl<'a> AccessorReader<'a> {
         let block =
             ElementLayout { pointer: &pointer, count, size: element_size(component, shape) };
         let offset = json.byte_offset.unwrap_or_default().0;
-        let run = json
+        let data = json
             .buffer_view
             .map(|view| self.strided_bytes(view.value(), offset, block))
             .transpose()?;
         let sparse = json.sparse.as_ref().map(|json| self.resolve_sparse(json, accessor, block));
         Ok(ResolvedAccessor {
             accessor,
-            data: run,
+            data,
             sparse: sparse.transpose()?,
             first: 0,
             count,
@@ -72,28 +72,40 @@ impl<'a> AccessorReader<'a> {
         json.is_some_and(|json| json.buffer_view.is_none() && json.sparse.is_none())
     }
 
-    /// The first `N` components of every element as floats.
+    /// The first `N` components of every element as floats; normalized integers are converted.
+    ///
+    /// # Errors
+    /// The array exceeds the memory budget.
     pub(super) fn read_floats<const N: usize>(
         &self,
-        of: &ResolvedAccessor<'_>,
+        elements: &ResolvedAccessor<'_>,
     ) -> Result<Vec<[f32; N]>, Diagnostic> {
-        self.charge_array(of.accessor, of.count, 4 * N)?;
-        Ok(of.to_floats())
+        self.charge_array(elements.accessor, elements.count, 4 * N)?;
+        Ok(elements.to_floats())
     }
 
-    /// The first `N` components of every element as unsigned shorts.
+    /// The first `N` components of every element as unsigned shorts, for joint indices.
+    ///
+    /// # Errors
+    /// The array exceeds the memory budget.
     pub(super) fn read_u16s<const N: usize>(
         &self,
-        of: &ResolvedAccessor<'_>,
+        elements: &ResolvedAccessor<'_>,
     ) -> Result<Vec<[u16; N]>, Diagnostic> {
-        self.charge_array(of.accessor, of.count, 2 * N)?;
-        Ok(of.to_u16s())
+        self.charge_array(elements.accessor, elements.count, 2 * N)?;
+        Ok(elements.to_u16s())
     }
 
-    /// The elements as indices.
-    pub(super) fn read_indices(&self, of: &ResolvedAccessor<'_>) -> Result<Vec<u32>, Diagnostic> {
-        self.charge_array(of.accessor, of.count, 4)?;
-        Ok(of.to_indices())
+    /// The elements as vertex indices.
+    ///
+    /// # Errors
+    /// The array exceeds the memory budget.
+    pub(super) fn read_indices(
+        &self,
+        elements: &ResolvedAccessor<'_>,
+    ) -> Result<Vec<u32>, Diagnostic> {
+        self.charge_array(elements.accessor, elements.count, 4)?;
+        Ok(elements.to_indices())
     }
 
     /// Charges the memory budget for an array that is about to be made of an accessor.
@@ -108,6 +120,10 @@ impl<'a> AccessorReader<'a> {
     }
 
     /// The bytes of elements that begin at an offset in a buffer view.
+    ///
+    /// The last element needs its own size only, not a whole stride (glTF 2.0 §3.6.2.4):
+    /// interleaved attributes end before the stride of the last vertex is full. Overflow saturates
+    /// and then exceeds any buffer, so that it is reported as missing bytes.
     fn strided_bytes(
         &self,
         view: usize,
@@ -117,8 +133,8 @@ impl<'a> AccessorReader<'a> {
         let view = self.buffers.buffer_view(view, &format!("{}/bufferView", block.pointer))?;
         let stride = view.stride.unwrap_or(block.size);
         if stride < block.size && block.count > 1 {
-            let problem = format!("the stride is {stride}, an element has {} bytes", block.size);
-            return Err(Diagnostic::invalid(&format!("{}/byteStride", view.pointer), problem));
+            let message = format!("the stride is {stride}, an element has {} bytes", block.size);
+            return Err(Diagnostic::invalid(&format!("{}/byteStride", view.pointer), message));
         }
         let stride = stride.max(block.size);
         let gaps = (block.count as u64).saturating_sub(1).saturating_mul(stride as u64);
@@ -126,17 +142,20 @@ impl<'a> AccessorReader<'a> {
         match checked_slice(view.bytes, offset, length) {
             Some(bytes) => Ok(StridedBytes { bytes, stride }),
             None => {
-                let (count, pointer, there) = (block.count, view.pointer, view.bytes.len());
-                let problem = format!(
-                    "{count} elements from byte {offset} on need {length} bytes, and {pointer} has {there}"
+                let (count, pointer, available) = (block.count, view.pointer, view.bytes.len());
+                let message = format!(
+                    "{count} elements from byte {offset} on need {length} bytes, and {pointer} has {available}"
                 );
-                Err(Diagnostic::invalid(block.pointer, problem))
+                Err(Diagnostic::invalid(block.pointer, message))
             }
         }
     }
 
     /// Resolves a sparse accessor: indices and values of the elements that replace some of the
     /// `base` (glTF 2.0 §3.6.2.3).
+    ///
+    /// Every index is checked to be less than the number of elements. The rule that indices
+    /// increase is left to the checker: reading does not depend on it.
     fn resolve_sparse(
         &self,
         json: &sparse::Sparse,
@@ -146,8 +165,8 @@ impl<'a> AccessorReader<'a> {
         let count = usize::try_from(json.count.0).unwrap_or(usize::MAX);
         let pointer = format!("{}/sparse/indices", base.pointer);
         let Checked::Valid(IndexComponentType(component)) = json.indices.component_type else {
-            let problem = "the component type is not one of 5121, 5123 and 5125";
-            return Err(Diagnostic::invalid(&format!("{pointer}/componentType"), problem));
+            let message = "the component type is not one of 5121, 5123 and 5125";
+            return Err(Diagnostic::invalid(&format!("{pointer}/componentType"), message));
         };
         let block = ElementLayout { pointer: &pointer, count, size: component.size() };
         let (view, offset) = (json.indices.buffer_view.value(), json.indices.byte_offset.0);
@@ -162,8 +181,8 @@ impl<'a> AccessorReader<'a> {
             normalized: false,
         })?;
         if let Some(&index) = indices.iter().find(|&&index| index as usize >= base.count) {
-            let problem = format!("element {index} is to be replaced and there are {}", base.count);
-            return Err(Diagnostic::invalid(&pointer, problem));
+            let message = format!("element {index} is to be replaced and there are {}", base.count);
+            return Err(Diagnostic::invalid(&pointer, message));
         }
         let pointer = format!("{}/sparse/values", base.pointer);
         let block = ElementLayout { pointer: &pointer, count, size: base.size };
@@ -184,12 +203,12 @@ struct ElementLayout<'a> {
 /// Component type and element type.
 fn accessor_format(json: &Accessor, pointer: &str) -> Result<(ComponentType, Type), Diagnostic> {
     let Checked::Valid(component) = json.component_type else {
-        let problem = "the component type is not one of 5120, 5121, 5122, 5123, 5125 and 5126";
-        return Err(Diagnostic::invalid(&format!("{pointer}/componentType"), problem));
+        let message = "the component type is not one of 5120, 5121, 5122, 5123, 5125 and 5126";
+        return Err(Diagnostic::invalid(&format!("{pointer}/componentType"), message));
     };
     let Checked::Valid(shape) = json.type_ else {
-        let problem = "the type is not one of SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 and MAT4";
-        return Err(Diagnostic::invalid(&format!("{pointer}/type"), problem));
+        let message = "the type is not one of SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 and MAT4";
+        return Err(Diagnostic::invalid(&format!("{pointer}/type"), message));
     };
     Ok((component.0, shape))
 }

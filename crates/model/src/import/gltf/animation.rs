@@ -1,5 +1,9 @@
 //! Animations: channels and samplers become keyframe curves; invalid channels are left out with a
 //! warning.
+//!
+//! A sampler has keyframe times (`input`) and values (`output`); a channel says which property of
+//! which node they set. LINEAR means slerp for rotations. Values may be normalized integers, which
+//! become floats here.
 
 use super::accessor::AccessorReader;
 use super::animation_pointer::{self, ChannelValueKind};
@@ -39,8 +43,8 @@ pub(super) fn import_animations(
         let mut channels = Vec::with_capacity(json.channels.len());
         let reader = AnimationReader { source, samplers: &json.samplers, animation: at };
         let mut keep = |read: Result<AnimationChannel, Diagnostic>| match read {
-            Err(fault) if fault.is_downgradable() => {
-                warnings.downgrade(&fault, "the channel is left out");
+            Err(diagnostic) if diagnostic.is_downgradable() => {
+                warnings.downgrade(&diagnostic, "the channel is left out");
                 Ok(())
             }
             read => read.map(|channel| channels.push(channel)),
@@ -90,8 +94,8 @@ impl AnimationReader<'_> {
             }
         };
         if property != NodeProperty::Weights && target.trs.is_none() {
-            let problem = format!("node {node} has a matrix, which cannot be animated");
-            return Err(Diagnostic::invalid(&format!("{pointer}/target/node"), problem));
+            let message = format!("node {node} has a matrix, which cannot be animated");
+            return Err(Diagnostic::invalid(&format!("{pointer}/target/node"), message));
         }
         let kind = ChannelValueKind::for_property(property);
         let curve = self.read_sampler(json.sampler.value(), kind, &format!("{pointer}/sampler"))?;
@@ -109,8 +113,8 @@ impl AnimationReader<'_> {
             animation_pointer::resolve_pointer(self.source.root, targets, &json.target)
         else {
             let pointer = format!("{pointer}/target/extensions/KHR_animation_pointer/pointer");
-            let problem = format!("\"{}\" is nothing that can be animated here", json.target);
-            return Err(Diagnostic::invalid(&pointer, problem));
+            let message = format!("\"{}\" is nothing that can be animated here", json.target);
+            return Err(Diagnostic::invalid(&pointer, message));
         };
         let curve = self.read_sampler(json.sampler, kind, &format!("{pointer}/sampler"))?;
         Ok(AnimationChannel { target, curve })
@@ -135,6 +139,14 @@ impl AnimationReader<'_> {
     }
 
     /// Reads keyframes and values, and checks that their numbers agree.
+    ///
+    /// Values per keyframe follow from the target: 3 for translation and scale, 4 for rotation, and
+    /// for morph weights as many as there are targets. Cubic splines have three times as many:
+    /// in-tangent, value, out-tangent.
+    ///
+    /// # Errors
+    /// The interpolation is unknown, times do not increase, or there are too few or too many
+    /// values.
     fn read_curve(
         &self,
         json: &json::animation::Sampler,
@@ -180,12 +192,12 @@ impl AnimationReader<'_> {
             ChannelValueKind::Numbers(width) => width,
         };
         if values.len() != rows * width || width == 0 {
-            let problem = format!(
+            let message = format!(
                 "{} numbers are not enough, or too many, for {} keys",
                 values.len(),
                 times.len()
             );
-            return Err(Diagnostic::invalid(&pointer, problem));
+            return Err(Diagnostic::invalid(&pointer, message));
         }
         Ok(AnimationCurve { interpolation, times, values, components: width })
     }
@@ -213,7 +225,8 @@ impl AnimationReader<'_> {
     ) -> Result<Vec<f32>, Diagnostic> {
         let mut elements = self.source.resolve_accessor(accessor, pointer)?;
         format.check_elements(&elements, pointer)?;
-        // Integers are normalised even if the file forgot to say so: there is no other way to read them.
+        // Integers are normalised even if the file forgot to say so: there is no other way to read
+        // them.
         elements.normalized = true;
         let values = self.source.read_floats::<N>(&elements)?.into_flattened();
         if values.iter().all(|value| value.is_finite()) {

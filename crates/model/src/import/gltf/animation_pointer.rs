@@ -42,34 +42,34 @@ pub(super) fn resolve_pointer(
 ) -> Option<(AnimationTarget, ChannelValueKind)> {
     let lights = pointer.strip_prefix("/extensions/KHR_lights_punctual");
     let mut steps = lights.unwrap_or(pointer).strip_prefix('/')?.splitn(3, '/');
-    let (list, at, path) = (steps.next()?, parse_index(steps.next()?)?, steps.next()?);
+    let (list, index, path) = (steps.next()?, parse_index(steps.next()?)?, steps.next()?);
     match (list, lights) {
-        ("nodes", None) => node_target(root, targets, at, path),
+        ("nodes", None) => node_target(root, targets, index, path),
         ("meshes", None) => {
-            let target = morph_target_index(root, at, path)?;
+            let target = morph_target_index(root, index, path)?;
             let kind = if target.is_some() {
                 ChannelValueKind::Numbers(1)
             } else {
                 ChannelValueKind::Weights
             };
-            Some((AnimationTarget::MeshMorphWeights { mesh: at, target }, kind))
+            Some((AnimationTarget::MeshMorphWeights { mesh: index, target }, kind))
         }
-        ("materials", None) => material_target(targets, at, path)
-            .or_else(|| texture_transform_target(root, targets, at, path)),
+        ("materials", None) => material_target(targets, index, path)
+            .or_else(|| texture_transform_target(root, targets, index, path)),
         ("cameras", None) => {
             let field = ObjectProperty::for_camera(path)?;
-            let kind = &targets.cameras.get(at)?.projection;
+            let kind = &targets.cameras.get(index)?.projection;
             kind.has_property(field).then_some((
-                AnimationTarget::ObjectProperty { property: field, index: at },
+                AnimationTarget::ObjectProperty { property: field, index },
                 ChannelValueKind::Numbers(1),
             ))
         }
         ("lights", Some(_)) => {
             let field = ObjectProperty::for_light(path)?;
             let ObjectProperty::Light(row) = field else { return None };
-            (LIGHT_PROPERTIES.get(row)?.numbers_mut)(&mut targets.lights.get(at)?.clone())?;
+            (LIGHT_PROPERTIES.get(row)?.numbers_mut)(&mut targets.lights.get(index)?.clone())?;
             Some((
-                AnimationTarget::ObjectProperty { property: field, index: at },
+                AnimationTarget::ObjectProperty { property: field, index },
                 ChannelValueKind::Numbers(field.component_count()),
             ))
         }
@@ -86,10 +86,10 @@ fn parse_index(step: &str) -> Option<usize> {
 fn node_target(
     root: &Root,
     targets: &AnimatedObjects<'_>,
-    at: usize,
+    index: usize,
     path: &str,
 ) -> Option<(AnimationTarget, ChannelValueKind)> {
-    let node = targets.nodes.get(at)?;
+    let node = targets.nodes.get(index)?;
     let property = match path {
         "translation" => NodeProperty::Translation,
         "rotation" => NodeProperty::Rotation,
@@ -98,14 +98,14 @@ fn node_target(
         _ => {
             let target = morph_target_index(root, node.mesh?, path)??;
             return Some((
-                AnimationTarget::NodeMorphWeight { node: at, target },
+                AnimationTarget::NodeMorphWeight { node: index, target },
                 ChannelValueKind::Numbers(1),
             ));
         }
     };
     let fits = property == NodeProperty::Weights || node.trs.is_some();
     fits.then_some((
-        AnimationTarget::Node { node: at, property },
+        AnimationTarget::Node { node: index, property },
         ChannelValueKind::for_property(property),
     ))
 }
@@ -125,14 +125,14 @@ fn morph_target_index(root: &Root, mesh: usize, path: &str) -> Option<Option<usi
 /// A numeric property of a material.
 fn material_target(
     targets: &mut AnimatedObjects<'_>,
-    at: usize,
+    index: usize,
     path: &str,
 ) -> Option<(AnimationTarget, ChannelValueKind)> {
     let field = ObjectProperty::for_material(path)?;
     let ObjectProperty::Material(row) = field else { return None };
-    (MATERIAL_PROPERTIES.get(row)?.numbers_mut)(targets.materials.get_mut(at)?)?;
+    (MATERIAL_PROPERTIES.get(row)?.numbers_mut)(targets.materials.get_mut(index)?)?;
     Some((
-        AnimationTarget::ObjectProperty { property: field, index: at },
+        AnimationTarget::ObjectProperty { property: field, index },
         ChannelValueKind::Numbers(field.component_count()),
     ))
 }
@@ -142,7 +142,7 @@ fn material_target(
 fn texture_transform_target(
     root: &Root,
     targets: &mut AnimatedObjects<'_>,
-    at: usize,
+    index: usize,
     path: &str,
 ) -> Option<(AnimationTarget, ChannelValueKind)> {
     let (path, part) = path.split_once("/extensions/KHR_texture_transform/")?;
@@ -152,14 +152,14 @@ fn texture_transform_target(
         "scale" => (UvTransformPart::Scale, 2),
         _ => return None,
     };
-    let (slot, _) = *TextureSlot::PATHS.iter().find(|(_, of)| *of == path)?;
-    targets.materials.get_mut(at)?.texture_mut(slot)?;
-    let same = |of: &crate::UvTransform| of.material == at && of.slot == slot;
-    let known = targets.uv_transforms.iter().position(same);
-    let transform = match known {
-        Some(known) => known,
+    let (slot, _) = *TextureSlot::PATHS.iter().find(|(_, known)| *known == path)?;
+    targets.materials.get_mut(index)?.texture_mut(slot)?;
+    let is_same = |known: &crate::UvTransform| known.material == index && known.slot == slot;
+    let existing = targets.uv_transforms.iter().position(is_same);
+    let transform = match existing {
+        Some(existing) => existing,
         None => {
-            targets.uv_transforms.push(texture_transform(root, at, slot)?);
+            targets.uv_transforms.push(texture_transform(root, index, slot)?);
             targets.uv_transforms.len() - 1
         }
     };

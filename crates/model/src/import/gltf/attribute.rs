@@ -58,14 +58,14 @@ impl AllowedFormats {
         let shapes: Vec<&str> = self.element_types.iter().map(|&shape| type_name(shape)).collect();
         let components: Vec<String> =
             self.component_types.iter().map(|c| c.as_gl_enum().to_string()).collect();
-        let problem = format!(
+        let message = format!(
             "must be {} of component type {}, not {} of {}",
             shapes.join(" or "),
             components.join(" or "),
             type_name(elements.element_type),
             elements.component_type.as_gl_enum()
         );
-        Err(Diagnostic::invalid(pointer, problem))
+        Err(Diagnostic::invalid(pointer, message))
     }
 }
 
@@ -102,6 +102,11 @@ pub(super) struct AttributeReader<'a, 'w> {
 
 impl AttributeReader<'_, '_> {
     /// Reads an optional attribute: one that is invalid is left out with a warning.
+    ///
+    /// Only the range of vertices that the indices use is converted.
+    ///
+    /// # Errors
+    /// Exceeded limits and unreadable files; faults in the content are warnings.
     pub(super) fn read_attribute<T>(
         &mut self,
         accessor: Option<usize>,
@@ -126,13 +131,13 @@ impl AttributeReader<'_, '_> {
             if elements.count == *vertices {
                 return read(self.source, elements.slice_range(used.clone()));
             }
-            let problem = format!("{} values for {vertices} vertices", elements.count);
-            Err(Diagnostic::invalid(pointer, problem))
+            let message = format!("{} values for {vertices} vertices", elements.count);
+            Err(Diagnostic::invalid(pointer, message))
         });
         match checked {
-            Err(fault) if fault.is_downgradable() => {
+            Err(diagnostic) if diagnostic.is_downgradable() => {
                 let name = pointer.rsplit('/').next().unwrap_or(pointer);
-                self.warnings.downgrade(&fault, &format!("the attribute {name} is left out"));
+                self.warnings.downgrade(&diagnostic, &format!("the attribute {name} is left out"));
                 Ok(None)
             }
             values => values.map(Some),
@@ -148,14 +153,14 @@ impl AttributeReader<'_, '_> {
         let read =
             self.read_attribute(accessor, pointer, &TEXCOORD, |source, e| source.read_floats(&e))?;
         let Some(mut uvs) = read else { return Ok(None) };
-        let is_lost = |uv: &[f32; 2]| !(uv[0].is_finite() && uv[1].is_finite());
-        let mut lost = 0;
-        for uv in uvs.iter_mut().filter(|uv| is_lost(uv)) {
+        let is_nonfinite = |uv: &[f32; 2]| !(uv[0].is_finite() && uv[1].is_finite());
+        let mut nonfinite = 0;
+        for uv in uvs.iter_mut().filter(|uv| is_nonfinite(uv)) {
             *uv = [0.0; 2];
-            lost += 1;
+            nonfinite += 1;
         }
-        if lost > 0 {
-            let message = format!("coordinates are no numbers; they are 0 (vertices: {lost})");
+        if nonfinite > 0 {
+            let message = format!("coordinates are no numbers; they are 0 (vertices: {nonfinite})");
             self.warnings.push_warning(pointer, message);
         }
         Ok(Some(uvs))
@@ -168,7 +173,8 @@ impl AttributeReader<'_, '_> {
         pointer: &str,
     ) -> Result<Option<Vec<[f32; 4]>>, Diagnostic> {
         self.read_attribute(accessor, pointer, &COLOR, |source, mut elements| {
-            // Integers are normalised even if the file forgot to say so: there is no other way to read them.
+            // Integers are normalised even if the file forgot to say so: there is no other way to
+            // read them.
             elements.normalized = true;
             let mut colors: Vec<[f32; 4]> = source.read_floats(&elements)?;
             for color in &mut colors {

@@ -24,6 +24,7 @@ pub(super) struct Buffers<'a> {
 }
 
 impl<'a> Buffers<'a> {
+    /// Buffers of a document whose indices have not been checked; nothing is read yet.
     pub(super) fn new(
         root: &'a Root,
         resolver: &'a UriResolver<'a>,
@@ -93,11 +94,11 @@ impl<'a> Buffers<'a> {
     ) -> Result<&[u8], Diagnostic> {
         let bytes = self.buffer_bytes(buffer, user)?;
         checked_slice(bytes, start, length).ok_or_else(|| {
-            let there = bytes.len();
-            let problem = format!(
-                "bytes {start} to {start} + {length} are not all in buffer {buffer}, which has {there}"
+            let available = bytes.len();
+            let message = format!(
+                "bytes {start} to {start} + {length} are not all in buffer {buffer}, which has {available}"
             );
-            Diagnostic::invalid(user, problem)
+            Diagnostic::invalid(user, message)
         })
     }
 
@@ -116,14 +117,14 @@ impl<'a> Buffers<'a> {
         let all = match (&json.uri, self.binary_chunk) {
             (None, Some(chunk)) if buffer == 0 => chunk,
             (None, _) => {
-                let problem = "the buffer has no data: no URI, and no binary chunk for it";
-                return Err(Diagnostic::missing_data(&format!("/buffers/{buffer}"), problem));
+                let message = "the buffer has no data: no URI, and no binary chunk for it";
+                return Err(Diagnostic::missing_data(&format!("/buffers/{buffer}"), message));
             }
             (Some(uri), _) => match read.get() {
                 Some(bytes) => bytes,
                 None => {
                     let bytes = self.resolver.read_uri(uri, &format!("/buffers/{buffer}/uri"));
-                    let bytes = bytes.map_err(|fault| self.soften_missing_file(fault))?;
+                    let bytes = bytes.map_err(|diagnostic| self.soften_missing_file(diagnostic))?;
                     read.get_or_init(|| bytes)
                 }
             },
@@ -135,10 +136,11 @@ impl<'a> Buffers<'a> {
 
 impl Buffers<'_> {
     /// Reading leniently, a missing file means missing data, which costs what uses it and no more.
-    fn soften_missing_file(&self, fault: Diagnostic) -> Diagnostic {
-        let is_file = matches!(fault.code, codes::IO_ERROR | codes::FORBIDDEN_PATH);
-        let code = if self.resolver.lenient && is_file { codes::MISSING_DATA } else { fault.code };
-        Diagnostic { code, ..fault }
+    fn soften_missing_file(&self, diagnostic: Diagnostic) -> Diagnostic {
+        let is_file = matches!(diagnostic.code, codes::IO_ERROR | codes::FORBIDDEN_PATH);
+        let code =
+            if self.resolver.lenient && is_file { codes::MISSING_DATA } else { diagnostic.code };
+        Diagnostic { code, ..diagnostic }
     }
 }
 

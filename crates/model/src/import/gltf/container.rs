@@ -4,12 +4,14 @@
 //!
 //! ```text
 //!  0      4        8        12       16      20                 20+n
-//!  ┌──────┬────────┬────────┬────────┬───────┬───────────────────┬──── … chunks: length, type, data
-//!  │ glTF │ 2      │ length │ n      │ JSON  │ n bytes of JSON   │
+//!  ┌──────┬────────┬────────┬────────┬───────┬───────────────────┬──── … more chunks:
+//!  │ glTF │ 2      │ length │ n      │ JSON  │ n bytes of JSON   │     length, type, data
 //!  └──────┴────────┴────────┴────────┴───────┴───────────────────┴────
 //! ```
 //!
 //! with all numbers little-endian (glTF 2.0 §4.4). No length is used before it has been checked.
+//! Only the first chunk may be JSON and only the second BIN; later chunks are ignored, as are bytes
+//! after the declared end.
 
 use crate::diagnostic::{Diagnostic, codes};
 use crate::import::warnings::ImportWarnings;
@@ -85,14 +87,14 @@ fn check_glb_header(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<usize
         ));
     }
     if length > bytes.len() {
-        let problem = format!("the header says {length} bytes, the file has {}", bytes.len());
+        let message = format!("the header says {length} bytes, the file has {}", bytes.len());
         warnings
-            .downgrade_if_lenient(format_error(&problem, TRUNCATED), "what is there is read")?;
+            .downgrade_if_lenient(format_error(&message, TRUNCATED), "what is there is read")?;
         return Ok(bytes.len());
     }
     if length < HEADER + CHUNK_HEADER {
-        let problem = format!("the header says {length} bytes, too few for any content");
-        return Err(format_error(&problem, "export the file again"));
+        let message = format!("the header says {length} bytes, too few for any content");
+        return Err(format_error(&message, "export the file again"));
     }
     Ok(length)
 }
@@ -123,9 +125,9 @@ impl<'a> GlbChunks<'a> {
         let (length, kind) = (read_u32(header, 0).unwrap_or(usize::MAX), header.last_chunk());
         let (start, left) = (self.offset + CHUNK_HEADER, data.len());
         if length > left {
-            let problem = format!("a chunk says {length} bytes, {left} are left");
+            let message = format!("a chunk says {length} bytes, {left} are left");
             warnings
-                .downgrade_if_lenient(format_error(&problem, TRUNCATED), "what is there is read")?;
+                .downgrade_if_lenient(format_error(&message, TRUNCATED), "what is there is read")?;
         }
         self.offset = start + length.min(left);
         Ok(kind.map(|kind| (kind, start..self.offset)))
@@ -137,8 +139,8 @@ fn read_u32(bytes: &[u8], at: usize) -> Option<usize> {
     usize::try_from(number).ok()
 }
 
-fn format_error(problem: &str, remedy: &str) -> Diagnostic {
-    Diagnostic::error(codes::NOT_GLTF, "", problem.to_owned(), remedy)
+fn format_error(message: &str, help: &str) -> Diagnostic {
+    Diagnostic::error(codes::NOT_GLTF, "", message.to_owned(), help)
 }
 
 #[cfg(test)]
@@ -157,7 +159,7 @@ mod tests {
         bytes
     }
 
-    fn problem(bytes: &[u8]) -> String {
+    fn message(bytes: &[u8]) -> String {
         Container::from_bytes(bytes, &mut ImportWarnings::default()).unwrap_err().message
     }
 
@@ -175,29 +177,32 @@ mod tests {
 
     #[test]
     fn lies_are_refused() {
-        assert_eq!(problem(b""), "the file is empty");
-        assert!(problem(b"OBJ").starts_with("this is not a glTF file"));
-        assert_eq!(problem(b"glTF\x02"), "the file has only 5 bytes");
-        assert_eq!(problem(&glb(1, 12, &[])), "the file is glTF 1.0 and only glTF 2 is read");
+        assert_eq!(message(b""), "the file is empty");
+        assert!(message(b"OBJ").starts_with("this is not a glTF file"));
+        assert_eq!(message(b"glTF\x02"), "the file has only 5 bytes");
+        assert_eq!(message(&glb(1, 12, &[])), "the file is glTF 1.0 and only glTF 2 is read");
         assert_eq!(
-            problem(&glb(2, 4_000_000_000, &[])),
+            message(&glb(2, 4_000_000_000, &[])),
             "the header says 4000000000 bytes, the file has 12"
         );
-        assert_eq!(problem(&glb(2, 3, &[])), "the header says 3 bytes, too few for any content");
+        assert_eq!(message(&glb(2, 3, &[])), "the header says 3 bytes, too few for any content");
         let long = glb(2, 24, &[(b"JSON", u32::MAX, b"{}  ")]);
-        assert_eq!(problem(&long), "a chunk says 4294967295 bytes, 4 are left");
+        assert_eq!(message(&long), "a chunk says 4294967295 bytes, 4 are left");
         let wrong = glb(2, 24, &[(b"BIN\0", 4, b"{}  ")]);
-        assert_eq!(problem(&wrong), "the first chunk is not JSON");
+        assert_eq!(message(&wrong), "the first chunk is not JSON");
     }
 
     #[test]
     fn every_truncation_is_an_error_and_no_panic() {
         let whole = glb(2, 36, &[(b"JSON", 4, b"{}  "), (b"BIN\0", 4, b"1234")]);
         for end in 0..whole.len() {
-            assert!(
-                Container::from_bytes(&whole[..end], &mut ImportWarnings::default()).is_err(),
-                "{end}"
-            );
+            let cut = Container::from_bytes(&whole[..end], &mut ImportWarnings::default());
+            let diagnostic = cut.unwrap_err();
+            assert_eq!(diagnostic.code, codes::NOT_GLTF, "cut at {end}");
+            if end >= HEADER {
+                let expected = format!("the header says 36 bytes, the file has {end}");
+                assert_eq!(diagnostic.message, expected);
+            }
         }
     }
 }

@@ -54,7 +54,12 @@ impl GltfDocument {
 
 /// Counts nesting and values against the limits without building anything.
 ///
-/// `serde_json` itself stops at a depth of 128, whatever the limit says.
+/// Text outside of strings is scanned for brackets and commas; that is exact for well-formed JSON,
+/// and an upper bound is all that is needed for the rest. `serde_json` itself stops at a depth of
+/// 128, whatever the limit says.
+///
+/// # Errors
+/// [`LIMIT_EXCEEDED`](crate::codes::LIMIT_EXCEEDED) for `json_depth` or `json_values`.
 pub(crate) fn check_json_limits(text: &[u8], limits: &Limits) -> Result<(), Diagnostic> {
     let (mut depth, mut values) = (0usize, 1usize);
     let mut at = 0;
@@ -112,16 +117,19 @@ fn end_of_string(text: &[u8], mut at: usize) -> usize {
 }
 
 /// Checks `asset.version` and `asset.minVersion`; only glTF 2.x is read.
+///
+/// A newer minor version is accepted, as the specification demands, unless `minVersion` says that
+/// the file needs it; reading leniently that is only a warning.
 fn check_gltf_version(value: &Value, warnings: &mut ImportWarnings) -> Result<(), Diagnostic> {
     let asset = &value["asset"];
     let Some(version) = asset["version"].as_str() else {
-        let problem = "the version of glTF is missing";
-        let remedy = "check that this is a glTF file; a glTF 2.0 file says \"asset\": {\"version\": \"2.0\"}";
+        let message = "the version of glTF is missing";
+        let help = "check that this is a glTF file; a glTF 2.0 file says \"asset\": {\"version\": \"2.0\"}";
         return Err(Diagnostic::error(
             codes::UNSUPPORTED_VERSION,
             "/asset/version",
-            problem.to_owned(),
-            remedy,
+            message.to_owned(),
+            help,
         ));
     };
     let unknown = |key: &str, version: &str| {
@@ -210,8 +218,8 @@ fn objects_in<'a>(
 
 /// The error for text that is not JSON.
 fn syntax_error(error: &serde_json::Error) -> Diagnostic {
-    let problem = format!("the JSON is not well formed: {error}");
-    Diagnostic::error(codes::NOT_GLTF, "", problem, "correct it there or export the file again")
+    let message = format!("the JSON is not well formed: {error}");
+    Diagnostic::error(codes::NOT_GLTF, "", message, "correct it there or export the file again")
 }
 
 /// The error for a member of the wrong type, with the JSON pointer to it.
@@ -228,8 +236,8 @@ pub(super) fn type_error(error: &serde_path_to_error::Error<serde_json::Error>) 
             Segment::Unknown => {}
         }
     }
-    let problem = error.inner().to_string().replace("index into child of root", "an index");
-    Diagnostic::invalid(&pointer, problem)
+    let message = error.inner().to_string().replace("index into child of root", "an index");
+    Diagnostic::invalid(&pointer, message)
 }
 
 #[cfg(test)]
@@ -259,7 +267,7 @@ mod tests {
 
     #[test]
     fn faults_have_a_pointer() {
-        for (members, pointer, problem) in [
+        for (members, pointer, message) in [
             (r#", "nodes": 3"#, "/nodes", "invalid type: integer `3`, expected a sequence"),
             (
                 r#", "nodes": [{"mesh": "x"}]"#,
@@ -273,46 +281,46 @@ mod tests {
             ),
             (r#", "meshes": [{}]"#, "/meshes/0", "missing field `primitives`"),
         ] {
-            let fault = parse(members).unwrap_err();
-            assert_eq!((&*fault.location, &*fault.message), (pointer, problem));
+            let diagnostic = parse(members).unwrap_err();
+            assert_eq!((&*diagnostic.location, &*diagnostic.message), (pointer, message));
         }
     }
 
     #[test]
     fn versions() {
-        let problem = |asset: &str| {
+        let message = |asset: &str| {
             let text = format!("{{{asset}}}");
             let document = GltfDocument::parse_json(
                 text.as_bytes(),
                 &Limits::default(),
                 &mut ImportWarnings::default(),
             );
-            document.err().map(|fault| fault.message)
+            document.err().map(|diagnostic| diagnostic.message)
         };
-        assert_eq!(problem(r#""asset": {"version": "2.1"}"#), None);
+        assert_eq!(message(r#""asset": {"version": "2.1"}"#), None);
         assert_eq!(
-            problem(r#""asset": {"version": "1.0"}"#).unwrap(),
+            message(r#""asset": {"version": "1.0"}"#).unwrap(),
             "the file is glTF 1.0 and only glTF 2.0 is read"
         );
         assert_eq!(
-            problem(r#""asset": {"version": "2.1", "minVersion": "2.1"}"#).unwrap(),
+            message(r#""asset": {"version": "2.1", "minVersion": "2.1"}"#).unwrap(),
             "the file is glTF 2.1 and only glTF 2.0 is read"
         );
-        assert_eq!(problem("").unwrap(), "the version of glTF is missing");
+        assert_eq!(message("").unwrap(), "the version of glTF is missing");
     }
 
     #[test]
     fn depth_and_size_are_bounded() {
         let deep = format!(r#", "extras": {}"#, "[".repeat(100_000));
-        let fault = parse(&deep).unwrap_err();
-        assert_eq!(fault.code, codes::LIMIT_EXCEEDED);
-        assert!(fault.sentence().contains("json_depth"), "{fault}");
+        let diagnostic = parse(&deep).unwrap_err();
+        assert_eq!(diagnostic.code, codes::LIMIT_EXCEEDED);
+        assert!(diagnostic.sentence().contains("json_depth"), "{diagnostic}");
         let text = br#"{"asset": {"version": "2.0"}, "extras": "[[[[[[[\"[[[["}"#;
         let limits = Limits { json_depth: 2, json_values: 24, ..Limits::default() };
         let parse =
             |text: &[u8]| GltfDocument::parse_json(text, &limits, &mut ImportWarnings::default());
         assert!(parse(text).is_ok(), "brackets in strings do not count");
         let fault = parse(b"[{},{},{}]").unwrap_err();
-        assert!(fault.sentence().contains("json_values"), "{fault}");
+        assert!(fault.sentence().contains("json_values"), "{diagnostic}");
     }
 }

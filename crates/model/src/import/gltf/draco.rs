@@ -85,8 +85,8 @@ pub(super) fn decode_draco(
     for &(accessor, _) in &attributes {
         let count = source.resolve_accessor(accessor, &pointer)?.count;
         if *vertices.get_or_insert(count) != count {
-            let problem = "the attributes of a primitive must have equally many elements";
-            return Err(Diagnostic::invalid(&format!("/accessors/{accessor}/count"), problem));
+            let message = "the attributes of a primitive must have equally many elements";
+            return Err(Diagnostic::invalid(&format!("/accessors/{accessor}/count"), message));
         }
     }
     let indices = json.indices.map(|accessor| accessor.value());
@@ -130,6 +130,7 @@ fn stream_attributes(
 
 #[cfg(not(feature = "draco"))]
 impl DracoStream<'_> {
+    /// Built without the feature `draco`, every stream is data that cannot be read.
     fn decode_mesh(self) -> Result<DracoData, Diagnostic> {
         Err(Diagnostic::missing_data(&self.pointer, "the data is compressed by Draco"))
     }
@@ -145,6 +146,15 @@ mod decoder {
     use std::collections::BTreeMap;
 
     impl DracoStream<'_> {
+        /// Decodes the stream and checks its counts against the accessors.
+        ///
+        /// The memory budget is charged first, with 16 bytes for each attribute of a vertex, and
+        /// the decoder's own limits are set from the accessors: a stream cannot make more vertices
+        /// than they declare.
+        ///
+        /// # Errors
+        /// The stream is malformed, or its numbers of vertices, indices or components differ from
+        /// those of the accessors.
         pub(super) fn decode_mesh(self) -> Result<DracoData, Diagnostic> {
             for &(accessor, _) in &self.attributes {
                 self.source.charge_array(accessor, self.vertices, 16)?;
@@ -157,13 +167,14 @@ mod decoder {
                 .with_max_decoded_bytes(self.source.limits.array_bytes);
             let mut buffer = DecoderBuffer::new(self.bytes).with_limits(limits);
             MeshDecoder::new().decode(&mut buffer, &mut mesh).map_err(|error| {
-                let problem = format!("the Draco stream is not valid: {}", error.message());
-                Diagnostic::invalid(&self.pointer, problem)
+                let message = format!("the Draco stream is not valid: {}", error.message());
+                Diagnostic::invalid(&self.pointer, message)
             })?;
             if mesh.num_points() != self.vertices {
-                let (found, said) = (mesh.num_points(), self.vertices);
-                let problem = format!("the stream has {found} vertices and the accessors {said}");
-                return Err(Diagnostic::invalid(&self.pointer, problem));
+                let (actual, promised) = (mesh.num_points(), self.vertices);
+                let message =
+                    format!("the stream has {actual} vertices and the accessors {promised}");
+                return Err(Diagnostic::invalid(&self.pointer, message));
             }
             let indices = self.decode_indices(&mesh)?;
             let mut attributes = BTreeMap::new();
@@ -175,15 +186,15 @@ mod decoder {
 
         /// Vertex indices, as many as the accessor promises.
         fn decode_indices(&self, mesh: &Mesh) -> Result<Vec<u32>, Diagnostic> {
-            let found = 3 * mesh.num_faces();
+            let actual = 3 * mesh.num_faces();
             if let Some((accessor, count)) = self.indices
-                && found != count
+                && actual != count
             {
-                let problem = format!("there are {count} indices and {found} in the Draco stream");
-                return Err(Diagnostic::invalid(&format!("/accessors/{accessor}/count"), problem));
+                let message = format!("there are {count} indices and {actual} in the Draco stream");
+                return Err(Diagnostic::invalid(&format!("/accessors/{accessor}/count"), message));
             }
             let accessor = self.indices.map_or(0, |(accessor, _)| accessor);
-            self.source.charge_array(accessor, found, 4)?;
+            self.source.charge_array(accessor, actual, 4)?;
             Ok(mesh.faces().iter().flatten().map(|&PointIndex(index)| index).collect())
         }
 
@@ -196,15 +207,16 @@ mod decoder {
         ) -> Result<Vec<u8>, Diagnostic> {
             let elements = self.source.resolve_accessor(accessor, &self.pointer)?;
             let (shape, component) = (elements.element_type, elements.component_type);
-            let invalid = |problem: String| Err(Diagnostic::invalid(&self.pointer, problem));
+            let invalid = |message: String| Err(Diagnostic::invalid(&self.pointer, message));
             let Some(attribute) = mesh.attribute_by_unique_id(id) else {
                 return invalid(format!("the stream has no attribute {id}"));
             };
-            let (found, due) = (usize::from(attribute.num_components()), shape.multiplicity());
-            if found != due {
-                return invalid(format!("attribute {id} has {found} components, not {due}"));
+            let (actual, expected) =
+                (usize::from(attribute.num_components()), shape.multiplicity());
+            if actual != expected {
+                return invalid(format!("attribute {id} has {actual} components, not {expected}"));
             }
-            let mut bytes = Vec::with_capacity(self.vertices * due * component.size());
+            let mut bytes = Vec::with_capacity(self.vertices * expected * component.size());
             for vertex in 0..self.vertices {
                 match attribute_value(attribute, vertex) {
                     Some(value) => {

@@ -32,6 +32,9 @@ pub(super) struct EdgeReader<'a, 'w> {
 
 impl EdgeReader<'_, '_> {
     /// The edges of a primitive of this topology, if the file marks any.
+    ///
+    /// Only triangles have edges. Faults in the extensions are warnings; exceeded limits and
+    /// unreadable files are errors, as everywhere.
     pub(super) fn read_edges(
         mut self,
         topology: Topology,
@@ -58,8 +61,8 @@ impl EdgeReader<'_, '_> {
     /// Downgrades faults in the file's content to a warning.
     fn warn_if_soft(&mut self, read: Result<(), Diagnostic>) -> Result<(), Diagnostic> {
         match read {
-            Err(fault) if fault.is_downgradable() => {
-                self.warnings.downgrade(&fault, "its edges are left out");
+            Err(diagnostic) if diagnostic.is_downgradable() => {
+                self.warnings.downgrade(&diagnostic, "its edges are left out");
                 Ok(())
             }
             read => read,
@@ -110,6 +113,10 @@ impl EdgeReader<'_, '_> {
     }
 
     /// Unpacks two bits for each edge of each triangle.
+    ///
+    /// Edge e of triangle t is at bits 2 (3t + e) of the byte array, lowest bits first, so that a
+    /// triangle's six bits may span two bytes. The number of bytes must be exactly 6 · triangles /
+    /// 8, rounded up.
     fn read_visibility_bits(
         &self,
         accessor: usize,
@@ -122,10 +129,11 @@ impl EdgeReader<'_, '_> {
                 "the visibility must be SCALAR of unsigned bytes",
             ));
         }
-        let (found, due) = (elements.count, (6 * self.triangles).div_ceil(8));
-        if found != due {
-            let problem = format!("{found} bytes for {} triangles, not {due}", self.triangles);
-            return Err(Diagnostic::invalid(pointer, problem));
+        let (actual, expected) = (elements.count, (6 * self.triangles).div_ceil(8));
+        if actual != expected {
+            let message =
+                format!("{actual} bytes for {} triangles, not {expected}", self.triangles);
+            return Err(Diagnostic::invalid(pointer, message));
         }
         self.source.charge_array(accessor, self.triangles, 3)?;
         let bytes = self.source.read_u16s::<1>(&elements)?;
@@ -159,10 +167,11 @@ impl EdgeReader<'_, '_> {
     fn retain_existing_vertices(&mut self, mut lines: EdgeList, pointer: &str) -> EdgeList {
         let before = lines.vertex_pairs.len();
         lines.vertex_pairs.retain(|ends| ends.iter().all(|&end| (end as usize) < self.vertices));
-        let lost = before - lines.vertex_pairs.len();
-        if lost > 0 {
-            let message =
-                format!("edges use vertices that do not exist; they are left out (edges: {lost})");
+        let dropped = before - lines.vertex_pairs.len();
+        if dropped > 0 {
+            let message = format!(
+                "edges use vertices that do not exist; they are left out (edges: {dropped})"
+            );
             self.warnings.push_warning(pointer, message);
         }
         lines
@@ -175,8 +184,8 @@ impl EdgeReader<'_, '_> {
             return Some(material);
         }
         let pointer = format!("{pointer}/material");
-        let fault = Diagnostic::unresolved_index(&pointer, "material", material, count);
-        self.warnings.downgrade(&fault, "the material of the primitive is used");
+        let diagnostic = Diagnostic::unresolved_index(&pointer, "material", material, count);
+        self.warnings.downgrade(&diagnostic, "the material of the primitive is used");
         None
     }
 }

@@ -1,4 +1,8 @@
 //! Extension support: the extensions that are drawn, ignored or refused.
+//!
+//! To support another one, read it where it belongs (materials in `material`, nodes in
+//! `scene_graph`) and change its row in the table. The table is what the program prints about a
+//! file's extensions.
 
 use crate::diagnostic::{Diagnostic, codes};
 use crate::import::warnings::ImportWarnings;
@@ -84,22 +88,22 @@ pub(super) fn check_extensions(
             Some(_) => continue,
             None => "it is not known here",
         };
-        let fault = Diagnostic::error(
+        let diagnostic = Diagnostic::error(
             codes::UNSUPPORTED_REQUIRED_EXTENSION,
             &format!("/extensionsRequired/{at}"),
             format!("the file requires the extension {name}: {reason}"),
             "export the file without it, or load what can be loaded with --lenient",
         );
-        warnings.downgrade_if_lenient(fault, "it is ignored")?;
+        warnings.downgrade_if_lenient(diagnostic, "it is ignored")?;
     }
-    let mut told = BTreeSet::new();
+    let mut reported = BTreeSet::new();
     for (list, names) in [
         ("extensionsUsed", &root.extensions_used),
         ("extensionsRequired", &root.extensions_required),
     ] {
         for (at, name) in names.iter().enumerate() {
             if let (Some(Partly(reason) | Without(reason) | Never(reason)), true) =
-                (find_support(name), told.insert(name))
+                (find_support(name), reported.insert(name))
             {
                 warnings.push_warning(&format!("/{list}/{at}"), format!("{name}: {reason}"));
             }

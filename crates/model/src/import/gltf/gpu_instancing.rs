@@ -1,4 +1,8 @@
 //! GPU instancing (EXT_mesh_gpu_instancing): meshes that one node draws many times.
+//!
+//! Translation, rotation and scale of the instances are accessors with one element for each;
+//! missing ones are the identity's. They are composed as T · R · S and apply before the node's own
+//! transform.
 
 use super::accessor::AccessorReader;
 use super::attribute::{AllowedFormats, ROTATION, TRANSLATION_OR_SCALE};
@@ -39,21 +43,23 @@ pub(super) fn import_instances(
             None => Err(Diagnostic::invalid(&pointer, "the member `attributes` is missing")),
         };
         let all = match read {
-            Err(fault) if fault.is_downgradable() => {
-                warnings.downgrade(&fault, "the mesh is shown once");
+            Err(diagnostic) if diagnostic.is_downgradable() => {
+                warnings.downgrade(&diagnostic, "the mesh is shown once");
                 continue;
             }
-            places => places?,
+            transforms => transforms?,
         };
         let count = all.len();
-        let shown = |place: &InstanceTransform| place.then(node.to_model).is_finite();
-        let places: Vec<InstanceTransform> = all.into_iter().flatten().filter(shown).collect();
-        if places.len() < count {
-            let lost = count - places.len();
-            let message = format!("places are no finite ones; they are left out (places: {lost})");
+        let is_visible = |transform: &InstanceTransform| transform.then(node.to_model).is_finite();
+        let transforms: Vec<InstanceTransform> =
+            all.into_iter().flatten().filter(is_visible).collect();
+        if transforms.len() < count {
+            let dropped = count - transforms.len();
+            let message =
+                format!("places are no finite ones; they are left out (places: {dropped})");
             warnings.push_warning(&pointer, message);
         }
-        node.instance_transforms = Some(places);
+        node.instance_transforms = Some(transforms);
     }
     Ok(())
 }
@@ -64,14 +70,14 @@ fn instance_transforms(
     attributes: &Map<String, Value>,
     pointer: &str,
 ) -> Result<Vec<Option<InstanceTransform>>, Diagnostic> {
-    let column = InstanceAttributes { source, attributes, pointer };
-    let moved = column.read_attribute::<3>("TRANSLATION", &TRANSLATION_OR_SCALE)?;
-    let turned = column.read_attribute::<4>("ROTATION", &ROTATION)?;
-    let scaled = column.read_attribute::<3>("SCALE", &TRANSLATION_OR_SCALE)?;
+    let reader = InstanceAttributes { source, attributes, pointer };
+    let translations = reader.read_attribute::<3>("TRANSLATION", &TRANSLATION_OR_SCALE)?;
+    let rotations = reader.read_attribute::<4>("ROTATION", &ROTATION)?;
+    let scales = reader.read_attribute::<3>("SCALE", &TRANSLATION_OR_SCALE)?;
     let counts = [
-        moved.as_ref().map(Vec::len),
-        turned.as_ref().map(Vec::len),
-        scaled.as_ref().map(Vec::len),
+        translations.as_ref().map(Vec::len),
+        rotations.as_ref().map(Vec::len),
+        scales.as_ref().map(Vec::len),
     ];
     let mut counts = counts.into_iter().flatten();
     let count = counts.next().unwrap_or(0);
@@ -82,17 +88,18 @@ fn instance_transforms(
         pointer,
         (count as u64).saturating_mul(size_of::<Option<InstanceTransform>>() as u64),
     )?;
-    let place = |at: usize| {
-        let row = moved.as_ref().map_or([0.0; 3], |moved| moved[at]).map(f64::from);
-        let turn = turned.as_ref().map_or([0.0, 0.0, 0.0, 1.0], |turned| turned[at]);
-        let [x, y, z] = scaled.as_ref().map_or([1.0; 3], |scaled| scaled[at]).map(f64::from);
-        let turn = Affine::<ModelSpace, ModelSpace>::from_quaternion(turn.map(f64::from))?;
-        let place = InstanceTransform::scale(x, y, z)
-            .then(turn)
-            .then(Affine::translation(Vector::from(row)));
-        place.is_finite().then_some(place)
+    let transform = |at: usize| {
+        let translation =
+            translations.as_ref().map_or([0.0; 3], |translations| translations[at]).map(f64::from);
+        let rotation = rotations.as_ref().map_or([0.0, 0.0, 0.0, 1.0], |rotations| rotations[at]);
+        let [x, y, z] = scales.as_ref().map_or([1.0; 3], |scales| scales[at]).map(f64::from);
+        let rotation = Affine::<ModelSpace, ModelSpace>::from_quaternion(rotation.map(f64::from))?;
+        let transform = InstanceTransform::scale(x, y, z)
+            .then(rotation)
+            .then(Affine::translation(Vector::from(translation)));
+        transform.is_finite().then_some(transform)
     };
-    Ok((0..count).map(place).collect())
+    Ok((0..count).map(transform).collect())
 }
 
 /// Reader of the attributes of the instances of one node.

@@ -46,10 +46,10 @@ pub(super) fn announced_images(root: &Root, model: &Model, variant: Option<usize
         root.meshes.iter().zip(visible_meshes(model, root.meshes.len())).filter(|at| at.1)
     {
         for primitive in &mesh.primitives {
-            let usual = primitive.material.map(|material| material.value());
+            let base = primitive.material.map(|material| material.value());
             let dressed =
                 variant.and_then(|variant| selection::variant_material(root, primitive, variant));
-            mark_material_images(dressed.or(usual), model, &mut needed);
+            mark_material_images(dressed.or(base), model, &mut needed);
         }
     }
     needed
@@ -58,8 +58,8 @@ pub(super) fn announced_images(root: &Root, model: &Model, variant: Option<usize
 /// Images that visible surfaces use.
 fn needed_images(model: &Model, images: usize) -> Vec<bool> {
     let mut needed = vec![false; images];
-    let shown = visible_meshes(model, model.meshes.len());
-    let meshes = model.meshes.iter().zip(shown).filter(|(_, shown)| *shown);
+    let is_visible = visible_meshes(model, model.meshes.len());
+    let meshes = model.meshes.iter().zip(is_visible).filter(|(_, is_visible)| *is_visible);
     for primitive in meshes.flat_map(|(mesh, _)| &mesh.primitives).filter(|p| p.item_count() > 0) {
         mark_material_images(primitive.material, model, &mut needed);
     }
@@ -68,20 +68,22 @@ fn needed_images(model: &Model, images: usize) -> Vec<bool> {
 
 /// For each mesh, whether the active scene draws it.
 fn visible_meshes(model: &Model, meshes: usize) -> Vec<bool> {
-    let mut shown = vec![false; meshes];
+    let mut is_visible = vec![false; meshes];
     for instance in model.node_instances() {
-        if let Some(flag) = model.nodes[instance.node].mesh.and_then(|mesh| shown.get_mut(mesh)) {
+        if let Some(flag) =
+            model.nodes[instance.node].mesh.and_then(|mesh| is_visible.get_mut(mesh))
+        {
             *flag = true;
         }
     }
-    shown
+    is_visible
 }
 
 /// Marks the images of a material.
 fn mark_material_images(material: Option<usize>, model: &Model, needed: &mut [bool]) {
     let material = material.and_then(|at| model.materials.get(at));
-    for (_, used) in material.into_iter().flat_map(Material::visible_textures) {
-        let image = model.textures.get(used.texture).and_then(|texture| texture.image);
+    for (_, info) in material.into_iter().flat_map(Material::visible_textures) {
+        let image = model.textures.get(info.texture).and_then(|texture| texture.image);
         if let Some(flag) = image.and_then(|image| needed.get_mut(image)) {
             *flag = true;
         }
@@ -95,21 +97,20 @@ fn mark_material_images(material: Option<usize>, model: &Model, needed: &mut [bo
 pub(super) fn import_images(
     source: &AccessorReader<'_>,
     model: &mut Model,
-    (early, decoded): (EncodedImages<'_>, Vec<DecodeResult>),
-    what: ImageLoading,
+    (announced, decoded): (EncodedImages<'_>, Vec<DecodeResult>),
+    loading: ImageLoading,
     warnings: &mut ImportWarnings,
 ) {
     let needed = needed_images(model, source.root.images.len());
     model.image_infos = source.root.images.iter().map(image_info).collect();
-    model.images = vec![None; needed.len()];
-    match what {
-        ImageLoading::Decode if early.needed == needed => {
-            store_decoded(model, early, decoded, warnings);
+    match loading {
+        ImageLoading::Decode if announced.needed == needed => {
+            store_decoded(model, announced, decoded, warnings);
         }
         ImageLoading::Decode => {
-            let found = EncodedImages::read_needed(source, needed);
-            let decoded = decode_images(&found.encoded);
-            store_decoded(model, found, decoded, warnings);
+            let encoded_images = EncodedImages::read_needed(source, needed);
+            let decoded = decode_images(&encoded_images.encoded);
+            store_decoded(model, encoded_images, decoded, warnings);
         }
         ImageLoading::Headers => {
             // Nobody sees the others, so that nobody needs to be warned of them.
@@ -126,21 +127,23 @@ pub(super) fn import_images(
 /// Stores decoded images in the model, and adds a warning for each failure.
 fn store_decoded(
     model: &mut Model,
-    found: EncodedImages<'_>,
+    encoded_images: EncodedImages<'_>,
     decoded: Vec<DecodeResult>,
     warnings: &mut ImportWarnings,
 ) {
-    warnings.append_warnings(found.warnings);
-    store_headers(&found.encoded, &mut model.image_infos);
-    for (image, decoded) in found.encoded.iter().zip(decoded) {
+    warnings.append_warnings(encoded_images.warnings);
+    store_headers(&encoded_images.encoded, &mut model.image_infos);
+    let mut images = vec![None; model.image_infos.len()];
+    for (image, decoded) in encoded_images.encoded.iter().zip(decoded) {
         match decoded {
-            Ok(decoded) => model.images[image.index] = Some(decoded),
-            Err(problem) => {
-                let fault = Diagnostic::invalid(&format!("/images/{}", image.index), problem);
-                warnings.downgrade(&fault, SHOWN_WITHOUT_IMAGE);
+            Ok(decoded) => images[image.index] = Some(decoded),
+            Err(message) => {
+                let diagnostic = Diagnostic::invalid(&format!("/images/{}", image.index), message);
+                warnings.downgrade(&diagnostic, SHOWN_WITHOUT_IMAGE);
             }
         }
     }
+    model.images = images.into();
 }
 
 /// Name and URI of an image.
@@ -159,13 +162,16 @@ fn store_headers(encoded: &[EncodedImage<'_>], files: &mut [ImageInfo]) {
 }
 
 /// Reads the bytes of the needed images; failures are warnings.
+///
+/// The limit on texels is spent here, by the sizes in the headers, so that no decoder starts on an
+/// image that would exceed it.
 fn read_encoded<'a>(
     needed: &[bool],
     source: &'a AccessorReader<'_>,
     warnings: &mut ImportWarnings,
 ) -> Vec<EncodedImage<'a>> {
     let mut texels_left = source.limits.image_texels;
-    let mut found = Vec::new();
+    let mut encoded_images = Vec::new();
     for number in (0..needed.len()).filter(|&at| needed[at]) {
         let pointer = format!("/images/{number}");
         let bytes = image_bytes(&source.root.images[number], &pointer, source);
@@ -176,11 +182,11 @@ fn read_encoded<'a>(
             Ok((bytes, (width, height)))
         });
         match checked {
-            Ok((bytes, size)) => found.push(EncodedImage { index: number, bytes, size }),
-            Err(fault) => warnings.downgrade(&fault, SHOWN_WITHOUT_IMAGE),
+            Ok((bytes, size)) => encoded_images.push(EncodedImage { index: number, bytes, size }),
+            Err(diagnostic) => warnings.downgrade(&diagnostic, SHOWN_WITHOUT_IMAGE),
         }
     }
-    found
+    encoded_images
 }
 
 const SHOWN_WITHOUT_IMAGE: &str = "the surface is shown without it";
@@ -226,7 +232,7 @@ fn check_image_size(
         ));
     }
     match texels_left.checked_sub(u64::from(width) * u64::from(height)) {
-        Some(left) => *texels_left = left,
+        Some(remaining) => *texels_left = remaining,
         None => {
             return Err(Diagnostic::limit_exceeded(
                 pointer,

@@ -24,16 +24,16 @@ pub(super) fn deserialize_leniently(
     length: usize,
     warnings: &mut ImportWarnings,
 ) -> Result<Root, Diagnostic> {
-    let mut left = (REPAIR_BYTE_BUDGET / length.max(1)).min(MAX_REPAIRS);
+    let mut repairs_left = (REPAIR_BYTE_BUDGET / length.max(1)).min(MAX_REPAIRS);
     loop {
-        let fault = match serde_path_to_error::deserialize(&*value) {
+        let diagnostic = match serde_path_to_error::deserialize(&*value) {
             Ok(root) => return Ok(root),
             Err(error) => type_error(&error),
         };
-        let repaired = if left > 0 { repair_at(value, &fault.location) } else { None };
-        let Some(consequence) = repaired else { return Err(fault) };
-        warnings.downgrade_if_lenient(fault, consequence)?;
-        left -= 1;
+        let repaired = if repairs_left > 0 { repair_at(value, &diagnostic.location) } else { None };
+        let Some(consequence) = repaired else { return Err(diagnostic) };
+        warnings.downgrade_if_lenient(diagnostic, consequence)?;
+        repairs_left -= 1;
     }
 }
 
@@ -103,19 +103,19 @@ fn replace_with_empty(document: &mut Value, collection: &str, at: &str) -> Optio
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::codes;
 
-    fn deserialize_with_warnings(mut document: Value) -> (Result<Root, String>, Vec<String>) {
+    fn deserialize_with_warnings(mut document: Value) -> (Result<Root, Diagnostic>, Vec<String>) {
         let mut warnings = ImportWarnings::new(true);
-        let root = deserialize_leniently(&mut document, 1000, &mut warnings)
-            .map_err(|fault| fault.to_string());
-        let told =
+        let root = deserialize_leniently(&mut document, 1000, &mut warnings);
+        let messages =
             warnings.into_list().into_iter().map(|w| format!("{} {}", w.location, w.message));
-        (root, told.collect())
+        (root, messages.collect())
     }
 
     #[test]
     fn what_does_not_fit_is_left_out_and_the_rest_keeps_its_numbers() {
-        let (root, told) = deserialize_with_warnings(json!({
+        let (root, messages) = deserialize_with_warnings(json!({
             "asset": {"version": "2.0"},
             "extensionsUsed": ["a", 7],
             "meshes": [
@@ -129,23 +129,26 @@ mod tests {
         }));
         let root = root.expect("a document");
         let primitives: Vec<usize> = root.meshes.iter().map(|mesh| mesh.primitives.len()).collect();
-        assert_eq!(primitives, [0, 1, 0], "{told:#?}");
+        assert_eq!(primitives, [0, 1, 0], "{messages:#?}");
         assert_eq!((root.nodes.len(), root.textures.len()), (2, 0));
         assert_eq!(root.nodes[0].children.as_ref().map(Vec::len), Some(1));
         assert_eq!(root.materials[0].pbr_metallic_roughness.metallic_factor.0, 0.0);
-        assert!(told.iter().any(|line| line.starts_with("/meshes/0 missing field `primitives`")));
-        assert!(told.iter().any(|line| line.starts_with("/nodes/1 ")), "{told:#?}");
+        assert!(
+            messages.iter().any(|line| line.starts_with("/meshes/0 missing field `primitives`"))
+        );
+        assert!(messages.iter().any(|line| line.starts_with("/nodes/1 ")), "{messages:#?}");
     }
 
     #[test]
     fn what_cannot_be_repaired_is_an_error_after_finitely_many_steps() {
-        assert!(deserialize_with_warnings(json!([])).0.is_err());
-        assert!(deserialize_with_warnings(json!({"asset": 3})).0.is_err());
-        let bad: Vec<Value> = (0..2000).map(|_| json!({"primitives": 1})).collect();
-        assert!(
-            deserialize_with_warnings(json!({"asset": {"version": "2.0"}, "meshes": bad}))
-                .0
-                .is_err()
-        );
+        let many: Vec<Value> = (0..2000).map(|_| json!({"primitives": 1})).collect();
+        for (document, location) in [
+            (json!([]), ""),
+            (json!({"asset": 3}), ""),
+            (json!({"asset": {"version": "2.0"}, "meshes": many}), "/meshes/250/primitives"),
+        ] {
+            let diagnostic = deserialize_with_warnings(document).0.unwrap_err();
+            assert_eq!((diagnostic.code, &*diagnostic.location), (codes::INVALID_DATA, location));
+        }
     }
 }

@@ -49,6 +49,10 @@ struct MaterialReader<'a, 'w> {
 
 impl<'a> MaterialReader<'a, '_> {
     /// Reads core properties first, then the extensions.
+    ///
+    /// Factors out of range are clamped with a warning. Textures of specular-glossiness replace
+    /// those of the metallic-roughness workflow, which files have beside it for readers without the
+    /// extension.
     fn read_material(mut self) -> Material {
         let json = &self.root.materials[self.at];
         let pbr = &json.pbr_metallic_roughness;
@@ -100,21 +104,24 @@ impl<'a> MaterialReader<'a, '_> {
     }
 
     /// Clamps numbers to bounds, with a warning; what is not a number becomes the minimum.
-    fn clamp_numbers(&mut self, member: &str, numbers: &mut [f32], [least, greatest]: [f32; 2]) {
-        let said = numbers.to_vec();
+    ///
+    /// The comparison is written so that NaN fails it.
+    fn clamp_numbers(&mut self, member: &str, numbers: &mut [f32], [min, max]: [f32; 2]) {
+        let given = numbers.to_vec();
         for number in &mut *numbers {
-            *number = if *number > least { number.min(greatest) } else { least };
+            *number = if *number > min { number.min(max) } else { min };
         }
-        if said != numbers {
-            let range = match greatest {
-                f32::MAX => format!("not at least {least}"),
-                _ => format!("not in [{least}, {greatest}]"),
+        if given != numbers {
+            let range = match max {
+                f32::MAX => format!("not at least {min}"),
+                _ => format!("not in [{min}, {max}]"),
             };
-            let message = format!("{said:?} is {range}; it is {numbers:?}");
+            let message = format!("{given:?} is {range}; it is {numbers:?}");
             self.warnings.push_warning(&self.member_pointer(member), message);
         }
     }
 
+    /// The alpha mode with its cutoff (0.5 by default); an unknown one is opaque, with a warning.
     fn read_alpha_mode(&mut self) -> AlphaMode {
         let json = &self.root.materials[self.at];
         match json.alpha_mode {
@@ -144,24 +151,24 @@ impl<'a> MaterialReader<'a, '_> {
             // The scale of the coat's normals is read with their texture.
             let json = self.extension_object(name).and_then(|extension| extension.get(member));
             let (Some(json), Some(numbers)) = (json, numbers(material)) else { continue };
-            let said: Option<Vec<f32>> = match json {
+            let given: Option<Vec<f32>> = match json {
                 Value::Number(number) => number.as_f64().map(|x| vec![x as f32]),
                 Value::Array(all) => all.iter().map(|x| x.as_f64().map(|x| x as f32)).collect(),
                 _ => None,
             };
-            match said.filter(|said| said.len() == numbers.len()) {
-                Some(said) => {
-                    numbers.copy_from_slice(&said);
+            match given.filter(|given| given.len() == numbers.len()) {
+                Some(given) => {
+                    numbers.copy_from_slice(&given);
                     self.clamp_numbers(path, numbers, *bounds);
                 }
                 None => {
-                    let due = match numbers.len() {
+                    let expected = match numbers.len() {
                         1 => "a number is due".to_owned(),
                         several => format!("{several} numbers are due"),
                     };
                     self.warnings.push_warning(
                         &self.member_pointer(path),
-                        format!("{due}; the usual is used"),
+                        format!("{expected}; the usual is used"),
                     );
                 }
             }
@@ -171,47 +178,50 @@ impl<'a> MaterialReader<'a, '_> {
     /// Creates the record of each extension that is present, with its textures and default numbers.
     fn create_extensions(&mut self, material: &mut Material) {
         use TextureSlot as Slot;
-        let more = &mut material.extensions;
-        more.specular = self.extension_object("KHR_materials_specular").map(|_| Box::default());
-        more.transmission =
+        let extensions = &mut material.extensions;
+        extensions.specular =
+            self.extension_object("KHR_materials_specular").map(|_| Box::default());
+        extensions.transmission =
             self.extension_object("KHR_materials_transmission").map(|_| Box::default());
-        more.specular_glossiness =
+        extensions.specular_glossiness =
             self.extension_object("KHR_materials_pbrSpecularGlossiness").map(|_| Box::default());
-        more.clearcoat = self.extension_object("KHR_materials_clearcoat").map(|_| Box::default());
-        more.sheen = self.extension_object("KHR_materials_sheen").map(|_| Box::default());
-        more.volume = self.extension_object("KHR_materials_volume").map(|_| Box::default());
-        more.iridescence =
+        extensions.clearcoat =
+            self.extension_object("KHR_materials_clearcoat").map(|_| Box::default());
+        extensions.sheen = self.extension_object("KHR_materials_sheen").map(|_| Box::default());
+        extensions.volume = self.extension_object("KHR_materials_volume").map(|_| Box::default());
+        extensions.iridescence =
             self.extension_object("KHR_materials_iridescence").map(|_| Box::default());
-        more.anisotropy = self.extension_object("KHR_materials_anisotropy").map(|_| Box::default());
-        if let Some(specular) = &mut more.specular {
+        extensions.anisotropy =
+            self.extension_object("KHR_materials_anisotropy").map(|_| Box::default());
+        if let Some(specular) = &mut extensions.specular {
             specular.texture = self.read_texture(Slot::Specular);
             specular.color_texture = self.read_texture(Slot::SpecularColor);
         }
-        if let Some(older) = &mut more.specular_glossiness {
-            older.texture = self.read_texture(Slot::SpecularGlossiness);
+        if let Some(spec_gloss) = &mut extensions.specular_glossiness {
+            spec_gloss.texture = self.read_texture(Slot::SpecularGlossiness);
             (material.base_color, material.base_color_texture) =
                 ([1.0; 4], self.read_texture(Slot::Diffuse));
         }
-        if let Some(coat) = &mut more.clearcoat {
-            coat.texture = self.read_texture(Slot::Clearcoat);
-            coat.roughness_texture = self.read_texture(Slot::ClearcoatRoughness);
-            coat.normal_texture = self.read_normal_texture(Slot::ClearcoatNormal);
+        if let Some(clearcoat) = &mut extensions.clearcoat {
+            clearcoat.texture = self.read_texture(Slot::Clearcoat);
+            clearcoat.roughness_texture = self.read_texture(Slot::ClearcoatRoughness);
+            clearcoat.normal_texture = self.read_normal_texture(Slot::ClearcoatNormal);
         }
-        if let Some(sheen) = &mut more.sheen {
+        if let Some(sheen) = &mut extensions.sheen {
             sheen.color_texture = self.read_texture(Slot::SheenColor);
             sheen.roughness_texture = self.read_texture(Slot::SheenRoughness);
         }
-        if let Some(transmission) = &mut more.transmission {
+        if let Some(transmission) = &mut extensions.transmission {
             transmission.texture = self.read_texture(Slot::Transmission);
         }
-        if let Some(volume) = &mut more.volume {
+        if let Some(volume) = &mut extensions.volume {
             volume.thickness_texture = self.read_texture(Slot::Thickness);
         }
-        if let Some(film) = &mut more.iridescence {
-            film.texture = self.read_texture(Slot::Iridescence);
-            film.thickness_texture = self.read_texture(Slot::IridescenceThickness);
+        if let Some(iridescence) = &mut extensions.iridescence {
+            iridescence.texture = self.read_texture(Slot::Iridescence);
+            iridescence.thickness_texture = self.read_texture(Slot::IridescenceThickness);
         }
-        if let Some(anisotropy) = &mut more.anisotropy {
+        if let Some(anisotropy) = &mut extensions.anisotropy {
             anisotropy.texture = self.read_texture(Slot::Anisotropy);
         }
     }
@@ -229,13 +239,13 @@ impl<'a> MaterialReader<'a, '_> {
             JsonTextureInfo::from_slot(self.root, self.at, slot)?;
         if texture >= self.root.textures.len() {
             let pointer = self.member_pointer(&format!("{}/index", slot.json_path()));
-            let fault = Diagnostic::unresolved_index(
+            let diagnostic = Diagnostic::unresolved_index(
                 &pointer,
                 "texture",
                 texture,
                 self.root.textures.len(),
             );
-            self.warnings.downgrade(&fault, "the surface is shown without it");
+            self.warnings.downgrade(&diagnostic, "the surface is shown without it");
             return None;
         }
         let other_set = transform.and_then(|t| t.get("texCoord")).and_then(Value::as_u64);
@@ -271,26 +281,29 @@ impl<'a> JsonTextureInfo<'a> {
             TextureSlot::Normal => {
                 let json = json.normal_texture.as_ref()?;
                 let (texture, uv_set) = (json.index.value(), json.tex_coord as usize);
-                let others = json.extensions.as_ref().map(|extensions| &extensions.others);
-                let transform = others.and_then(|others| others.get(TEXTURE_TRANSFORM));
+                let extensions_json = json.extensions.as_ref().map(|extensions| &extensions.others);
+                let transform = extensions_json
+                    .and_then(|extensions_json| extensions_json.get(TEXTURE_TRANSFORM));
                 return Some(Self { texture, uv_set, scale: json.scale, transform });
             }
             TextureSlot::Occlusion => {
                 let json = json.occlusion_texture.as_ref()?;
                 let (texture, uv_set) = (json.index.value(), json.tex_coord as usize);
-                let others = json.extensions.as_ref().map(|extensions| &extensions.others);
-                let transform = others.and_then(|others| others.get(TEXTURE_TRANSFORM));
+                let extensions_json = json.extensions.as_ref().map(|extensions| &extensions.others);
+                let transform = extensions_json
+                    .and_then(|extensions_json| extensions_json.get(TEXTURE_TRANSFORM));
                 return Some(Self { texture, uv_set, scale: 1.0, transform });
             }
             _ => return Self::from_extension(root, material, slot),
         };
         let info = info?;
-        let others = info.extensions.as_ref().map(|extensions| &extensions.others);
+        let extensions_json = info.extensions.as_ref().map(|extensions| &extensions.others);
         Some(Self {
             texture: info.index.value(),
             uv_set: info.tex_coord as usize,
             scale: 1.0,
-            transform: others.and_then(|others| others.get(TEXTURE_TRANSFORM)),
+            transform: extensions_json
+                .and_then(|extensions_json| extensions_json.get(TEXTURE_TRANSFORM)),
         })
     }
 
@@ -313,15 +326,17 @@ const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
 /// Warns of primitives that lack the texture coordinates which their material uses.
 pub(super) fn warn_of_missing_texcoords(model: &Model, warnings: &mut ImportWarnings) {
     for (at, mesh) in model.meshes.iter().enumerate() {
-        for (part, primitive) in mesh.primitives.iter().enumerate() {
+        for (primitive_index, primitive) in mesh.primitives.iter().enumerate() {
             let material = primitive.material.map(|material| &model.materials[material]);
-            let mut used = material.into_iter().flat_map(Material::visible_textures);
-            let missing = used.find(|(_, used)| used.uv_set >= primitive.uvs.len());
+            let mut textures_used = material.into_iter().flat_map(Material::visible_textures);
+            let missing = textures_used
+                .find(|(_, textures_used)| textures_used.uv_set >= primitive.uvs.len());
             if let Some((_, TextureInfo { uv_set, .. })) =
                 missing.filter(|_| primitive.item_count() > 0)
             {
                 let message = format!("its texture needs TEXCOORD_{uv_set}; it is shown without");
-                warnings.push_warning(&format!("/meshes/{at}/primitives/{part}"), message);
+                warnings
+                    .push_warning(&format!("/meshes/{at}/primitives/{primitive_index}"), message);
             }
         }
     }

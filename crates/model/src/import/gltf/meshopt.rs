@@ -2,9 +2,10 @@
 //! KHR_meshopt_compression.
 //!
 //! ```text
-//!  stream ──ATTRIBUTES──► elements ──filter──► bytes    byte-wise deltas, in blocks   vertex_codec
-//!         ──TRIANGLES───► indices ───────────► bytes    edge and vertex FIFOs         index_codec
-//!         ──INDICES─────► indices ───────────► bytes    deltas to two baselines       index_sequence_codec
+//!  stream ──ATTRIBUTES──► elements ──filter──► bytes    byte-wise deltas in blocks   vertex_codec
+//!         ──TRIANGLES───► indices ───────────► bytes    edge and vertex FIFOs        index_codec
+//!         ──INDICES─────► indices ───────────► bytes    deltas to two baselines
+//!                                                                           index_sequence_codec
 //! ```
 //!
 //! Written from the text of the extensions, whose appendices define the streams byte by byte. A
@@ -68,8 +69,9 @@ impl CompressedView {
     pub(crate) fn from_view(json: &View, view: &str) -> Result<Option<Self>, Diagnostic> {
         let Some(extensions) = &json.extensions else { return Ok(None) };
         let named = |name: &'static str| extensions.others.get(name).map(|value| (name, value));
-        let found = named("KHR_meshopt_compression").or_else(|| named("EXT_meshopt_compression"));
-        let Some((name, value)) = found else { return Ok(None) };
+        let extension =
+            named("KHR_meshopt_compression").or_else(|| named("EXT_meshopt_compression"));
+        let Some((name, value)) = extension else { return Ok(None) };
         let pointer = format!("{view}/extensions/{name}");
         let members = value.as_object();
         let members = members.ok_or_else(|| Diagnostic::invalid(&pointer, "an object is due"))?;
@@ -79,30 +81,31 @@ impl CompressedView {
         }
         let Self { count, stride, .. } = packed;
         let length = json.byte_length.0;
-        let problem =
+        let message =
             format!("{count} elements of {stride} bytes are compressed, not {length} bytes");
-        Err(Diagnostic::invalid(&format!("{view}/byteLength"), problem))
+        Err(Diagnostic::invalid(&format!("{view}/byteLength"), message))
     }
 
     /// Reads and checks the members of the extension.
     fn from_members(members: &Map<String, Value>, pointer: String) -> Result<Self, Diagnostic> {
-        let number = |key: &str| {
-            let number = members.get(key).and_then(Value::as_u64);
-            let due = || Diagnostic::invalid(&format!("{pointer}/{key}"), "an integer is due");
-            number.ok_or_else(due)
+        let integer_member = |key: &str| {
+            let integer_member = members.get(key).and_then(Value::as_u64);
+            let missing = || Diagnostic::invalid(&format!("{pointer}/{key}"), "an integer is due");
+            integer_member.ok_or_else(missing)
         };
-        let size = |key: &str| Ok(usize::try_from(number(key)?).unwrap_or(usize::MAX));
-        let offset = if members.contains_key("byteOffset") { number("byteOffset")? } else { 0 };
-        let (buffer, length) = (size("buffer")?, number("byteLength")?);
+        let size = |key: &str| Ok(usize::try_from(integer_member(key)?).unwrap_or(usize::MAX));
+        let offset =
+            if members.contains_key("byteOffset") { integer_member("byteOffset")? } else { 0 };
+        let (buffer, length) = (size("buffer")?, integer_member("byteLength")?);
         let (count, stride) = (size("count")?, size("byteStride")?);
         let mode = CompressionMode::from_members(members, &pointer)?;
         if let Err(allowed) = mode.check_stride(stride) {
-            let problem = format!("the stride is {stride} and must be {allowed}");
-            return Err(Diagnostic::invalid(&format!("{pointer}/byteStride"), problem));
+            let message = format!("the stride is {stride} and must be {allowed}");
+            return Err(Diagnostic::invalid(&format!("{pointer}/byteStride"), message));
         }
         if mode == CompressionMode::Triangles && !count.is_multiple_of(3) {
-            let problem = format!("{count} indices are no triangles");
-            return Err(Diagnostic::invalid(&format!("{pointer}/count"), problem));
+            let message = format!("{count} indices are no triangles");
+            return Err(Diagnostic::invalid(&format!("{pointer}/count"), message));
         }
         Ok(Self { pointer, buffer, offset, length, count, stride, mode })
     }
@@ -134,32 +137,33 @@ impl CompressedView {
 impl CompressionMode {
     /// Reads mode and filter.
     fn from_members(members: &Map<String, Value>, pointer: &str) -> Result<Self, Diagnostic> {
-        let word = |key: &str| members.get(key).map(|value| value.as_str().unwrap_or("no string"));
-        let filter = match word("filter") {
+        let string_member =
+            |key: &str| members.get(key).map(|value| value.as_str().unwrap_or("no string"));
+        let filter = match string_member("filter") {
             None | Some("NONE") => MeshoptFilter::None,
             Some("OCTAHEDRAL") => MeshoptFilter::Octahedral,
             Some("QUATERNION") => MeshoptFilter::Quaternion,
             Some("EXPONENTIAL") => MeshoptFilter::Exponential,
             Some("COLOR") => MeshoptFilter::Color,
             Some(other) => {
-                let problem = format!("the filter {other:?} is not known");
-                return Err(Diagnostic::invalid(&format!("{pointer}/filter"), problem));
+                let message = format!("the filter {other:?} is not known");
+                return Err(Diagnostic::invalid(&format!("{pointer}/filter"), message));
             }
         };
-        match (word("mode"), filter) {
+        match (string_member("mode"), filter) {
             (Some("ATTRIBUTES"), filter) => Ok(Self::Attributes(filter)),
             (Some("TRIANGLES"), MeshoptFilter::None) => Ok(Self::Triangles),
             (Some("INDICES"), MeshoptFilter::None) => Ok(Self::Indices),
             (Some("TRIANGLES" | "INDICES"), _) => {
-                let problem = "only the mode ATTRIBUTES may have a filter";
-                Err(Diagnostic::invalid(&format!("{pointer}/filter"), problem))
+                let message = "only the mode ATTRIBUTES may have a filter";
+                Err(Diagnostic::invalid(&format!("{pointer}/filter"), message))
             }
             (mode, _) => {
-                let problem = format!(
+                let message = format!(
                     "the mode must be ATTRIBUTES, TRIANGLES or INDICES, not {:?}",
                     mode.unwrap_or("")
                 );
-                Err(Diagnostic::invalid(&format!("{pointer}/mode"), problem))
+                Err(Diagnostic::invalid(&format!("{pointer}/mode"), message))
             }
         }
     }

@@ -1,4 +1,14 @@
 //! Model assembly: the order in which the parts of a document are read.
+//!
+//! ```text
+//!  1. scene graph    nodes, scenes, cameras, lights, materials, textures, skins, animations
+//!  2. images         read as far as the JSON announces them, then decoded by other threads
+//!  3. geometry       meshes, variants, instances, while the images are decoded
+//!  4. images         stored; read again if the meshes turned out to need others
+//! ```
+//!
+//! Each step needs only what earlier ones have made. Images come early because decoding takes
+//! longest and is independent of everything else.
 
 use super::accessor::AccessorReader;
 use super::animation::{self, AnimatedObjects};
@@ -22,16 +32,16 @@ pub(super) fn build_model(
     warnings: &mut ImportWarnings,
 ) -> Result<Model, Diagnostic> {
     let timings = &options.timings;
-    let outline = || build_scene_graph(document, source, options, warnings);
-    let mut model = timings.measure("geometry", outline)?;
-    let early =
+    let build_graph = || build_scene_graph(document, source, options, warnings);
+    let mut model = timings.measure("geometry", build_graph)?;
+    let announced =
         timings.measure("images", || collect_announced_images(source, &model, options.images));
     let geometry =
         || timings.measure("geometry", || build_meshes(document, source, &mut model, warnings));
-    let ((), decoded) = decode_images_alongside(&early.encoded, timings, geometry)?;
-    let early = (early, decoded);
-    let place = || images::import_images(source, &mut model, early, options.images, warnings);
-    timings.measure("images", place);
+    let ((), decoded) = decode_images_alongside(&announced.encoded, timings, geometry)?;
+    let announced = (announced, decoded);
+    let store = || images::import_images(source, &mut model, announced, options.images, warnings);
+    timings.measure("images", store);
     Ok(model)
 }
 
@@ -39,9 +49,9 @@ pub(super) fn build_model(
 fn collect_announced_images<'a>(
     source: &'a AccessorReader<'_>,
     model: &Model,
-    what: ImageLoading,
+    image_loading: ImageLoading,
 ) -> EncodedImages<'a> {
-    match what {
+    match image_loading {
         ImageLoading::Decode => EncodedImages::read_needed(
             source,
             images::announced_images(source.root, model, model.active_variant),
@@ -51,6 +61,9 @@ fn collect_announced_images<'a>(
 }
 
 /// Reads everything but meshes and images.
+///
+/// References to skins and cameras that turned out to be invalid are cleared, so that every index
+/// in the nodes is valid.
 fn build_scene_graph(
     document: &GltfDocument,
     source: &AccessorReader<'_>,
@@ -59,12 +72,12 @@ fn build_scene_graph(
 ) -> Result<Model, Diagnostic> {
     let root = &document.root;
     let mut nodes = scene_graph::import_nodes(document, source.limits, warnings)?;
-    let shown = selection::select_scene(root, options.scene.as_ref(), warnings)?;
+    let active_scene = selection::select_scene(root, options.scene.as_ref(), warnings)?;
     let (cameras, usable) = camera::import_cameras(root, warnings);
     let mut model = Model {
-        roots: scene_graph::scene_roots(root, shown, &nodes, warnings)?,
+        roots: scene_graph::scene_roots(root, active_scene, &nodes, warnings)?,
         scenes: scene_graph::import_scenes(root),
-        active_scene: (shown < root.scenes.len()).then_some(shown),
+        active_scene: (active_scene < root.scenes.len()).then_some(active_scene),
         lights: lights::import_lights(root, &mut nodes, warnings),
         nodes,
         materials: material::import_materials(root, warnings),
@@ -84,6 +97,7 @@ fn build_scene_graph(
     Ok(model)
 }
 
+/// Reads the animations; pointers of KHR_animation_pointer may add texture transforms to materials.
 fn build_animations(
     document: &GltfDocument,
     source: &AccessorReader<'_>,

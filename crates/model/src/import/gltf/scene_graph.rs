@@ -1,4 +1,10 @@
 //! Scene graph import: nodes with their transforms, proof that they form a forest, and scene roots.
+//!
+//! In glTF, children are listed by their parents. Nothing in the format prevents a node from having
+//! two parents or from being its own ancestor; both would make traversal of the model wrong or
+//! endless. The proof has two steps: each node gets at most one parent, and a traversal from the
+//! nodes without a parent must visit every node. Traversals use a stack of their own, so that depth
+//! costs memory and not the thread's stack; [`Limits::node_depth`] bounds it nevertheless.
 
 use super::document::GltfDocument;
 use super::node_transform::NodeTransform;
@@ -29,6 +35,8 @@ pub(super) fn import_nodes(
 }
 
 /// Reads a node without its position in the hierarchy.
+///
+/// Its mesh, skin and camera are checked to exist; a skin without a mesh is dropped with a warning.
 fn read_node(
     document: &GltfDocument,
     at: usize,
@@ -39,8 +47,8 @@ fn read_node(
     let pointer = format!("/nodes/{at}");
     let mut placement = document.node_transforms.get(at);
     let to_parent = match placement.map_or(Ok(Affine::IDENTITY), |p| p.to_affine(&pointer)) {
-        Err(fault) => {
-            warnings.downgrade_if_lenient(fault, "the node stays where its parent is")?;
+        Err(diagnostic) => {
+            warnings.downgrade_if_lenient(diagnostic, "the node stays where its parent is")?;
             placement = None;
             Affine::IDENTITY
         }
@@ -81,36 +89,40 @@ fn checked_index<T>(
 ) -> Result<Option<usize>, Diagnostic> {
     match index.map(|index| index.value()) {
         Some(index) if index >= count => {
-            let fault = Diagnostic::unresolved_index(&format!("{node}/{what}"), what, index, count);
-            warnings.downgrade_if_lenient(fault, "the node is without it").map(|()| None)
+            let diagnostic =
+                Diagnostic::unresolved_index(&format!("{node}/{what}"), what, index, count);
+            warnings.downgrade_if_lenient(diagnostic, "the node is without it").map(|()| None)
         }
         index => Ok(index),
     }
 }
 
 /// Sets the parent of every node; each may have only one.
+///
+/// # Errors
+/// A child does not exist or has a parent already. Reading leniently, the first parent is kept.
 fn link_parents(nodes: &mut [Node], warnings: &mut ImportWarnings) -> Result<(), Diagnostic> {
     let count = nodes.len();
     for parent in 0..count {
         let children = std::mem::take(&mut nodes[parent].children);
-        let mut kept = Vec::with_capacity(children.len());
-        for (place, child) in children.into_iter().enumerate() {
-            let pointer = format!("/nodes/{parent}/children/{place}");
-            let fault = match nodes.get(child).map(|node| node.parent) {
+        let mut linked = Vec::with_capacity(children.len());
+        for (slot, child) in children.into_iter().enumerate() {
+            let pointer = format!("/nodes/{parent}/children/{slot}");
+            let diagnostic = match nodes.get(child).map(|node| node.parent) {
                 Some(None) => {
                     nodes[child].parent = Some(parent);
-                    kept.push(child);
+                    linked.push(child);
                     continue;
                 }
                 None => Diagnostic::unresolved_index(&pointer, "node", child, count),
                 Some(Some(other)) => {
-                    let problem = format!("node {child} is a child of node {other} already");
-                    Diagnostic::invalid(&pointer, problem)
+                    let message = format!("node {child} is a child of node {other} already");
+                    Diagnostic::invalid(&pointer, message)
                 }
             };
-            warnings.downgrade_if_lenient(fault, "it is no child here")?;
+            warnings.downgrade_if_lenient(diagnostic, "it is no child here")?;
         }
-        nodes[parent].children = kept;
+        nodes[parent].children = linked;
     }
     Ok(())
 }
@@ -122,38 +134,41 @@ fn update_global_transforms(
     limits: &Limits,
     warnings: &mut ImportWarnings,
 ) -> Result<(), Diagnostic> {
-    let mut met = vec![false; nodes.len()];
+    let mut visited = vec![false; nodes.len()];
     for at in 0..nodes.len() {
         if nodes[at].parent.is_none() {
-            update_transforms_below(nodes, at, &mut met, limits, warnings)?;
+            update_transforms_below(nodes, at, &mut visited, limits, warnings)?;
         }
     }
     for at in 0..nodes.len() {
-        if met[at] {
+        if visited[at] {
             continue;
         }
-        let problem = format!("node {at} is below itself");
-        let fault = Diagnostic::invalid(&format!("/nodes/{at}/children"), problem);
-        warnings.downgrade_if_lenient(fault, "it is taken for a root")?;
+        let message = format!("node {at} is below itself");
+        let diagnostic = Diagnostic::invalid(&format!("/nodes/{at}/children"), message);
+        warnings.downgrade_if_lenient(diagnostic, "it is taken for a root")?;
         if let Some(parent) = nodes[at].parent.take() {
             nodes[parent].children.retain(|&child| child != at);
         }
-        update_transforms_below(nodes, at, &mut met, limits, warnings)?;
+        update_transforms_below(nodes, at, &mut visited, limits, warnings)?;
     }
     Ok(())
 }
 
 /// Computes the global transforms of a root and its descendants, and checks their depth.
+///
+/// # Errors
+/// A product of transforms overflows, or the hierarchy is deeper than the limit.
 fn update_transforms_below(
     nodes: &mut [Node],
     root: usize,
-    met: &mut [bool],
+    visited: &mut [bool],
     limits: &Limits,
     warnings: &mut ImportWarnings,
 ) -> Result<(), Diagnostic> {
-    let mut open = vec![(root, 1)];
-    while let Some((at, depth)) = open.pop() {
-        met[at] = true;
+    let mut stack = vec![(root, 1)];
+    while let Some((at, depth)) = stack.pop() {
+        visited[at] = true;
         if depth > limits.node_depth {
             let what = format!("the node tree is {depth} levels deep");
             let allowed = limits.node_depth as u64;
@@ -164,16 +179,16 @@ fn update_transforms_below(
                 allowed,
             ));
         }
-        let above = nodes[at].parent.map_or(Affine::IDENTITY, |parent| nodes[parent].to_model);
-        nodes[at].to_model = nodes[at].to_parent.then(above);
+        let parent = nodes[at].parent.map_or(Affine::IDENTITY, |parent| nodes[parent].to_model);
+        nodes[at].to_model = nodes[at].to_parent.then(parent);
         if !nodes[at].to_model.is_finite() {
-            let problem = "the product of the transforms down to here is too large for numbers";
-            let fault = Diagnostic::invalid(&format!("/nodes/{at}"), problem);
-            warnings.downgrade_if_lenient(fault, "it is shown where its parent is")?;
-            (nodes[at].to_parent, nodes[at].to_model) = (Affine::IDENTITY, above);
+            let message = "the product of the transforms down to here is too large for numbers";
+            let diagnostic = Diagnostic::invalid(&format!("/nodes/{at}"), message);
+            warnings.downgrade_if_lenient(diagnostic, "it is shown where its parent is")?;
+            (nodes[at].to_parent, nodes[at].to_model) = (Affine::IDENTITY, parent);
             nodes[at].trs = Some(Trs::default());
         }
-        open.extend(nodes[at].children.iter().map(|&child| (child, depth + 1)));
+        stack.extend(nodes[at].children.iter().map(|&child| (child, depth + 1)));
     }
     Ok(())
 }
@@ -188,6 +203,9 @@ pub(super) fn import_scenes(root: &Root) -> Vec<SceneRoots> {
 }
 
 /// Roots of the active scene; without scenes, all nodes without a parent.
+///
+/// A node that is listed twice is drawn once, with a warning. One that has a parent is drawn too,
+/// unless an ancestor is listed as well; the specification forbids both.
 pub(super) fn scene_roots(
     root: &Root,
     scene: usize,
@@ -199,19 +217,19 @@ pub(super) fn scene_roots(
     };
     let mut listed = vec![false; nodes.len()];
     let mut roots = Vec::with_capacity(json.nodes.len());
-    for (place, node) in json.nodes.iter().enumerate() {
-        let pointer = format!("/scenes/{scene}/nodes/{place}");
+    for (slot, node) in json.nodes.iter().enumerate() {
+        let pointer = format!("/scenes/{scene}/nodes/{slot}");
         match listed.get_mut(node.value()) {
             None => {
-                let fault =
+                let diagnostic =
                     Diagnostic::unresolved_index(&pointer, "node", node.value(), nodes.len());
-                warnings.downgrade_if_lenient(fault, "it is not shown")?;
+                warnings.downgrade_if_lenient(diagnostic, "it is not shown")?;
             }
             Some(true) => {
                 warnings.push_warning(&pointer, "the node is listed twice; it is shown once");
             }
-            Some(seen) => {
-                *seen = true;
+            Some(is_listed) => {
+                *is_listed = true;
                 roots.push(node.value());
             }
         }
@@ -230,15 +248,15 @@ fn is_scene_root(
     scene: &str,
     warnings: &mut ImportWarnings,
 ) -> bool {
-    let mut above = nodes[at].parent;
-    if above.is_some() {
+    let mut parent = nodes[at].parent;
+    if parent.is_some() {
         warnings.push_warning(scene, format!("node {at} is listed, but it is no root"));
     }
-    while let Some(node) = above {
+    while let Some(node) = parent {
         if listed[node] {
             return false;
         }
-        above = nodes[node].parent;
+        parent = nodes[node].parent;
     }
     true
 }
@@ -262,8 +280,8 @@ pub(super) fn check_scene_items(model: &Model, limits: &Limits) -> Result<(), Di
         let bending =
             joints.map_or(0, |joints| vertices[mesh].saturating_add(joints.saturating_mul(parts)));
         let shown = match &model.nodes[node].instance_transforms {
-            Some(places) => {
-                items[mesh].saturating_add(vertices[mesh]).saturating_mul(places.len() as u64)
+            Some(instances) => {
+                items[mesh].saturating_add(vertices[mesh]).saturating_mul(instances.len() as u64)
             }
             None => items[mesh],
         };

@@ -1,4 +1,8 @@
 //! Active scene and material variants (KHR_materials_variants).
+//!
+//! Variants are named in the document's root; each primitive maps some of them to materials.
+//! Choosing a variant replaces the material of every primitive that maps it, once, when the file is
+//! loaded.
 
 use crate::diagnostic::Diagnostic;
 use crate::import::NameOrIndex;
@@ -10,17 +14,18 @@ use serde_json::Value;
 /// The active scene: the requested one, else the default scene, else the first.
 pub(super) fn select_scene(
     root: &Root,
-    choice: Option<&NameOrIndex>,
+    selector: Option<&NameOrIndex>,
     warnings: &mut ImportWarnings,
 ) -> Result<usize, Diagnostic> {
-    if let Some(choice) = choice {
+    if let Some(selector) = selector {
         let names: Vec<_> = root.scenes.iter().map(|scene| scene.name.as_deref()).collect();
-        return choice.find_among(&names, "scene", "/scenes");
+        return selector.find_among(&names, "scene", "/scenes");
     }
     match root.scene.map(|scene| scene.value()) {
         Some(scene) if scene >= root.scenes.len() => {
-            let fault = Diagnostic::unresolved_index("/scene", "scene", scene, root.scenes.len());
-            warnings.downgrade_if_lenient(fault, "the first scene is shown").map(|()| 0)
+            let diagnostic =
+                Diagnostic::unresolved_index("/scene", "scene", scene, root.scenes.len());
+            warnings.downgrade_if_lenient(diagnostic, "the first scene is shown").map(|()| 0)
         }
         scene => Ok(scene.unwrap_or(0)),
     }
@@ -38,9 +43,12 @@ pub(super) fn variant_names(root: &Root) -> Vec<String> {
 }
 
 /// Index of the requested variant.
-pub(super) fn select_variant(names: &[String], choice: &NameOrIndex) -> Result<usize, Diagnostic> {
+pub(super) fn select_variant(
+    names: &[String],
+    selector: &NameOrIndex,
+) -> Result<usize, Diagnostic> {
     let names: Vec<_> = names.iter().map(|name| Some(name.as_str())).collect();
-    choice.find_among(&names, "variant", &format!("/extensions/{VARIANTS_EXTENSION}/variants"))
+    selector.find_among(&names, "variant", &format!("/extensions/{VARIANTS_EXTENSION}/variants"))
 }
 
 /// Materials of a primitive in the variants. References to nothing are left out with a warning.
@@ -53,27 +61,31 @@ pub(super) fn variant_materials(
 ) -> Vec<VariantMaterial> {
     let extension = json.extensions.as_ref().and_then(|all| all.others.get(VARIANTS_EXTENSION));
     let mappings = extension.and_then(|extension| extension.get("mappings")?.as_array());
-    let mut found = Vec::new();
-    for (at, mapping) in mappings.into_iter().flatten().enumerate() {
-        let pointer = format!("{pointer}/extensions/{VARIANTS_EXTENSION}/mappings/{at}");
-        let index = |json: Option<&Value>| json.and_then(Value::as_u64).map(|at| at as usize);
+    let mut assignments = Vec::new();
+    for (position, mapping) in mappings.into_iter().flatten().enumerate() {
+        let pointer = format!("{pointer}/extensions/{VARIANTS_EXTENSION}/mappings/{position}");
+        let index =
+            |json: Option<&Value>| json.and_then(Value::as_u64).map(|position| position as usize);
         let material = index(mapping.get("material")).unwrap_or(usize::MAX);
-        let named = mapping.get("variants").and_then(Value::as_array).into_iter().flatten();
-        let fault = if material < root.materials.len() {
-            let numbers = named.map(|json| index(Some(json)).unwrap_or(usize::MAX));
-            let (known, lost): (Vec<_>, Vec<_>) = numbers.partition(|&at| at < variants);
-            found.extend(known.iter().map(|&variant| VariantMaterial { variant, material }));
+        let listed = mapping.get("variants").and_then(Value::as_array).into_iter().flatten();
+        let diagnostic = if material < root.materials.len() {
+            let numbers = listed.map(|json| index(Some(json)).unwrap_or(usize::MAX));
+            let (known, unknown): (Vec<_>, Vec<_>) =
+                numbers.partition(|&position| position < variants);
+            assignments.extend(known.iter().map(|&variant| VariantMaterial { variant, material }));
             let pointer = format!("{pointer}/variants");
-            lost.first().map(|&at| Diagnostic::unresolved_index(&pointer, "variant", at, variants))
+            unknown.first().map(|&position| {
+                Diagnostic::unresolved_index(&pointer, "variant", position, variants)
+            })
         } else {
             let pointer = format!("{pointer}/material");
             Some(Diagnostic::unresolved_index(&pointer, "material", material, root.materials.len()))
         };
-        if let Some(fault) = fault {
-            warnings.downgrade(&fault, "it is left out");
+        if let Some(diagnostic) = diagnostic {
+            warnings.downgrade(&diagnostic, "it is left out");
         }
     }
-    found
+    assignments
 }
 
 /// Material of a primitive in a variant, if the variant changes it.
@@ -83,16 +95,18 @@ pub(super) fn variant_material(
     variant: usize,
 ) -> Option<usize> {
     let all = variant_materials(root, json, "", variant + 1, &mut ImportWarnings::default());
-    all.iter().find(|found| found.variant == variant).map(|found| found.material)
+    all.iter()
+        .find(|assignments| assignments.variant == variant)
+        .map(|assignments| assignments.material)
 }
 
 /// Replaces the materials of primitives by those of a variant, where it changes them.
 pub(super) fn apply_variant(meshes: &mut [Mesh], variant: usize) {
     for primitive in meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
-        if let Some(found) =
-            primitive.material_variants.iter().find(|found| found.variant == variant)
+        if let Some(assignments) =
+            primitive.material_variants.iter().find(|assignments| assignments.variant == variant)
         {
-            primitive.material = Some(found.material);
+            primitive.material = Some(assignments.material);
         }
     }
 }

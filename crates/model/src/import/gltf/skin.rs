@@ -1,4 +1,7 @@
 //! Skins: joints and inverse bind matrices; an invalid skin is left out with a warning.
+//!
+//! A skin needs at least one joint, every joint must be a node, and there must be a matrix for
+//! each. The `skeleton` member is ignored: it does not affect the joint matrices.
 
 use super::accessor::AccessorReader;
 use super::node_transform::affine_from_columns;
@@ -16,8 +19,8 @@ pub(super) fn import_skins(
     let mut skins = Vec::with_capacity(source.root.skins.len());
     for at in 0..source.root.skins.len() {
         match read_skin(source, at) {
-            Err(fault) if fault.is_downgradable() => {
-                warnings.downgrade(&fault, "the skin is left out");
+            Err(diagnostic) if diagnostic.is_downgradable() => {
+                warnings.downgrade(&diagnostic, "the skin is left out");
                 skins.push(Skin { joints: Vec::new(), inverse_bind_matrices: Vec::new() });
             }
             skin => skins.push(skin?),
@@ -31,9 +34,9 @@ fn read_skin(source: &AccessorReader<'_>, at: usize) -> Result<Skin, Diagnostic>
     let json = &source.root.skins[at];
     let count = source.root.nodes.len();
     let joints: Vec<usize> = json.joints.iter().map(gltf::json::Index::value).collect();
-    if let Some(place) = joints.iter().position(|&joint| joint >= count) {
-        let pointer = format!("/skins/{at}/joints/{place}");
-        return Err(Diagnostic::unresolved_index(&pointer, "node", joints[place], count));
+    if let Some(slot) = joints.iter().position(|&joint| joint >= count) {
+        let pointer = format!("/skins/{at}/joints/{slot}");
+        return Err(Diagnostic::unresolved_index(&pointer, "node", joints[slot], count));
     }
     if joints.is_empty() {
         return Err(Diagnostic::invalid(&format!("/skins/{at}/joints"), "there are no joints"));
@@ -47,8 +50,8 @@ fn read_skin(source: &AccessorReader<'_>, at: usize) -> Result<Skin, Diagnostic>
         return Err(Diagnostic::invalid(&pointer, "the matrices must be MAT4 of floats"));
     }
     if elements.count < joints.len() {
-        let problem = format!("{} matrices for {} joints", elements.count, joints.len());
-        return Err(Diagnostic::invalid(&pointer, problem));
+        let message = format!("{} matrices for {} joints", elements.count, joints.len());
+        return Err(Diagnostic::invalid(&pointer, message));
     }
     let matrices = source.read_floats::<16>(&elements.slice_range(0..joints.len()))?;
     let inverse_bind: Option<Vec<_>> =

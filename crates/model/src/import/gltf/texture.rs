@@ -1,4 +1,8 @@
 //! Textures: the image each uses, and its sampler.
+//!
+//! glTF numbers filters and wrap modes by OpenGL's constants, with magnification, minification and
+//! mipmap filter in two members; here each is an enum. Without a sampler, or without `minFilter`,
+//! textures repeat and are filtered trilinearly.
 
 use crate::diagnostic::Diagnostic;
 use crate::import::warnings::ImportWarnings;
@@ -20,9 +24,9 @@ pub(super) fn import_textures(root: &Root, warnings: &mut ImportWarnings) -> Vec
                 || {
                     let pointer = format!("{pointer}/sampler");
                     let count = root.samplers.len();
-                    let fault =
+                    let diagnostic =
                         Diagnostic::unresolved_index(&pointer, "sampler", index.value(), count);
-                    warnings.downgrade(&fault, "the texture is read in the usual way");
+                    warnings.downgrade(&diagnostic, "the texture is read in the usual way");
                     Sampler::default()
                 },
                 convert_sampler,
@@ -47,8 +51,8 @@ fn texture_image(root: &Root, at: usize, warnings: &mut ImportWarnings) -> Optio
     }
     if image != NO_SOURCE {
         let pointer = format!("/textures/{at}/source");
-        let fault = Diagnostic::unresolved_index(&pointer, "image", image, root.images.len());
-        warnings.downgrade(&fault, "the texture is not shown");
+        let diagnostic = Diagnostic::unresolved_index(&pointer, "image", image, root.images.len());
+        warnings.downgrade(&diagnostic, "the texture is not shown");
     }
     None
 }

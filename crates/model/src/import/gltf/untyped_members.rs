@@ -41,8 +41,8 @@ impl UntypedMembers {
 }
 
 /// Items of an array member with their indices; none if it is absent.
-fn indexed_items<'a>(of: &'a Value, key: &str) -> impl Iterator<Item = (usize, &'a Value)> {
-    of.get(key).and_then(Value::as_array).into_iter().flatten().enumerate()
+fn indexed_items<'a>(json: &'a Value, key: &str) -> impl Iterator<Item = (usize, &'a Value)> {
+    json.get(key).and_then(Value::as_array).into_iter().flatten().enumerate()
 }
 
 /// The index in a JSON number; `usize::MAX`, which is out of range everywhere, if there is none.
@@ -50,26 +50,28 @@ fn index_or_max(value: Option<&Value>) -> usize {
     value.and_then(Value::as_u64).and_then(|at| usize::try_from(at).ok()).unwrap_or(usize::MAX)
 }
 
+/// Animation channels whose target has the extension KHR_animation_pointer.
 fn collect_pointer_channels(document: &Value) -> Vec<PointerChannel> {
-    let mut found = Vec::new();
+    let mut collected = Vec::new();
     for (animation, json) in indexed_items(document, "animations") {
         for (channel, json) in indexed_items(json, "channels") {
             let target = json.pointer("/target/extensions/KHR_animation_pointer/pointer");
             if let Some(target) = target.and_then(Value::as_str) {
                 let (sampler, target) = (index_or_max(json.get("sampler")), target.to_owned());
-                found.push(PointerChannel { animation, channel, sampler, target });
+                collected.push(PointerChannel { animation, channel, sampler, target });
             }
         }
     }
-    found
+    collected
 }
 
+/// Texture coordinates and colors of morph targets, by mesh, primitive and target index.
 fn collect_morph_attributes(
     document: &Value,
 ) -> BTreeMap<(usize, usize, usize), Vec<(String, usize)>> {
-    let mut found = BTreeMap::new();
+    let mut collected = BTreeMap::new();
     for (mesh, json) in indexed_items(document, "meshes") {
-        for (part, json) in indexed_items(json, "primitives") {
+        for (primitive_index, json) in indexed_items(json, "primitives") {
             for (target, json) in indexed_items(json, "targets") {
                 let members = json.as_object().into_iter().flatten();
                 let further = members
@@ -77,12 +79,12 @@ fn collect_morph_attributes(
                     .map(|(name, accessor)| (name.clone(), index_or_max(Some(accessor))));
                 let further: Vec<_> = further.collect();
                 if !further.is_empty() {
-                    found.insert((mesh, part, target), further);
+                    collected.insert((mesh, primitive_index, target), further);
                 }
             }
         }
     }
-    found
+    collected
 }
 
 #[cfg(test)]

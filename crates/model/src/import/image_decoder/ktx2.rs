@@ -19,8 +19,8 @@ pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), String> {
 /// Decodes the first mip level of the first layer and face.
 pub(super) fn decode(bytes: &[u8]) -> Result<crate::Image, String> {
     use basisu::{DecodeFlags, TargetFormat, Transcoder};
-    let problem = |error: basisu::Error| format!("the KTX2 image is not read: {error:?}");
-    let transcoder = Transcoder::new(bytes).map_err(problem)?;
+    let message = |error: basisu::Error| format!("the KTX2 image is not read: {error:?}");
+    let transcoder = Transcoder::new(bytes).map_err(message)?;
     let (width, height) = transcoder.base_dimensions();
     if (width, height) != size(bytes)? {
         return Err("the KTX2 image has two sizes".to_owned());
@@ -29,7 +29,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<crate::Image, String> {
     if !transcoder.supports(target) {
         return Err("the KTX2 image has no colours of eight bits".to_owned());
     }
-    let texels = transcoder.transcode(0, target, DecodeFlags::NONE).map_err(problem)?;
+    let texels = transcoder.transcode(0, target, DecodeFlags::NONE).map_err(message)?;
     let rgba = texels.as_chunks().0.to_vec();
     if rgba.len() as u64 != u64::from(width) * u64::from(height) {
         return Err("the KTX2 image is incomplete".to_owned());
@@ -41,8 +41,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<crate::Image, String> {
 mod tests {
     use super::*;
 
-    /// An image of 4 x 4 texels in one ASTC block of one colour (a void-extent block: Khronos data format
-    /// specification, §23.23), with the smallest header that KTX 2.0 allows.
+    /// An image of 4 x 4 texels in one ASTC block of one color (a void-extent block: Khronos data
+    /// format specification, §23.23), with the smallest header that KTX 2.0 allows.
     fn one_color([r, g, b, a]: [u16; 4]) -> Vec<u8> {
         const ASTC_4X4_SRGB: u32 = 158;
         const HEADER: u32 = 80 + 24;
@@ -54,12 +54,13 @@ mod tests {
         // Data format descriptor, key/value data, supercompression data: place and length.
         words(&[HEADER, DESCRIPTOR, 0, 0, 0, 0, 0, 0]);
         // The level: place, length, length before compression, 64 bits each.
-        let place = (HEADER + DESCRIPTOR).next_multiple_of(16);
-        words(&[place, 0, 16, 0, 16, 0]);
-        // One block of descriptor: ASTC, BT.709, sRGB, straight alpha, 4 x 4 texels in 16 bytes, one sample.
+        let offset = (HEADER + DESCRIPTOR).next_multiple_of(16);
+        words(&[offset, 0, 16, 0, 16, 0]);
+        // One block of descriptor: ASTC, BT.709, sRGB, straight alpha, 4 x 4 texels in 16 bytes,
+        // one sample.
         words(&[DESCRIPTOR, 0, 2 | 40 << 16, 162 | 1 << 8 | 2 << 16, 3 | 3 << 8, 16, 0]);
         words(&[127 << 16, 0, 0, u32::MAX]);
-        bytes.resize(place as usize, 0);
+        bytes.resize(offset as usize, 0);
         bytes.extend([0xFC, 0xFD, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF]);
         [r, g, b, a].iter().for_each(|channel| bytes.extend(channel.to_le_bytes()));
         bytes
@@ -78,7 +79,8 @@ mod tests {
     fn every_truncation_is_an_error_and_no_panic() {
         let bytes = one_color([0; 4]);
         for end in 0..bytes.len() {
-            assert!(decode(&bytes[..end]).is_err(), "{end}");
+            let message = decode(&bytes[..end]).unwrap_err();
+            assert!(message.starts_with("the KTX2 image is "), "cut at {end}: {message}");
         }
     }
 }

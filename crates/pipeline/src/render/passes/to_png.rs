@@ -1,25 +1,27 @@
-//! Passes as PNG files of 16 bits, for eyes and for tools that read nothing else.
+//! Passes as 16-bit PNG files, for image viewers and for tools that read nothing else.
 //!
-//! | pass | what a code c of 0 to 65,535 means |
+//! | pass | meaning of a code c from 0 to 65,535 |
 //! | --- | --- |
-//! | depth, distance | 0: nothing; else least + (c − 1) / 65,534 · (greatest − least), grey |
-//! | position, uv | the same for each of red, green and blue by itself; where nothing is, all are 0 |
-//! | normal, view-normal | c / 65,535 · 2 − 1; where nothing is, all are 0 |
+//! | depth, distance | 0: nothing visible; else min + (c − 1) / 65,534 · (max − min), gray |
+//! | position, uv | likewise for each of red, green and blue; all 0 where nothing is visible |
+//! | normal, view-normal | c / 65,535 · 2 − 1; all 0 where nothing is visible |
 //! | barycentric, coverage | c / 65,535 |
-//! | numbers | themselves in grey; where one is beyond 65,535, in red c · 65,536, in green what is left |
+//! | integers | themselves in gray; if one exceeds 65,535, c / 65,536 in red, the rest in green |
 //!
-//! Least and greatest are those of the file. They stand in its text chunk `Description`, with the pass and its unit.
+//! min and max are those of the file. They stand in its text chunk `Description`, with the pass and
+//! its unit.
 
 use super::buffer::{PassBuffer, PassValues};
 use super::pass::Pass;
 use png::{BitDepth, ColorType, Compression, Encoder};
 use std::fmt::Write;
 
-/// The greatest code.
+/// The largest code.
 const MAX_CODE: f64 = 65_535.0;
 
 impl PassBuffer {
-    /// The pass as a PNG file of 16 bits: grey for one number, else red, green and blue.
+    /// Encodes the pass as a PNG file with 16 bits per channel: gray for one value per pixel, else
+    /// red, green and blue.
     #[must_use]
     pub fn to_png(&self) -> Vec<u8> {
         match &self.values {
@@ -49,7 +51,7 @@ impl PassBuffer {
         )
     }
 
-    /// What the codes of a channel mean, and adds it to the text.
+    /// The range of values that the codes of a channel span, which is also added to the description.
     fn code_range(&self, values: &[f32], channel: usize, text: &mut String) -> CodeRange {
         match self.pass {
             Pass::Normal | Pass::ViewNormal => {
@@ -68,7 +70,7 @@ impl PassBuffer {
             .map(|pixel| pixel[channel])
             .fold(empty, |(least, most), value| (least.min(value), most.max(value)));
         let (from, to) = if from <= to { (from, to) } else { (0.0, 0.0) };
-        // Writing to a text does not fail.
+        // Writing to a String does not fail.
         let _ = write!(text, "; channel {}: 1 is {from}, 65535 is {to}", channel + 1);
         CodeRange { min: from.into(), max: to.into(), first_code: 1.0 }
     }
@@ -100,11 +102,11 @@ impl PassBuffer {
     }
 }
 
-/// The numbers that the first and the last code stand for.
+/// The values of the first and the last code.
 struct CodeRange {
     min: f64,
     max: f64,
-    /// The first code that stands for a number: 0, or 1 if 0 is nothing.
+    /// The first code that stands for a value: 0, or 1 where 0 marks empty pixels.
     first_code: f64,
 }
 
@@ -116,7 +118,7 @@ impl CodeRange {
     }
 }
 
-/// What the numbers of a pass are, for people.
+/// The description of a pass's values in the file.
 const fn unit_description(pass: Pass) -> &'static str {
     match pass {
         Pass::Depth => "scene units ahead of the eye along the view axis; 0 is nothing",

@@ -81,11 +81,12 @@ fn every_cut_is_refused() {
     ] {
         assert!(packed.decompress(stream).is_ok());
         for end in 0..stream.len() {
-            let fault = packed.decompress(&stream[..end]).unwrap_err();
-            assert_eq!(fault.location, "/bufferViews/7/extensions/EXT_meshopt_compression");
+            let diagnostic = packed.decompress(&stream[..end]).unwrap_err();
+            assert_eq!(diagnostic.location, "/bufferViews/7/extensions/EXT_meshopt_compression");
         }
         let longer = [stream, &[0]].concat();
-        assert!(packed.decompress(&longer).is_err());
+        let message = packed.decompress(&longer).unwrap_err().message;
+        assert!(message.starts_with("the stream"), "{message}");
     }
 }
 
@@ -107,7 +108,8 @@ fn changed_bytes_do_no_harm() {
                 let at = random() % changed.len();
                 changed[at] = random() as u8;
             }
-            // The first byte chooses the version: version 1 reads the bytes of version 0 in quite another way.
+            // The first byte chooses the version: version 1 reads the bytes of version 0 in quite
+            // another way.
             for (mode, first) in
                 [("ATTRIBUTES", 0xA0), ("ATTRIBUTES", 0xA1), ("TRIANGLES", 0xE1), ("INDICES", 0xD1)]
             {
@@ -127,7 +129,7 @@ fn what_the_json_may_say() {
         json!({"buffer": 0, "byteLength": 9, "count": 6, "byteStride": 8, "mode": "ATTRIBUTES"});
     let plain: View = serde_json::from_value(json!({"buffer": 1, "byteLength": 48})).unwrap();
     assert!(CompressedView::from_view(&plain, "").unwrap().is_none());
-    for (changes, length, fault) in [
+    for (changes, length, diagnostic) in [
         (json!({}), 48, None),
         (json!({"filter": "COLOR"}), 48, None),
         (json!({"mode": "INDICES", "byteStride": 2}), 12, None),
@@ -164,10 +166,11 @@ fn what_the_json_may_say() {
     ] {
         let mut extension = good.clone();
         extension.as_object_mut().unwrap().extend(changes.as_object().unwrap().clone());
-        let said = parse_extension(&extension, length)
+        let actual = parse_extension(&extension, length)
             .err()
-            .map(|fault| format!("{}: {}", fault.location, fault.message));
-        let ends = |said: &String| fault.is_some_and(|fault| said.ends_with(fault));
-        assert!(said.as_ref().map_or(fault.is_none(), ends), "{changes}: {said:?}");
+            .map(|diagnostic| format!("{}: {}", diagnostic.location, diagnostic.message));
+        let ends =
+            |actual: &String| diagnostic.is_some_and(|diagnostic| actual.ends_with(diagnostic));
+        assert!(actual.as_ref().map_or(diagnostic.is_none(), ends), "{changes}: {actual:?}");
     }
 }

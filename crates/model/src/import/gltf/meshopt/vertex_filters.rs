@@ -35,16 +35,16 @@ impl MeshoptFilter {
 }
 
 /// A unit vector from octahedral coordinates (Meyer et al. 2010); `one` represents 1 in full width.
-fn decode_octahedral([x, y, unit, rest]: [i16; 4], one: f32) -> [i16; 4] {
+fn decode_octahedral([x, y, unit, fourth]: [i16; 4], full_scale: f32) -> [i16; 4] {
     let unit_length = f32::from(unit);
     let (x, y) = (f32::from(x) / unit_length, f32::from(y) / unit_length);
     let z = 1.0 - x.abs() - y.abs();
     // The lower half is folded out over the corners of the square.
     let fold = z.min(0.0);
     let (x, y) = (x - fold.copysign(x), y - fold.copysign(y));
-    let scale = one / (x * x + y * y + z * z).sqrt();
-    let whole = |x: f32| (x * scale).round() as i16;
-    [whole(x), whole(y), whole(z), rest]
+    let scale = full_scale / (x * x + y * y + z * z).sqrt();
+    let round_to_i16 = |x: f32| (x * scale).round() as i16;
+    [round_to_i16(x), round_to_i16(y), round_to_i16(z), fourth]
 }
 
 /// A rotation from its three smaller components, scaled by √2, and the index of the largest.
@@ -52,9 +52,9 @@ fn decode_quaternion([a, b, c, scale]: [i16; 4]) -> [i16; 4] {
     let step = std::f32::consts::FRAC_1_SQRT_2 / f32::from(scale | 3);
     let [a, b, c] = [a, b, c].map(|x| f32::from(x) * step);
     let largest = (1.0 - a * a - b * b - c * c).max(0.0).sqrt();
-    let mut parts = [largest, a, b, c].map(|x| (x * 32_767.0).round() as i16);
-    parts.rotate_right(usize::from(scale.cast_unsigned() & 3));
-    parts
+    let mut components = [largest, a, b, c].map(|x| (x * 32_767.0).round() as i16);
+    components.rotate_right(usize::from(scale.cast_unsigned() & 3));
+    components
 }
 
 /// A float from an exponent of 8 bits and a mantissa of 24, both signed.
@@ -65,15 +65,16 @@ fn decode_exponential(number: i32) -> f32 {
 }
 
 /// RGBA from YCoCg and alpha; the highest bit of alpha tells how many bits all of them have.
-fn decode_color([y, co, cg, alpha]: [i32; 4], one: f32) -> [u16; 4] {
+fn decode_color([y, co, cg, alpha]: [i32; 4], full_scale: f32) -> [u16; 4] {
     let all = match alpha {
         ..=0 => 1,
         _ => (2i32 << alpha.ilog2()) - 1,
     };
     let alpha = alpha & (all >> 1);
     let alpha = alpha << 1 | (alpha & 1);
-    let scale = one / all as f32;
-    [y + co - cg, y + cg, y - co - cg, alpha].map(|x| (x as f32 * scale).round().min(one) as u16)
+    let scale = full_scale / all as f32;
+    [y + co - cg, y + cg, y - co - cg, alpha]
+        .map(|x| (x as f32 * scale).round().min(full_scale) as u16)
 }
 
 /// Replaces each `N` numbers in a slice of bytes.
@@ -151,14 +152,14 @@ mod tests {
         // (½, ½, ½, ½) in eleven bits: 1/2 · √2 · 1023 = 723.4.
         for largest in 0..4i16 {
             let stored = [723, 723, 723, 1020 | largest];
-            let found = filtered(MeshoptFilter::Quaternion, 8, &stored);
-            assert!(found.iter().all(|x| (x - half).abs() < 32), "{largest}: {found:?}");
+            let actual = filtered(MeshoptFilter::Quaternion, 8, &stored);
+            assert!(actual.iter().all(|x| (x - half).abs() < 32), "{largest}: {actual:?}");
             let axis = filtered(MeshoptFilter::Quaternion, 8, &[0, 0, 0, 1020 | largest]);
             assert_eq!(axis[usize::from(largest.cast_unsigned())], 32_767);
         }
         // The others follow the largest in a circle.
-        let found = filtered(MeshoptFilter::Quaternion, 8, &[100, 0, 0, 1022]);
-        assert_eq!((found[3], found[0], found[1]), (2265, 0, 0));
+        let actual = filtered(MeshoptFilter::Quaternion, 8, &[100, 0, 0, 1022]);
+        assert_eq!((actual[3], actual[0], actual[1]), (2265, 0, 0));
     }
 
     #[test]
@@ -182,7 +183,8 @@ mod tests {
 
     #[test]
     fn colors_of_all_widths() {
-        // Red, green, blue, white, grey of seven bits: 127 is one, and alpha has six bits below the marker.
+        // Red, green, blue, white, grey of seven bits: 127 is one, and alpha has six bits below the
+        // marker.
         for ([r, g, b], alpha) in [
             ([127, 0, 0], 0x7F),
             ([0, 127, 0], 0x7F),
@@ -198,12 +200,15 @@ mod tests {
             let stored = [y, co, cg, alpha].map(|x: i32| x as u8);
             let mut bytes = stored;
             MeshoptFilter::Color.apply_filter(&mut bytes, 4);
-            for (found, due) in bytes.iter().zip([r, g, b]) {
-                let due = f64::from(due) * 255.0 / 127.0;
-                assert!((f64::from(*found) - due).abs() < 4.5, "{stored:x?}: {found} for {due}");
+            for (actual, expected) in bytes.iter().zip([r, g, b]) {
+                let expected = f64::from(expected) * 255.0 / 127.0;
+                assert!(
+                    (f64::from(*actual) - expected).abs() < 4.5,
+                    "{stored:x?}: {actual} for {expected}"
+                );
             }
-            let due = f64::from((alpha & 0x3F) << 1 | alpha & 1) * 255.0 / 127.0;
-            assert!((f64::from(bytes[3]) - due).abs() <= 0.5);
+            let expected = f64::from((alpha & 0x3F) << 1 | alpha & 1) * 255.0 / 127.0;
+            assert!((f64::from(bytes[3]) - expected).abs() <= 0.5);
         }
         let white = filtered(MeshoptFilter::Color, 8, &[1023, 0, 0, 1023]);
         assert_eq!(white, [-1; 4]);
