@@ -45,3 +45,8 @@ pub use texture::{
     Image, ImageHeader, ImageInfo, MipmapMode, Sampler, Texture, TextureFilter, WrapMode,
 };
 pub use timings::Timings;
+
+/// Compiles and runs the examples of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

@@ -24,7 +24,7 @@ use glam::{DMat4, DVec3, DVec4};
 use homog::{Affine, HPoint, Normal, Plane, View};
 use thiserror::Error;
 
-/// What a matrix turned out to be.
+/// The projection that a matrix was recognized as.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Decomposed {
     /// A perspective from the origin; with a centred window [`crate::Perspective`] can be had from
@@ -34,14 +34,14 @@ pub enum Decomposed {
     ApexMoved(ApexMovedFrustum),
     /// A perspective from elsewhere or turned: a camera and a lens in one matrix.
     PlacedFrustum {
-        /// What the camera does.
+        /// The camera's map.
         placement: Affine<View, View>,
-        /// What the lens does.
+        /// The lens.
         frustum: Frustum,
     },
     /// A perspective whose near plane is inclined (Lengyel).
     ObliqueNear {
-        /// What the camera does: the identity if there is none.
+        /// The camera's map: the identity if there is none.
         placement: Affine<View, View>,
         /// The window one unit ahead of the eye.
         slopes: Window,
@@ -60,7 +60,7 @@ pub enum Decomposed {
     /// An orthographic projection turned in a way that no axonometric projection is: a camera and a
     /// box in one matrix.
     PlacedOrthographic {
-        /// What the camera does.
+        /// The camera's map.
         placement: Affine<View, View>,
         /// The box.
         volume: Orthographic,
@@ -80,7 +80,7 @@ pub enum Decomposed {
 /// The result of [`decompose`].
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Decomposition {
-    /// What the matrix is, without the factor.
+    /// The projection, without the factor.
     pub kind: Decomposed,
     /// The common factor that was taken out. Negative if w is negative in front of the eye, as in
     /// the textbook's M_per: divide by it before clipping (PE-3).
@@ -128,9 +128,9 @@ pub enum DecomposeError {
     /// Near and far make no sense in this convention.
     #[error("in this convention near and far would be {near} and {far}; allowed: 0 < near < far")]
     DepthRange {
-        /// What the matrix maps to the near depth.
+        /// The distance that the matrix maps to the near depth.
         near: f64,
-        /// What the matrix maps to the far depth.
+        /// The distance that the matrix maps to the far depth.
         far: f64,
     },
     /// The parameters that come out are refused by their builder.

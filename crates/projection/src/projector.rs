@@ -51,7 +51,7 @@ impl<S: Space> Projector<S> {
         for value in <[f64; 3]>::from(eye) {
             check_finite("eye", value)?;
         }
-        Self::new_checked(HPoint::from(eye), plane, ProjectionError::CentreOnPlane)
+        Self::new_checked(HPoint::from(eye), plane, ProjectionError::CenterOnPlane)
     }
 
     /// Parallel projection along `direction` onto `plane`.
@@ -113,8 +113,8 @@ impl<S: Space> Projector<S> {
         Projective::from_raw(DMat4::IDENTITY - outer_product(toward, self.plane.raw()))
     }
 
-    /// The same image beside the plane instead of in it: the distance from the plane is kept before
-    /// the divide, so that the map has an inverse and what hides what can be told (PR-1, C102).
+    /// The depth-preserving variant: the image keeps its distance from the plane before the divide,
+    /// so that the map has an inverse and hidden surfaces can be removed (PR-1, C102).
     #[must_use]
     pub fn depth_preserving(self) -> Projective<S, S> {
         let normal = self.plane.normal().raw().extend(0.0);

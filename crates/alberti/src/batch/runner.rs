@@ -106,8 +106,6 @@ impl BatchRun<'_> {
     }
 
     /// Renders one picture; returns the warnings of its models and of the drawing.
-    ///
-    /// One thread renders it: the batch runs several jobs at a time, which scales better.
     fn render_picture(
         &self,
         input: &Path,

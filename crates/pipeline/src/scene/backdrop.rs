@@ -15,6 +15,7 @@ use std::sync::Arc;
 const MAX_GRADIENT_COLORS: usize = 16;
 /// The most pixels of a picture behind the models.
 const MAX_IMAGE_TEXELS: u64 = 1 << 26;
+/// The path of the background in a scene file; viewports have their own.
 const BACKGROUND_PATH: [PathStep<'static>; 2] = [Field("image"), Field("background")];
 
 impl SceneFile {
@@ -33,6 +34,7 @@ impl SceneFile {
         around.into_iter().chain(behind)
     }
 }
+/// An error that points into the background, at the value at the end of `rest`.
 
 fn background_error(
     origin: &Origin,

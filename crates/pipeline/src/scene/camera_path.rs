@@ -1,4 +1,4 @@
-//! The way of a camera: its keys, and where it is between them.
+//! Camera paths: keyframes of a camera, and their interpolation by Catmull–Rom splines.
 
 use super::file::{
     CameraFile, CameraKeyFile, CurveFile, FieldOfView, ProjectionFile, SceneFile, ViewFile,
@@ -15,7 +15,7 @@ const MAX_KEYS: usize = 10_000;
 /// The numbers of a key: eye, target, view-up vector, opening angle in degrees.
 type KeyValues = [f64; 10];
 
-/// The way of a camera.
+/// The path of a camera in time.
 #[derive(Clone, PartialEq, Debug)]
 pub struct CameraPath {
     keys: Vec<(f64, KeyValues)>,
@@ -25,7 +25,7 @@ pub struct CameraPath {
 }
 
 impl CameraPath {
-    /// The way that a scene file has, if it has one.
+    /// The camera path of a scene file, if it has one.
     ///
     /// # Errors
     /// If there are too few keys or too many, their times do not grow, or a key has an opening
@@ -103,6 +103,9 @@ impl CameraPath {
             origin.error_at(&[Field("camera_path"), Field("keys")], message, error.help)
         })
     }
+    /// The values at a time: those of the first and the last keyframe outside of their range, else
+    /// an interpolation of the keyframes around it, linear or by a cubic Hermite curve with
+    /// Catmull–Rom slopes.
 
     fn interpolate_keys(&self, time: f64) -> KeyValues {
         let after = self.keys.partition_point(|key| key.0 <= time);
@@ -130,6 +133,7 @@ impl CameraPath {
         (to[number] - from[number]) / (end - start)
     }
 }
+/// The values of a keyframe; `usual` is the field of view of keyframes without one.
 
 fn key_values(key: &CameraKeyFile, usual: FieldOfView) -> KeyValues {
     let [[a, b, c], [d, e, f], [g, h, i]] = [key.eye.0, key.target.0, key.up.0];

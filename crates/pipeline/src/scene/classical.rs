@@ -1,9 +1,10 @@
-//! The classical projections of a scene: each finds a window in which everything is.
+//! The classical projections: axonometric, oblique, planometric, and perspectives by vanishing
+//! points. Each of them fits its own window around the models.
 //!
-//! Those that are given by a picture plane are framed on it: the points are projected, the box
-//! around their images is the window, and the box's depths the near and far planes. Those that are
-//! given by vanishing points on the picture fix how the eye looks and where the window is beside
-//! its line of sight; framing finds where the eye stands.
+//! - Projections by a picture plane: the vertices are projected, the box around their images is
+//!   the window, and the depths of that box are the near and far planes.
+//! - Perspectives by vanishing points: the points fix the orientation of the eye and the slopes of
+//!   the window beside its line of sight; framing finds the position of the eye.
 
 use super::file::{Finite, FromFile, ProjectionFile};
 use super::view_projection::{CameraResolver, PROJECTION_PATH, VIEW_PATH};

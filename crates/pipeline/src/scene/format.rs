@@ -3,10 +3,10 @@
 //! ```text
 //!  text ─► older words replaced ─► tokens with the line breaks before them ─► groups of items ─► lines
 //! ```
-//! A group that fits on a line is written on one line; everything else has a line for each part; comments
-//! stay. A bracket that is followed by a line break stays open: the author decides what is worth
-//! several lines, and formatting again changes nothing. Blank lines between items stay too, one at
-//! a time.
+//! A group that fits on a line is written on one line; everything else has a line for each part;
+//! comments stay. A bracket that is followed by a line break stays open: the author decides what is
+//! worth several lines, and formatting again changes nothing. Blank lines between items stay too,
+//! one at a time.
 
 mod modernize;
 mod tree;

@@ -1,4 +1,4 @@
-//! The ground below the models: as much of it as their shadows may reach.
+//! The shadow catcher below the models: the smallest rectangle that their shadows need.
 
 use super::file::{GroundFile, SceneFile};
 use glam::DVec3;
@@ -7,7 +7,7 @@ use model::ModelInstance;
 use model::world_points;
 use shade::Light;
 
-/// A level rectangle that only shadows are seen on.
+/// A level rectangle that shows nothing but shadows.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Ground {
     /// Its corners in the world, counter-clockwise from above.

@@ -1,15 +1,16 @@
-//! Pictures of surroundings: the `.hdr` files of Ward's Radiance, an exponent for each three
-//! mantissas.
+//! Decoder of Radiance `.hdr` images (RGBE): one shared exponent for three mantissas.
 //!
-//! Source: G. Ward, *Real pixels*, Graphics Gems II, 1991, and the format's own description in
-//! Radiance's manual.
+//! Source: G. Ward, *Real Pixels*, Graphics Gems II, 1991, and the file format in Radiance's
+//! manual. Both encodings of scanlines are read, flat with old-style runs and run-length encoded
+//! channels; only the orientation `-Y … +X …`. Sizes are checked against the length of the file
+//! before anything is allocated.
 
-/// The largest side of a picture.
+/// The most texels along a side of an image.
 const MAX_HDR_SIDE: usize = 16384;
-/// The most texels of a picture.
+/// The most texels of an image.
 const MAX_HDR_TEXELS: usize = 64 << 20;
 
-/// A picture of all directions: longitude along the rows, latitude from above to below. Linear.
+/// An equirectangular image: longitude along the rows, latitude from above to below. Linear.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Panorama {
     width: usize,
@@ -80,6 +81,7 @@ impl Panorama {
         Self { width, height, texels: (0..width * height).map(texel).collect() }
     }
 }
+/// The integer part below a coordinate, and the fraction above it, for bilinear interpolation.
 
 fn split_floor(place: f32) -> (i64, f32) {
     (place.floor() as i64, place - place.floor())

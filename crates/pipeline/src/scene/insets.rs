@@ -148,7 +148,8 @@ pub(super) fn resolve_border(
     Ok(Some((border.color.0, border.width)))
 }
 
-/// The insets of a stereo pair: the left and the right eye's view, off-axis (zero vertical parallax).
+/// The insets of a stereo pair: the left and the right eye's view, off-axis (zero vertical
+/// parallax).
 fn resolve_stereo(
     origin: &Origin,
     file: &SceneFile,

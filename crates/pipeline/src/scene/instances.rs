@@ -1,7 +1,7 @@
-//! The places of a model's copies: grids, circles and lists.
+//! Instances of a model: grids, circles and lists of transforms.
 //!
 //! ```text
-//!   model ─scale, turn─► ─each copy's own way─► ─translate─► world
+//!   model ─scale, rotate─► ─transform of the instance─► ─translate─► world
 //! ```
 
 use super::file::{Finite, InstanceFile, InstancesFile, ModelFile, SceneFile};
@@ -18,6 +18,7 @@ pub(super) const MAX_INSTANCES: usize = 100_000;
 /// The most vertices of all copies of one model: their places are kept for the framing, 24 bytes
 /// each.
 const MAX_INSTANCE_VERTICES: usize = 1 << 25;
+/// A transform of an instance within the space of its model.
 
 type InstanceTransform = Affine<ModelSpace, ModelSpace>;
 
@@ -52,10 +53,15 @@ impl ModelFile {
         }
     }
 }
+/// The path of a model's `instances`, and of a value in them.
 
 fn instances_path<'a>(number: usize, rest: &[PathStep<'a>]) -> Vec<PathStep<'a>> {
     [&[Field("models"), Index(number), Field("instances")], rest].concat()
 }
+/// The count of a model's instances.
+///
+/// # Errors
+/// If there are none.
 
 fn checked_instance_count(
     origin: &Origin,
@@ -115,12 +121,13 @@ fn scale_then_rotate(scale: Scale, rotation_degrees: Triple) -> InstanceTransfor
         .then(InstanceTransform::rotation_y(ry))
         .then(InstanceTransform::rotation_z(rz))
 }
+/// A translation.
 
 fn translate_by(by: [f64; 3]) -> InstanceTransform {
     InstanceTransform::translation(Vector::from(by))
 }
 
-/// The way of each copy from where the model is.
+/// The transform of each instance, relative to the model.
 fn instance_transforms(
     origin: &Origin,
     number: usize,
@@ -179,6 +186,7 @@ fn circle_angles(count: u32, start: Finite, sweep: Finite) -> impl Iterator<Item
     let steps = f64::from(if is_whole { count } else { count.saturating_sub(1).max(1) });
     (0..count).map(move |at| (start + sweep * (f64::from(at) / steps)).to_radians())
 }
+/// Instances on a circle around an axis through the origin.
 
 struct CircleLayout {
     axis: [f64; 3],
@@ -207,6 +215,7 @@ impl CircleLayout {
         normalize_vector([from[0] - along * x, from[1] - along * y, from[2] - along * z])
     }
 }
+/// The vector with length 1; `None` if it is 0.
 
 fn normalize_vector(v: [f64; 3]) -> Option<[f64; 3]> {
     // Scaled first, so that no square leaves the range of numbers.

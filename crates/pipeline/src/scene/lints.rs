@@ -1,8 +1,9 @@
 //! Lints: scenes that are valid and still probably not what is meant, such as a camera inside of a
 //! model, or a picture of nothing.
 //!
-//! Every lint looks at the result: the points, lines and triangles of the scene go through its camera and
-//! are clipped against its view volume once (CL-1), and the counts are compared with what the file says.
+//! Every lint looks at the result: the points, lines and triangles of the scene go through its
+//! camera and are clipped against its view volume once (CL-1), and the counts are compared with
+//! what the file says.
 
 mod depth;
 mod visibility_survey;
@@ -58,6 +59,7 @@ struct Linter<'a> {
 }
 
 impl Linter<'_> {
+    /// The name of a model in messages.
     fn model_name(&self, model: usize) -> &str {
         &self.scene.models[model].model.name
     }

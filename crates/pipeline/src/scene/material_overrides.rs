@@ -1,4 +1,7 @@
 //! Material overrides: changes of a model's materials, once it is loaded and posed.
+//!
+//! An override replaces factors of metallic-roughness materials. The texture of a replaced factor
+//! goes with it, because glTF multiplies the two: red paint on a blue texture would be black.
 
 use super::file::{AlphaModeFile, Color, MaterialFile, MaterialsFile};
 use super::suggest::suggest_name;
@@ -33,6 +36,7 @@ struct OverridePath<'a> {
 }
 
 impl OverridePath<'_> {
+    /// An error that points at a field of the override.
     fn error_at(&self, field: &str, message: String, help: Option<String>) -> SceneError {
         self.origin.error_at(&[&self.path[..], &[Field(field)]].concat(), message, help)
     }
@@ -92,6 +96,8 @@ struct MaterialOverride<'a> {
 }
 
 impl MaterialOverride<'_> {
+    /// Replaces the given fields of a material. Textures of replaced fields go, unless
+    /// `keep_textures` multiplies them by the given values.
     fn apply_to(&self, material: &mut Material) {
         let Self { file, .. } = self;
         if let Some([r, g, b]) = file.base_color.map(Color::to_linear) {
@@ -120,6 +126,8 @@ impl MaterialOverride<'_> {
             self.remove_overridden_textures(material);
         }
     }
+    /// Replaces the emitted light: the color, its strength, or both. Their product is what shading
+    /// reads.
 
     fn apply_emission(&self, material: &mut Material) {
         let strength = self.file.emissive_strength.map(|strength| strength.value() as f32);

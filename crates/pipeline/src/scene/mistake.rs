@@ -15,6 +15,7 @@ pub(super) struct Mistake {
 }
 
 impl Mistake {
+    /// A mistake whose scope is what it points at.
     pub(super) fn new(
         span: Range<usize>,
         message: impl Into<String>,

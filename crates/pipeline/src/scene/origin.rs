@@ -137,8 +137,8 @@ impl Origin {
         holds(&wanted) && wanted.canonicalize().map_or(true, |path| holds(&path))
     }
 
-    /// The origin for a viewport: errors point at the viewport's own fields, and at those of the scene
-    /// where it has none.
+    /// The origin for a viewport: errors point at the viewport's own fields, and at those of the
+    /// scene where it has none.
     pub(super) fn for_viewport(&self, number: usize) -> Self {
         Self { viewport: Some(number), ..self.clone() }
     }

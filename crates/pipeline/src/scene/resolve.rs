@@ -1,5 +1,5 @@
-//! Resolution: from a parsed scene file to the scene that is rendered, or to errors that point into the
-//! file. Models are loaded, angles are radians, and every default is decided.
+//! Resolution: from a parsed scene file to the scene that is rendered, or to errors that point into
+//! the file. Models are loaded, angles are radians, and every default is decided.
 
 use super::backdrop::{resolve_backdrop, resolve_background_color};
 use super::file::{BackgroundFile, Choice, Finite, MaterialFile, ModelFile, OverlayFile};
@@ -189,11 +189,13 @@ pub(super) fn outside_folder_error(origin: &Origin, index: usize, entry: &ModelF
     let path = [Field("models"), Index(index), Field("path")];
     origin.error_at(&path, message, Some(help.to_owned()))
 }
+/// A scene without models.
 
 pub(super) fn missing_model_error(origin: &Origin) -> SceneError {
     let help = Some("add one: models: [(path: \"…\")]".to_owned());
     origin.error_at(&[Field("models")], "a scene needs a model", help)
 }
+/// Loads the models of a scene, and instantiates them.
 
 fn load_models(
     origin: &Origin,
@@ -205,7 +207,9 @@ fn load_models(
     }
     instances::check_instance_counts(origin, file)?;
     // Models in one pose are shared; a model in two poses, or with other materials, is two models.
+    /// The file of a model, its scene, variant and animation, and the bits of the time.
     type Pose = (PathBuf, [Option<Choice>; 3], Option<u64>);
+    /// The models of one pose, one for each set of material overrides.
     type Alike<'a> = Vec<(&'a [MaterialFile], Arc<Model>)>;
     let mut loaded: BTreeMap<Pose, Alike<'_>> = BTreeMap::new();
     let mut models = Vec::new();
@@ -244,7 +248,8 @@ impl From<SceneError> for ModelError {
 }
 
 impl ModelError {
-    /// The fault, told where the scene file asks for the model, if there is such a file.
+    /// The error as one of the scene file, pointing at the path of the model, if there is a scene
+    /// file.
     pub(super) fn into_resolve_error(
         self,
         origin: &Origin,
@@ -356,6 +361,7 @@ pub fn select_animation(
         (message, suggest_name(&wanted, &names))
     })
 }
+/// The overlays, with the view-projection of each camera whose view volume is drawn.
 
 pub(super) fn resolve_overlays(
     origin: &Origin,

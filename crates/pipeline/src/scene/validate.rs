@@ -3,6 +3,11 @@
 //! Each part of the scene is resolved by itself, so that a mistake in one does not hide those in
 //! another. A part that depends on one that is wrong is left out: its mistakes could follow from
 //! that.
+//!
+//! There are three levels, by what must be known:
+//! 1. the text alone, even if parts of it could not be read (`with_errors_of_description`);
+//! 2. the text and the models (`validate_scene`), for `alberti scene check`;
+//! 3. everything that stops a renderer (`errors_of_resolution`), for [`Scene::resolve`].
 
 use super::backdrop::{resolve_backdrop, resolve_background_color};
 use super::error::SceneError;

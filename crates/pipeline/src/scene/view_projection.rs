@@ -1,4 +1,12 @@
-//! Camera and projection of a scene: given, framed, or taken from the model.
+//! Resolution of the camera: world-to-view and projection matrices from what the file gives.
+//!
+//! ```text
+//!  LookAt, LookTo ─► camera frame ─┐
+//!  Frame ─► bounds, direction ─────┼─► near and far from the depths of the vertices ─► projection
+//!  FromModel ─► node of the model ─┘    unless the file gives them
+//! ```
+//! Framing finds the eye at which every vertex just fits into the window: in closed form for perspective
+//! (PE-7), from the box of the images for parallel projections.
 
 use super::classical::check_classical_projection;
 use super::depth_span::DepthSpan;
@@ -13,8 +21,10 @@ use model::ModelInstance;
 use model::world_points;
 use model::{CameraProjection, MeshInstance, ModelCamera};
 use projection::{Convention, Fov, Frustum, Orthographic, Perspective, ProjectionError};
+/// The path of the position and direction of the camera.
 
 pub(super) const VIEW_PATH: [PathStep<'static>; 2] = [Field("camera"), Field("view")];
+/// The path of the projection.
 pub(super) const PROJECTION_PATH: [PathStep<'static>; 2] = [Field("camera"), Field("projection")];
 
 /// Everything that camera and projection are resolved from.
@@ -106,9 +116,11 @@ pub(super) fn select_lens<'a>(
 }
 
 impl<'a> CameraResolver<'a> {
+    /// An error of the camera frame, such as a view-up vector along the line of sight.
     pub(super) fn camera_error(&self, error: &camera::CameraError) -> SceneError {
         self.view_error(error.to_string(), None)
     }
+    /// An error that points at the view.
 
     pub(super) fn view_error(
         &self,
@@ -117,6 +129,7 @@ impl<'a> CameraResolver<'a> {
     ) -> SceneError {
         self.origin.error_at(&VIEW_PATH, message, help)
     }
+    /// An error of the projection, such as a far plane before the near plane.
 
     pub(super) fn projection_error(&self, error: &ProjectionError) -> SceneError {
         self.projection_error_with(error.to_string(), None)
@@ -130,6 +143,7 @@ impl<'a> CameraResolver<'a> {
     ) -> SceneError {
         self.origin.error_at(&PROJECTION_PATH, message, help)
     }
+    /// An error of framing: nothing to frame, or no room for it.
 
     pub(super) fn framing_error(&self, error: &camera::FramingError) -> SceneError {
         if matches!(error, camera::FramingError::NoPoints) {
@@ -137,6 +151,7 @@ impl<'a> CameraResolver<'a> {
         }
         self.view_error(error.to_string(), None)
     }
+    /// Models without primitives: there is nothing to frame.
 
     pub(super) fn nothing_to_draw_error(&self) -> SceneError {
         // What the importer left out is the likely reason.
@@ -245,6 +260,7 @@ impl<'a> CameraResolver<'a> {
         let framed = frame_perspective(points, basis, slopes, padding).map_err(fault)?;
         self.project_from_camera(framed.camera, projection, None)
     }
+    /// The axes of a camera that looks from a named direction or a vector towards the models.
 
     pub(super) fn view_basis(&self, from: &FromFile) -> Result<Basis, SceneError> {
         let named = match from {
@@ -285,6 +301,8 @@ impl<'a> CameraResolver<'a> {
             None => self.project_through_lens(camera, lens),
         }
     }
+    /// The projection of a camera in a model. The aspect is that of the image: the vertical field
+    /// of view of a perspective is kept, and the window of an orthographic camera is widened.
 
     fn project_through_lens(
         &self,
@@ -333,6 +351,7 @@ impl<'a> CameraResolver<'a> {
         }
         Err(self.unknown_camera_error(choice, &names))
     }
+    /// A camera that no model has, with the names of those that exist.
 
     fn unknown_camera_error(&self, choice: &CameraChoice, names: &[String]) -> SceneError {
         let wanted = match choice {

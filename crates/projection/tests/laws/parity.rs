@@ -1,4 +1,4 @@
-//! The same numbers as glam's builders, where glam has them (C93).
+//! Parity with glam's builders, where glam has them (C93).
 //!
 //! Two of glam 0.34's builders are compared for centred windows only: its left-handed `frustum`
 //! keeps the sign of the right-handed offset and its Vulkan `orthographic` does not turn the y

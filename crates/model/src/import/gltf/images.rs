@@ -162,6 +162,9 @@ fn store_headers(encoded: &[EncodedImage<'_>], files: &mut [ImageInfo]) {
 }
 
 /// Reads the bytes of the needed images; failures are warnings.
+///
+/// The limit on texels is spent here, by the sizes in the headers, so that no decoder starts on an
+/// image that would exceed it.
 fn read_encoded<'a>(
     needed: &[bool],
     source: &'a AccessorReader<'_>,

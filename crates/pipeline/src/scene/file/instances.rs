@@ -39,6 +39,7 @@ scene_enum! {
         List(Vec<InstanceFile>),
     }
 }
+/// 360 degrees.
 
 const FULL_CIRCLE: Finite = Finite::constant(360.0);
 

@@ -177,6 +177,7 @@ impl ProjectionFile {
         !matches!(self, Self::Perspective { .. } | Self::Orthographic { .. } | Self::Frustum { .. })
     }
 }
+/// 45 degrees, the direction of depth in most oblique drawings.
 
 const HALF_RIGHT_ANGLE: Finite = Finite::constant(45.0);
 

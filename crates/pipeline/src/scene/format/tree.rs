@@ -16,6 +16,7 @@ pub(super) struct Element {
     pub(super) parts: Vec<Part>,
 }
 
+/// A run of text or a bracketed group.
 #[derive(Debug)]
 pub(super) enum Part {
     /// Words with the blanks between them.
@@ -37,6 +38,7 @@ pub(super) struct FormatGroup {
 pub(super) fn group_tokens(tokens: &[Token<'_>]) -> Vec<FormatItem> {
     ItemReader { tokens, at: 0 }.read_items()
 }
+/// Recursive-descent reader of items; comments are items too.
 
 struct ItemReader<'a> {
     tokens: &'a [Token<'a>],
@@ -44,11 +46,13 @@ struct ItemReader<'a> {
 }
 
 impl<'a> ItemReader<'a> {
+    /// Returns the next token and moves past it.
     fn next(&mut self) -> Option<Token<'a>> {
         let token = self.tokens.get(self.at).copied()?;
         self.at += 1;
         Some(token)
     }
+    /// The next token.
 
     fn peek(&self) -> Option<Token<'a>> {
         self.tokens.get(self.at).copied()

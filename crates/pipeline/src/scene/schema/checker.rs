@@ -39,9 +39,11 @@ pub(in crate::scene) struct Checked {
 }
 
 impl<'a> Checker<'a> {
+    /// A checker of a text; spans of nodes index into `source`.
     pub(in crate::scene) fn new(source: &'a str) -> Self {
         Self { source, ..Self::default() }
     }
+    /// The mistakes, in the order in which they were found.
 
     pub(in crate::scene) fn finish(self) -> Checked {
         Checked { mistakes: self.mistakes, retained: self.retained }
@@ -97,6 +99,7 @@ impl<'a> Checker<'a> {
         }
         text
     }
+    /// The path of the value, quoted, as a message begins; empty for the whole scene.
 
     fn path_prefix(&self) -> String {
         let path = self.path_text();
@@ -224,6 +227,7 @@ impl<'a> Checker<'a> {
         }
         Some(Fields { items: found })
     }
+    /// Reports a value without a name among fields, such as the 5 of `fov_y_degrees: 3,5`.
 
     fn report_keyless_item(&mut self, item: &Item<'_>) {
         if item.value.kind == NodeKind::Invalid {
@@ -278,6 +282,7 @@ impl<'a> Checker<'a> {
         self.path.push(Segment::Variant(variant.name));
         Some(Variant { entry, variant, group, span: node.span.clone() })
     }
+    /// Ends the variant that [`open_variant`](Self::open_variant) began.
 
     pub(in crate::scene) fn close_variant(&mut self) {
         self.path.pop();
@@ -402,6 +407,7 @@ pub(in crate::scene) struct Variant<'n> {
 }
 
 impl<'n> Variant<'n> {
+    /// The name of the variant, one of those that are declared.
     pub(in crate::scene) fn name(&self) -> &'static str {
         self.variant.name
     }
@@ -417,6 +423,7 @@ impl<'n> Variant<'n> {
 
     /// The fields in the brackets; a variant without brackets has none.
     pub(in crate::scene) fn open_fields(&self, checker: &mut Checker<'_>) -> Option<Fields<'n>> {
+        /// The brackets of a variant that is written without any.
         static EMPTY: Group<'static> = Group { name: None, open: '(', items: Vec::new() };
         let owner = Owner {
             key: format!("{}::{}", self.entry.name, self.variant.name),

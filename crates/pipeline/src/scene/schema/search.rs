@@ -67,6 +67,7 @@ fn sites(root: &'static TypeEntry) -> Vec<Site> {
     }
     sites
 }
+/// Adds the struct or enum of an entry with its variants, and queues the types of their fields.
 
 fn add_sites(
     entry: &'static TypeEntry,

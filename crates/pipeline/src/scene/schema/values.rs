@@ -1,5 +1,8 @@
-//! Values without declared parts: numbers with bounds, strings, lists, tuples, and what may be left
-//! out.
+//! Values without declared parts: numbers with bounds, strings, lists, tuples, and optional values.
+//!
+//! Each implementation of [`SceneValue`] accepts what RON's own reader accepts for the Rust type,
+//! with the extensions `implicit_some`, `unwrap_newtypes` and `unwrap_variant_newtypes` always on,
+//! so that a scene needs no attribute at its top.
 
 use super::{Checker, SceneValue, ValueType};
 use crate::scene::syntax::{Node, NodeKind, parse_integer, parse_number, unescape_string};

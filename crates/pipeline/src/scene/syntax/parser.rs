@@ -1,6 +1,12 @@
 //! Error-tolerant recursive-descent parser of RON: reports every error of grammar and still makes a
 //! tree.
 //!
+//! ```text
+//!  file  = value                        value = number | string | word | group
+//!  group = [word] "(" items ")"         items = [ item { "," item } [","] ]
+//!        | "[" items "]"                item  = [ word ":" ] value
+//! ```
+//!
 //! Resynchronization: a missing comma or colon is reported and supplied; a token that cannot begin
 //! a value is reported and skipped up to the next comma or bracket; a closing bracket of the wrong
 //! kind closes the innermost group if the brackets that follow are then balanced, and otherwise the
@@ -14,6 +20,7 @@ use core::ops::Range;
 
 /// Groups are nested this deep at most, so that no text overflows the stack.
 const MAX_DEPTH: usize = 128;
+/// The help for files that are no scenes at all.
 
 pub(in crate::scene) const SAMPLE_SCENE: &str =
     "a scene looks like this: Scene(models: [(path: \"model.glb\")])";
@@ -49,6 +56,7 @@ pub(in crate::scene) fn parse_tree(source: &str) -> SyntaxTree<'_> {
     let Parser { errors, is_unreliable, .. } = parser;
     SyntaxTree { root, errors, is_unreliable }
 }
+/// The state of the parser: a position among the tokens, and the brackets that are open.
 
 struct Parser<'a> {
     source: &'a str,
@@ -65,9 +73,11 @@ struct Parser<'a> {
 }
 
 impl<'a> Parser<'a> {
+    /// The next token.
     fn peek(&self) -> Option<Token<'a>> {
         self.tokens.get(self.at).copied()
     }
+    /// The kind of the next token.
 
     fn peek_kind(&self) -> Option<TokenKind> {
         self.peek().map(|token| token.kind)
@@ -79,6 +89,7 @@ impl<'a> Parser<'a> {
         self.at += usize::from(found);
         found
     }
+    /// Reports an error of grammar.
 
     fn report(&mut self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
         self.errors.push(Mistake::new(span, message, Some(help.into())));
@@ -326,6 +337,7 @@ impl<'a> Parser<'a> {
         }
     }
 }
+/// Whether a word is a string literal, plain or raw.
 
 fn is_string(word: &str) -> bool {
     word.starts_with('"')
@@ -344,6 +356,8 @@ fn is_terminated_string(word: &str) -> bool {
     // An odd number of backslashes escapes the last quotation mark.
     body.is_some_and(|body| (body.len() - body.trim_end_matches('\\').len()) % 2 == 0)
 }
+/// Whether a word can be a name. Hyphens are accepted, so that `camera-position` is an unknown
+/// field and not an error of grammar.
 
 fn is_identifier(word: &str) -> bool {
     let word = word.strip_prefix("r#").unwrap_or(word);
@@ -351,6 +365,7 @@ fn is_identifier(word: &str) -> bool {
         && word.chars().all(|c| c.is_alphanumeric() || "_-".contains(c))
         && !matches!(word, "inf" | "NaN")
 }
+/// The bracket that closes `open`.
 
 fn closing(open: &str) -> &'static str {
     match open {

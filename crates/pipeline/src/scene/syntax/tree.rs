@@ -58,6 +58,7 @@ pub(in crate::scene) struct Key<'a> {
 }
 
 impl<'a> Node<'a> {
+    /// The items in brackets, if the value has any.
     pub(in crate::scene) fn group(&self) -> Option<&Group<'a>> {
         match &self.kind {
             NodeKind::Group(group) => Some(group),

@@ -1,4 +1,7 @@
-//! The table behind [`Albedo`](super::Albedo): for each roughness a row, for each root of the cosine a pair.
+//! The split-sum table: `A` and `B` of the directional albedo of GGX.
+//!
+//! A row for each sixteenth of the perceptual roughness, at its middle; in it a column for each
+//! fifteenth of the square root of the cosine n·v. A test integrates the BRDF again.
 
 #[rustfmt::skip]
 pub(super) static TABLE: [[[f32; 2]; 16]; 16] = [

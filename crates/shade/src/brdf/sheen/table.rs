@@ -1,5 +1,8 @@
-//! The table behind [`sheen_albedo`](super::sheen_albedo): the integral of the lobe of fibres over the hemisphere, for each roughness,
-//! in fifteenths, a row; for each root of the cosine a number.
+//! The directional albedo of white sheen: the integral of the Charlie lobe over the hemisphere.
+//!
+//! A row for each fifteenth of the perceptual roughness, from 0; in it a column for each fifteenth
+//! of the square root of the cosine n·v. Values above 1 are cut off. A test integrates the lobe
+//! again.
 
 #[rustfmt::skip]
 pub(super) static TABLE: [[f32; 16]; 16] = [
