@@ -8,8 +8,10 @@ use std::path::PathBuf;
 /// A package of the workspace.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Package {
+    /// The name in its manifest.
     pub name: String,
-    /// Names of the packages in its table `[dependencies]`; those of tests and build scripts are left out.
+    /// Names of the packages in its table `[dependencies]`; those of tests and build scripts are
+    /// left out.
     pub dependencies: Vec<String>,
     /// Name and source file of its integration tests, in the order of the manifest.
     pub tests: Vec<(String, PathBuf)>,
@@ -18,8 +20,10 @@ pub struct Package {
 /// The packages of the workspace and everything they depend on.
 #[derive(Clone, Debug)]
 pub struct Metadata {
+    /// The members of the workspace.
     pub packages: Vec<Package>,
-    /// For each package id, its name and the ids of its normal dependencies, with the features of the whole workspace.
+    /// For each package id, its name and the ids of its normal dependencies, with the features of
+    /// the whole workspace.
     resolved: BTreeMap<String, (String, Vec<String>)>,
 }
 

@@ -1,9 +1,10 @@
 //! `cargo xtask test`: all tests, for a newcomer and for CI alike.
 //!
-//! A step is a name and a command. Each integration test of `tests/` is a step of its own, so that `cargo xtask test
-//! vectors` runs just that one, with its environment (`VECTORS=DIR`, `ASSETS=DIR`) passed through. All steps but the last
-//! two build with one profile and one set of features, so that nothing is compiled twice. Lines that begin with `SKIPPED` in
-//! the output of a step are repeated at the end.
+//! A step is a name and a command. Each integration test of `tests/` is a step of its own, so that
+//! `cargo xtask test vectors` runs just that one, with its environment (`VECTORS=DIR`,
+//! `ASSETS=DIR`) passed through. All steps but the last two build with one profile and one set of
+//! features, so that nothing is compiled twice. Lines that begin with `SKIPPED` in the output of a
+//! step are repeated at the end.
 
 mod no_std;
 mod step;
@@ -103,7 +104,8 @@ fn all_steps() -> Result<Vec<Step>, String> {
     Ok(steps)
 }
 
-/// A step for each integration test of `alberti-tests`, described by the first sentence of its file.
+/// A step for each integration test of `alberti-tests`, described by the first sentence of its
+/// file.
 fn integration_tests() -> Result<Vec<Step>, String> {
     let metadata = Metadata::load()?;
     let package = metadata.package("alberti-tests").ok_or("there is no package alberti-tests")?;

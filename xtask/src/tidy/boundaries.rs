@@ -5,7 +5,8 @@ use super::code::is_word_char;
 use super::source::Source;
 use crate::metadata::Metadata;
 
-/// Crates that only one part of the code may name, so that they can be replaced, and the paths of that part.
+/// Crates that only one part of the code may name, so that they can be replaced, and the paths of
+/// that part.
 const NAMED_BY: &[(&str, &[&str])] = &[
     ("gltf", &["crates/model/src/import"]),
     ("ron", &["crates/pipeline/src/scene"]),
@@ -16,8 +17,8 @@ const NAMED_BY: &[(&str, &[&str])] = &[
 
 /// Packages of the workspace that each crate may depend on: the arrows of the code map.
 ///
-/// No stage depends on another one, `model` knows no scene, and `shade` and `drawing` do not know the pipeline that
-/// uses both.
+/// No stage depends on another one, `model` knows no scene, and `shade` and `drawing` do not know
+/// the pipeline that uses both.
 const ARROWS: &[(&str, &[&str])] = &[
     ("homog", &[]),
     ("camera", &["homog"]),
@@ -66,7 +67,8 @@ const STAGE_DEPENDENCIES: &[&str] = &["glam", "libm", "thiserror"];
 /// Exceptions: the vector instructions of the rasterizer.
 const EXTRA_DEPENDENCIES: &[(&str, &str)] = &[("raster", "fearless_simd")];
 
-/// Packages that a crate must not be built with, however indirectly: users of the library do not compile those of the program.
+/// Packages that a crate must not be built with, however indirectly: users of the library do not
+/// compile those of the program.
 const NEVER_BUILT_WITH: &[(&str, &[&str])] = &[("pipeline", &["clap", "gif", "terminal_size"])];
 
 /// The stages that promise to work without the standard library.
