@@ -2,6 +2,21 @@
 //!
 //! Each command is a module with an arguments struct and a `run` function. Only this crate prints:
 //! results go to the standard output, messages to the standard error stream.
+//!
+//! The crates below it, each useful alone:
+//!
+//! | crate | what it owns |
+//! | --- | --- |
+//! | [`homog`] | typed points, vectors, homogeneous points, affine and projective maps |
+//! | [`camera`] | the camera transform: look-at, named views, framing, stereo, rays |
+//! | [`projection`] | every planar projection by name, API conventions, inverses, decomposition |
+//! | [`clip`](../clip/index.html) | clipping in homogeneous space, before the perspective divide |
+//! | [`viewport`] | window to viewport, pixel conventions, paper, unprojection |
+//! | [`raster`] | exact coverage, depth test, multisampling, deterministic parallel tiles |
+//! | [`model`] | glTF to a checked model, validation, skinning and morph targets |
+//! | [`shade`] | glTF materials, lights, environments, tone mapping, picture encoders |
+//! | [`drawing`] | hidden-line drawings, sections, sheets to scale, SVG and PDF |
+//! | [`pipeline`] | scene files, the renderer, explain, demonstrations, sequences |
 
 mod animate;
 mod args;
