@@ -49,7 +49,7 @@ impl<'a> AccessorElements<'a> {
             match (value, self.base) {
                 (Some(start), _) => self.read_element(self.values, start, numbers),
                 (None, Some((bytes, stride))) => {
-                    self.read_element(bytes, at as usize * stride, numbers)
+                    self.read_element(bytes, at as usize * stride, numbers);
                 }
                 (None, None) => numbers.fill(0.0),
             }

@@ -58,7 +58,7 @@ impl SchemaWalker<'_> {
         for member in object.members {
             match members.get(member.name) {
                 Some(value) => {
-                    self.descend(member.name, |walker| walker.check_value(value, member.kind))
+                    self.descend(member.name, |walker| walker.check_value(value, member.kind));
                 }
                 None if member.rule == PresenceRule::Required => {
                     let name = member.name;
@@ -206,7 +206,7 @@ impl SchemaWalker<'_> {
             (Some(number), _) if (min..=max).contains(&number) => {}
             (Some(_), _) => self.report_out_of_range(value, min, max),
             (None, Some(number)) if number % 1.0 == 0.0 => {
-                self.report_out_of_range(value, min, max)
+                self.report_out_of_range(value, min, max);
             }
             (None, _) => self.report_type_mismatch(value, "an integer"),
         }
@@ -244,7 +244,7 @@ impl SchemaWalker<'_> {
             let open = if exclusive_min { '(' } else { '[' };
             match (max == f64::INFINITY, exclusive_min) {
                 (true, true) => {
-                    self.report(code, format_args!("{number} is not greater than {min}"))
+                    self.report(code, format_args!("{number} is not greater than {min}"));
                 }
                 (true, false) => self.report(code, format_args!("{number} is less than {min}")),
                 _ => self.report(code, format_args!("{number} is not in {open}{min}, {max}]")),
@@ -268,10 +268,10 @@ impl SchemaWalker<'_> {
             match item.as_f64() {
                 Some(number) if number >= range.min && number <= range.max => {}
                 Some(number) => {
-                    self.descend(&at.to_string(), |walker| walker.check_number(number, range))
+                    self.descend(&at.to_string(), |walker| walker.check_number(number, range));
                 }
                 None => self.descend(&at.to_string(), |walker| {
-                    walker.report_item_mismatch(item, "a number")
+                    walker.report_item_mismatch(item, "a number");
                 }),
             }
         }
