@@ -129,7 +129,7 @@ impl From<Perspective> for Frustum {
 impl TryFrom<Frustum> for Perspective {
     type Error = ProjectionError;
 
-    /// The way back, for windows that are centered on the line of sight and not mirrored (C69, M31).
+    /// The inverse, for windows centered on the line of sight and not mirrored (C69, M31).
     ///
     /// # Errors
     /// [`ProjectionError::OffCenter`] for all others.
