@@ -29,7 +29,7 @@
 //! | a polyline | [`clip_polyline`] | unbroken runs |
 //! | a triangle | [`clip_triangle`] | a convex polygon with weights, without allocation |
 //! | a convex polygon | [`clip_convex`] | the same for any number of corners |
-//! | a solid | [`cut_triangle`], [`Outline`] | its part behind a plane, the outline, the cap |
+//! | a solid | [`cut_triangle`], [`Outline`] | its part behind a plane, outline and cap |
 //!
 //! A [`Volume`] is a table of planes: any convention's canonical volume, with or without a far
 //! plane, with a guard band, with planes of your own. Attributes follow by fractions and weights,

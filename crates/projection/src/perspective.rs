@@ -1,4 +1,4 @@
-//! Perspective by field of view: the window centred on the line of sight.
+//! Perspective by field of view: the window centered on the line of sight.
 
 use crate::frustum::check_planes;
 use crate::matrix::{self, DepthRow, WindowFit};
@@ -129,14 +129,14 @@ impl From<Perspective> for Frustum {
 impl TryFrom<Frustum> for Perspective {
     type Error = ProjectionError;
 
-    /// The way back, for windows that are centred on the line of sight and not mirrored (C69, M31).
+    /// The inverse, for windows centered on the line of sight and not mirrored (C69, M31).
     ///
     /// # Errors
     /// [`ProjectionError::OffCenter`] for all others.
     fn try_from(frustum: Frustum) -> Result<Self, ProjectionError> {
         let slopes = frustum.slopes();
-        let centred = slopes.left() == -slopes.right() && slopes.bottom() == -slopes.top();
-        if !centred || slopes.right() < 0.0 || slopes.top() < 0.0 {
+        let centered = slopes.left() == -slopes.right() && slopes.bottom() == -slopes.top();
+        if !centered || slopes.right() < 0.0 || slopes.top() < 0.0 {
             return Err(ProjectionError::OffCenter);
         }
         let half = HalfSlopes { x: slopes.right(), y: slopes.top() };

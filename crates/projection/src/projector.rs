@@ -36,7 +36,7 @@ use homog::{HPoint, Plane, Point, Projective, Space, Vector};
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Projector<S: Space> {
-    centre: HPoint<S>,
+    center: HPoint<S>,
     plane: Plane<S>,
     /// π·c, not 0.
     reach: f64,
@@ -69,7 +69,7 @@ impl<S: Space> Projector<S> {
     }
 
     fn new_checked(
-        centre: HPoint<S>,
+        center: HPoint<S>,
         plane: Plane<S>,
         touching: ProjectionError,
     ) -> Result<Self, ProjectionError> {
@@ -83,9 +83,9 @@ impl<S: Space> Projector<S> {
         let unit = plane.raw() / length;
         check_representable(DMat4::from_diagonal(unit), "plane")?;
         let plane = Plane::from_raw(unit);
-        let reach = plane.evaluate(centre);
-        let projector = Self { centre, plane, reach };
-        let size = centre.raw().abs() * plane.raw().abs();
+        let reach = plane.evaluate(center);
+        let projector = Self { center, plane, reach };
+        let size = center.raw().abs() * plane.raw().abs();
         if reach.abs() <= 8.0 * f64::EPSILON * (size.x + size.y + size.z + size.w) {
             return Err(touching);
         }
@@ -96,7 +96,7 @@ impl<S: Space> Projector<S> {
     /// The centre of projection; w = 0 if the projectors are parallel.
     #[must_use]
     pub const fn center(self) -> HPoint<S> {
-        self.centre
+        self.center
     }
 
     /// The plane of projection, its normal of length 1.
@@ -109,7 +109,7 @@ impl<S: Space> Projector<S> {
     /// (with w = 1).
     #[must_use]
     pub fn onto_plane(self) -> Projective<S, S> {
-        let toward = self.centre.raw() / self.reach;
+        let toward = self.center.raw() / self.reach;
         Projective::from_raw(DMat4::IDENTITY - outer_product(toward, self.plane.raw()))
     }
 

@@ -57,7 +57,7 @@ fn printed(misprint: Misprint, wanted: IntendedProjection) -> DMat4 {
 
 /// The doctor finds the slip in the numbers alone, and its remedy is the wanted matrix.
 fn cured(matrix: DMat4, misprint: Misprint, wanted: DMat4) {
-    let found = symptoms(matrix).find(|symptom| symptom.misprint == misprint).expect("recognised");
+    let found = symptoms(matrix).find(|symptom| symptom.misprint == misprint).expect("recognized");
     let remedied = found.remedied.expect("a remedy");
     assert!(distance(remedied, wanted) < 1e-9, "{remedied}");
 }
@@ -269,8 +269,8 @@ fn printed_29_half_of_the_range_ends_at_eighty_twenty_firsts() {
 /// M14c.
 #[test]
 fn printed_31_only_symmetric_frusta_are_perspectives() {
-    let centred = Frustum::new(-1.0, 1.0, -0.5, 0.5, 1.0, 2.0).expect("valid");
-    assert!(Perspective::try_from(centred).is_ok());
+    let centered = Frustum::new(-1.0, 1.0, -0.5, 0.5, 1.0, 2.0).expect("valid");
+    assert!(Perspective::try_from(centered).is_ok());
     let aside = Frustum::new(LEFT, RIGHT, BOTTOM, TOP, NEAR, FAR).expect("valid");
     assert!(
         matches!(Perspective::try_from(aside), Err(ProjectionError::OffCenter { .. })),
@@ -303,7 +303,7 @@ fn printed_49_near_and_far_go_to_zero_and_one_they_are_not_set_to_them() {
 }
 
 #[test]
-fn row_vectors_are_recognised() {
+fn row_vectors_are_recognized() {
     for wanted in [wanted_frustum(), lens(1.0), wanted_box()] {
         cured(printed(Misprint::Transposed, wanted), Misprint::Transposed, wanted.correct_matrix());
     }
@@ -342,7 +342,7 @@ proptest! {
             prop_assert_eq!(misprint_of(wanted.correct_matrix() * factor, wanted), None);
             for misprint in Misprint::ALL {
                 let Some(slip) = misprint.misprinted_matrix(wanted) else { continue };
-                // Where the slip changes nothing or equals another one, as for centred windows, any
+                // Where the slip changes nothing or equals another one, as for centered windows, any
                 // name will do.
                 if let Some(found) = misprint_of(slip * factor, wanted) {
                     let same =
