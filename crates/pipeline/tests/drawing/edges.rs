@@ -27,7 +27,8 @@ fn count_class(classes: &[EdgeClass], class: EdgeClass) -> usize {
     classes.iter().filter(|other| **other == class).count()
 }
 
-/// Two squares side by side, of which the second begins `gap` to the right of the first and is bent back by `fall`.
+/// Two squares side by side, of which the second begins `gap` to the right of the first and is bent
+/// back by `fall`.
 fn two_squares(gap: f32, fall: f32) -> Primitive {
     let (x, right) = (gap, 1.0 + gap);
     triangle_mesh(

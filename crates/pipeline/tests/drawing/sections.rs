@@ -61,8 +61,8 @@ fn a_cube_cut_in_half_shows_its_cap() {
     assert!(drawing.warnings.is_empty());
 }
 
-/// Lines of hatching lie in the matter and nowhere else, at equal distances and under 45°; as there are many of them, they measure
-/// its area.
+/// Lines of hatching lie in the matter and nowhere else, at equal distances and under 45°; as there
+/// are many of them, they measure its area.
 #[test]
 fn hatching_fills_what_is_cut_and_spares_holes() {
     let tube = merge_primitives(
@@ -190,7 +190,8 @@ fn neighbours_are_hatched_in_their_own_ways() {
     }
 }
 
-/// Whatever the view, what is visible and what is hidden make up the whole, and the z-buffer agrees.
+/// Whatever the view, what is visible and what is hidden make up the whole, and the z-buffer
+/// agrees.
 #[test]
 fn cut_drawings_agree_with_their_z_buffer_images() {
     let frustum = projection::Frustum::new(-0.5, 0.5, -0.5, 0.5, 1.0, 20.0).unwrap();

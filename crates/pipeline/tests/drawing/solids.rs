@@ -84,7 +84,8 @@ fn a_bar_through_the_side_of_a_cube() {
     assert_segments_cover(&segments_where(&drawing, |line| line.visible && line.object == 1), &bar);
 }
 
-/// A column in front of the cube's left: its outline is where x − z/2 of its corners is least and greatest.
+/// A column in front of the cube's left: its outline is where x − z/2 of its corners is least and
+/// greatest.
 #[test]
 fn a_cylinder_before_a_box() {
     let sides = 48;
@@ -181,8 +182,8 @@ fn a_cycle_of_three() {
     );
 }
 
-/// A floor that begins behind the eye, at height −1, and a line below it at height −2: where the near plane has cut the floor
-/// away, the line is seen.
+/// A floor that begins behind the eye, at height −1, and a line below it at height −2: where the
+/// near plane has cut the floor away, the line is seen.
 #[test]
 fn a_floor_cut_by_the_near_plane() {
     let floor =
@@ -197,7 +198,8 @@ fn a_floor_cut_by_the_near_plane() {
         &segments_where(&drawing, is_visible_class(Boundary)),
         &[[[-2.0, -2.0], [-0.2, -0.2]], [[2.0, -2.0], [0.2, -0.2]], [[-0.2, -0.2], [0.2, -0.2]]],
     );
-    // The ray to (−2, z) passes the floor's height at z/2, which the near plane keeps from z = −2 on.
+    // The ray to (−2, z) passes the floor's height at z/2, which the near plane keeps from z = −2
+    // on.
     assert_segments_cover(
         &segments_where(&drawing, is_visible_class(Line)),
         &[[[0.0, -8.0 / 3.0], [0.0, -2.0]]],
@@ -206,8 +208,8 @@ fn a_floor_cut_by_the_near_plane() {
     assert_segments_cover(&hidden, &[[[0.0, -2.0], [0.0, -4.0 / 15.0]]]);
 }
 
-/// Where two faces meet, seen from the front, a line runs exactly behind their common edge: together they hide it. Behind the
-/// border of one it touches, and stays.
+/// Where two faces meet, seen from the front, a line runs exactly behind their common edge:
+/// together they hide it. Behind the border of one it touches, and stays.
 #[test]
 fn what_runs_exactly_behind_an_edge() {
     let roof = triangle_mesh(
