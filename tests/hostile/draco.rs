@@ -1,7 +1,7 @@
 //! Primitives compressed by Draco whose stream is cut or changed, and whose numbers lie.
 
 use crate::case::{Case, Expected};
-use crate::document::Document;
+use alberti_tests::gltf::Document;
 use serde_json::json;
 
 /// A box of 24 vertices and 12 triangles, as the Draco encoder wrote it for the sample BoxDraco.

@@ -1,8 +1,8 @@
 //! JSON that is deep, large, oddly encoded or not JSON; versions and extensions that are not known.
 
 use crate::case::{Case, Expected};
-use crate::document::Document;
-use crate::glb::encode_glb;
+use alberti_tests::gltf::Document;
+use scene_models::glb::encode_glb;
 use serde_json::{Value, json};
 
 fn text_case(name: &str, text: impl Into<Vec<u8>>, expected: Expected) -> Case {

@@ -44,7 +44,8 @@ impl Sandbox {
         }
     }
 
-    /// Runs the program here with bytes on its standard input; gives its code and what it wrote to its standard output.
+    /// Runs the program here with bytes on its standard input; gives its code and what it wrote to
+    /// its standard output.
     pub(crate) fn run_with_input(&self, arguments: &[&str], input: &[u8]) -> (i32, Vec<u8>) {
         let output = self.spawn_with_input(arguments, input);
         (output.status.code().expect("no signal ends the program"), output.stdout)

@@ -1,5 +1,6 @@
-//! Reads back the drawings that the program writes: the places of all lines of an SVG by its layers, and of a PDF, in
-//! millimetres. It knows no more of both formats than the program uses, and fails at anything else.
+//! Reads back the drawings that the program writes: the places of all lines of an SVG by its
+//! layers, and of a PDF, in millimetres. It knows no more of both formats than the program uses,
+//! and fails at anything else.
 
 use std::collections::BTreeMap;
 
@@ -88,7 +89,8 @@ fn parse_numbers(text: &str) -> Vec<f64> {
     parted.split_ascii_whitespace().map(|word| word.parse().expect("a number")).collect()
 }
 
-/// The lines of each page of a PDF in millimetres from its upper left corner, and the sizes of the pages.
+/// The lines of each page of a PDF in millimetres from its upper left corner, and the sizes of the
+/// pages.
 pub(crate) fn parse_pdf(bytes: &[u8]) -> Vec<(PagePoint, Vec<Vec<PagePoint>>)> {
     let text = String::from_utf8_lossy(bytes);
     let sizes: Vec<PagePoint> = text

@@ -10,10 +10,12 @@ use crate::numbers::{
 use crate::windows::{assert_matrix3_close, check_viewport_after_box, parse_window_map};
 use camera::Camera;
 use glam::DMat4;
-use homog::{Affine, Foreshortening, HPoint, Point, Projective, Vector, View, World};
+use homog::{
+    Affine, Foreshortening, HPoint, PixelConvention, Point, Projective, Vector, View, World,
+};
 use projection::{ApexMovedFrustum, Convention, Frustum, ProjectionError, api, chapter};
 use serde_json::{Value, json};
-use viewport::{PixelConvention, Viewport};
+use viewport::Viewport;
 
 /// One per file.
 pub const RUNNERS: &[(&str, Runner)] =

@@ -4,10 +4,9 @@
 //! the precision that f32 has.
 
 use crate::numbers::{assert_close, parse_number};
-use homog::{Point, Screen};
+use homog::{PixelConvention, Point, Screen};
 use raster::{Frame, Opacity, Samples, ScreenVertex};
 use serde_json::Value;
-use viewport::PixelConvention;
 
 pub const RUNNERS: &[(&str, crate::Runner)] =
     &[("raster_coverage", check_coverage), ("raster_attributes", check_attributes)];
@@ -163,7 +162,7 @@ impl TestImage {
     fn pixel_at(&self, at: usize) -> [i64; 2] {
         let (width, height) = (i64::from(self.width), i64::from(self.height));
         let (x, y) = (at as i64 % width, at as i64 / width);
-        let counts_up = matches!(self.convention.y, viewport::YAxis::Up);
+        let counts_up = matches!(self.convention.y, homog::YAxis::Up);
         [x, if counts_up { height - 1 - y } else { y }]
     }
 }

@@ -7,12 +7,14 @@ use crate::numbers::{
     zip_arrays,
 };
 use glam::DMat3;
-use homog::{Affine, Homography, Ndc, Point, Screen, View, remap_interval};
+use homog::{
+    Affine, Homography, Ndc, PixelCenters, PixelConvention, Point, Screen, View, YAxis,
+    remap_interval,
+};
 use projection::chapter;
 use serde_json::Value;
 use viewport::{
-    DepthRange, Limits, PixelCenters, PixelConvention, PointGrid, Rectangle, Viewport,
-    ViewportError, WindowToViewport, YAxis,
+    DepthRange, Limits, PointGrid, Rectangle, Viewport, ViewportError, WindowToViewport,
 };
 
 /// One per file.

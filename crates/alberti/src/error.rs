@@ -1,4 +1,4 @@
-//! What can go wrong in the program.
+//! Errors of the program: those of the libraries, and wrong combinations of flags.
 
 use super::color;
 use drawing::SheetError;
@@ -6,7 +6,7 @@ use model::import::ImportError;
 use pipeline::demonstration::DemonstrationError;
 use pipeline::{OutputError, RenderError, ResolveError, SceneError};
 
-/// A failed run; its message is what the person sees.
+/// A failed run. `main` prints the message after `error: ` and exits with code 1.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum CliError {
     #[error(transparent)]
@@ -30,7 +30,7 @@ pub(crate) enum CliError {
 }
 
 impl CliError {
-    /// The message as the standard error stream shows it: in colours, if it has them.
+    /// The message for the standard error stream, with colors if it has them.
     pub(crate) fn to_message(&self) -> String {
         match self {
             Self::Resolve(ResolveError::Scene(mistake))

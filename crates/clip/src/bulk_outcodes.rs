@@ -1,16 +1,17 @@
 //! Arrays of points: projected and given outcodes in one pass.
 //!
-//! Most meshes are wholly visible or wholly hidden. [`Extent`] tells in two comparisons, and the triangles of the
-//! rest are sorted by the outcodes of their corners before any of them is cut:
+//! Most meshes are wholly visible or wholly hidden. [`OutcodeSummary`] tells in two comparisons,
+//! and the triangles of the rest are sorted by the outcodes of their corners before any of them is
+//! cut:
 //!
 //! ```
-//! use clip::{Extent, Outcode, Volume};
+//! use clip::{OutcodeSummary, Outcode, Volume};
 //! use homog::{Clip, HPoint, Model, Projective};
 //! let model_to_clip = Projective::<Model, Clip>::from_raw(glam::DMat4::IDENTITY);
 //! let positions = [[0.0_f32, 0.0, 0.0], [0.5, 0.5, 0.5], [3.0, 0.0, 0.0]];
 //! let mut points = [HPoint::<Clip>::new(0.0, 0.0, 0.0, 1.0); 3];
 //! let mut outcodes = [Outcode::INSIDE; 3];
-//! let extent = Volume::CHAPTER.project(model_to_clip, &positions, &mut points, &mut outcodes);
+//! let extent = Volume::CHAPTER.project_positions(model_to_clip, &positions, &mut points, &mut outcodes);
 //! assert!(!extent.is_inside() && !extent.is_outside()); // look at single triangles
 //! assert_eq!(extent.count, 3);
 //! ```
@@ -39,7 +40,8 @@ impl OutcodeSummary {
         self.any_outside.is_inside()
     }
 
-    /// True if all points are on the outer side of one plane, and with them all that lies between them.
+    /// True if all points are on the outer side of one plane, and with them all that lies between
+    /// them.
     #[must_use]
     pub fn is_outside(&self) -> bool {
         !self.all_outside.is_inside()
@@ -71,7 +73,8 @@ impl Volume {
         extent.finish()
     }
 
-    /// Projects many positions in f64 and gives them outcodes. It goes as far as the shortest of the slices.
+    /// Projects many positions in f64 and gives them outcodes. It goes as far as the shortest of
+    /// the slices.
     pub fn project_positions<S: Space>(
         &self,
         source_to_clip: Projective<S, Clip>,
@@ -88,10 +91,11 @@ impl Volume {
         extent.finish()
     }
 
-    /// Projects many positions in f32: half the memory, about seven digits. For previews and bounds; what decides about
-    /// pixels goes by [`Self::project`].
+    /// Projects many positions in f32: half the memory, about seven digits. For previews and
+    /// bounds; what decides about pixels goes by [`Self::project_positions`].
     ///
-    /// Every coordinate is ((x·m₀ + y·m₁) + z·m₂) + m₃ in this order, so that the bits are the same everywhere.
+    /// Every coordinate is ((x·m₀ + y·m₁) + z·m₂) + m₃ in this order, so that the bits are the same
+    /// everywhere.
     pub fn project_positions_f32<S: Space>(
         &self,
         source_to_clip: Projective<S, Clip>,

@@ -18,8 +18,8 @@ pub enum PlaneOutcome {
 pub struct PlaneOutcomes {
     /// The planes that took a part away.
     pub clipped: Outcode,
-    /// The planes that took all that was left. Of several only those with the whole shape on their outer side are
-    /// named, or, if there is none, the one in whose turn nothing remained.
+    /// The planes that took all that was left. Of several only those with the whole shape on their
+    /// outer side are named, or, if there is none, the one in whose turn nothing remained.
     pub rejected: Outcode,
 }
 

@@ -26,7 +26,8 @@ impl ClippedConvex {
         &self.points
     }
 
-    /// How much of each vertex of the source is in vertex `i`; they sum to 1. `None` if there is no such vertex.
+    /// How much of each vertex of the source is in vertex `i`; they sum to 1. `None` if there is no
+    /// such vertex.
     #[must_use]
     pub fn weights(&self, i: usize) -> Option<&[f64]> {
         self.weights.chunks_exact(self.sources.max(1)).nth(i)
@@ -50,9 +51,10 @@ impl ClippedConvex {
 
 /// The part of a convex polygon inside a volume (CL-3; Sutherland and Hodgman, 1974).
 ///
-/// Every vertex of the result comes with its weights in the source, so that any attribute follows. A polygon with
-/// fewer than three vertices, or with one that is not finite, gives nothing. Concave polygons must be cut into convex
-/// ones before: here their separate parts would come out joined by a seam along the border.
+/// Every vertex of the result comes with its weights in the source, so that any attribute follows.
+/// A polygon with fewer than three vertices, or with one that is not finite, gives nothing. Concave
+/// polygons must be cut into convex ones before: here their separate parts would come out joined by
+/// a seam along the border.
 ///
 /// ```
 /// use clip::{Volume, clip_convex};

@@ -8,12 +8,13 @@
 //!                                                                           └──────────┘
 //! ```
 //!
-//! Cutting the triangles of a closed surface leaves it open. Every triangle that the plane crosses contributes one
-//! directed edge to the outline of the opening. Neighbours cut the edge they share at the same bits, so the edges
-//! join end to start without a tolerance, and the outline of a closed surface always closes.
+//! Cutting the triangles of a closed surface leaves it open. Every triangle that the plane crosses
+//! contributes one directed edge to the outline of the opening. Neighbours cut the edge they share
+//! at the same bits, so the edges join end to start without a tolerance, and the outline of a
+//! closed surface always closes.
 //!
-//! A corner on the plane counts as inside. So a face that lies in the plane is kept whole, and a solid that only
-//! touches the plane from inside gets no cap.
+//! A corner on the plane counts as inside. So a face that lies in the plane is kept whole, and a
+//! solid that only touches the plane from inside gets no cap.
 
 use crate::sutherland_hodgman::{EdgeFraction, RingStep, clip_ring, crossing_fraction};
 use homog::{Plane, Point, Space};
@@ -48,8 +49,8 @@ impl<S: Space> CutTriangle<S> {
         vertices.windows(2).skip(1).map(|edge| [vertices[0], edge[0], edge[1]])
     }
 
-    /// The edge that the plane cut into the triangle, directed so that it continues the border of what is left.
-    /// `None` if the plane did not cut it.
+    /// The edge that the plane cut into the triangle, directed so that it continues the border of
+    /// what is left. `None` if the plane did not cut it.
     #[must_use]
     pub const fn edge(&self) -> Option<[Point<S>; 2]> {
         self.edge
@@ -58,8 +59,8 @@ impl<S: Space> CutTriangle<S> {
 
 /// Cuts a triangle with a plane and keeps the positive side, the one the plane's normal points to.
 ///
-/// A triangle with a corner that is not finite, or too far away for its distance from the plane to be a number, gives
-/// nothing.
+/// A triangle with a corner that is not finite, or too far away for its distance from the plane to
+/// be a number, gives nothing.
 ///
 /// ```
 /// use clip::cut_triangle;

@@ -1,4 +1,13 @@
-//! The view transform of a line drawing: [`ViewTransform`] in the vector type of the visibility code.
+//! Projector: [`ViewTransform`] for points given as [`DVec3`], with clipping of edges.
+//!
+//! ```text
+//!   world ──world_to_clip──► clip space ──divide──► NDC ──ndc_to_screen──► pixels, y down; depth
+//! ```
+//!
+//! Hidden-line removal does linear algebra on plain vectors; this type keeps the steps between
+//! spaces in one place. The viewer is homogeneous, so facing tests read the same in perspective,
+//! where it is the eye, and in parallel projection, where it is a point at infinity: the vector to
+//! the viewer v from p is v.xyz − p · v.w.
 
 use camera::{ViewProjection, ViewTransform};
 use clip::{ClippedSegment, Volume, clip_segment};
@@ -18,12 +27,13 @@ impl Projector {
         Self(ViewTransform::new(view_projection, viewport.ndc_to_screen()))
     }
 
+    /// World space to clip space.
     pub(super) fn world_to_clip_point(&self, point: DVec3) -> HPoint<Clip> {
         self.0.project_to_clip(Point::from_raw(point))
     }
 
     /// Perspective divide and viewport transform; `None` where there is no finite image.
-    pub(super) fn to_screen(&self, point: HPoint<Clip>) -> Option<DVec3> {
+    pub(super) fn project_to_screen(&self, point: HPoint<Clip>) -> Option<DVec3> {
         let screen = self.0.project_to_screen(point)?.raw();
         screen.is_finite().then_some(screen)
     }

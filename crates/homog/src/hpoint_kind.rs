@@ -46,11 +46,11 @@ impl<S: Space> HPoint<S> {
     /// What this stands for, by the exact value of w.
     ///
     /// ```
-    /// use homog::{HPoint, Meaning, Point, Vector, World};
-    /// let meaning = |x, y, z, w| HPoint::<World>::new(x, y, z, w).meaning();
-    /// assert_eq!(meaning(2.0, 8.0, 14.0, 2.0), Meaning::Place(Point::new(1.0, 4.0, 7.0)));
-    /// assert_eq!(meaning(1.0, 4.0, 7.0, 0.0), Meaning::Direction(Vector::new(1.0, 4.0, 7.0)));
-    /// assert_eq!(meaning(0.0, 0.0, 0.0, 0.0), Meaning::Nothing);
+    /// use homog::{HPoint, HPointKind, Point, Vector, World};
+    /// let meaning = |x, y, z, w| HPoint::<World>::new(x, y, z, w).kind();
+    /// assert_eq!(meaning(2.0, 8.0, 14.0, 2.0), HPointKind::Finite(Point::new(1.0, 4.0, 7.0)));
+    /// assert_eq!(meaning(1.0, 4.0, 7.0, 0.0), HPointKind::AtInfinity(Vector::new(1.0, 4.0, 7.0)));
+    /// assert_eq!(meaning(0.0, 0.0, 0.0, 0.0), HPointKind::Invalid);
     /// ```
     #[must_use]
     pub fn kind(self) -> HPointKind<S> {
@@ -116,18 +116,18 @@ impl<A: Space, B: Space> Projective<A, B> {
     /// Where the images of all lines along `direction` meet (VN-1): the image of their point at
     /// infinity, as a place, or as a direction if the images stay parallel.
     ///
-    /// `relative` is how far from 0 a w may be that counts as 0, as in [`HPoint::meaning_within`]:
+    /// `relative` is how far from 0 a w may be that counts as 0, as in [`HPoint::kind_within`]:
     /// 10⁻¹² says yes to lines across the gaze of a turned camera.
     ///
     /// ```
-    /// use homog::{Meaning, Ndc, Point, Projective, Clip, Vector, View};
+    /// use homog::{HPointKind, Ndc, Point, Projective, Clip, Vector, View};
     /// // One-point perspective: the eye at distance 1 before the plane z = 0.
     /// let rows = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, -1.0, 1.0]];
     /// let map = Projective::<View, Clip>::from_rows(rows);
     /// let rails = map.vanishing_point(Vector::new(0.0, 0.0, -1.0), 0.0);
-    /// assert_eq!(rails, Meaning::Place(Point::<Ndc>::new(0.0, 0.0, -1.0)));
+    /// assert_eq!(rails, HPointKind::Finite(Point::<Ndc>::new(0.0, 0.0, -1.0)));
     /// let sleepers = map.vanishing_point(Vector::X, 0.0);
-    /// assert_eq!(sleepers, Meaning::Direction(Vector::X));
+    /// assert_eq!(sleepers, HPointKind::AtInfinity(Vector::X));
     /// ```
     #[must_use]
     pub fn vanishing_point(self, direction: Vector<A>, relative: f64) -> HPointKind<B> {

@@ -50,7 +50,8 @@ pub use render::{
     MAX_IMAGE_SIDE, PreparedScene, RenderContext, RenderError, Renderer, Textures, WritePngError,
     draw_lines, render,
 };
-pub use scene::{Origin, ResolveError, Scene, SceneError, SceneFile};
+pub use scene::options;
+pub use scene::{Origin, ResolveError, Scene, SceneError, SceneErrors, SceneFile};
 pub use shade::{self, AtomicFile, Channel, OutputError, Picture, PngRows, encode_png, write_file};
 
 /// The examples of the README, compiled as documentation tests.

@@ -159,7 +159,7 @@ const MATTE: &str = r#"{"pbrMetallicRoughness":{"baseColorFactor":[0.8,0.4,0.1,1
 fn a_lit_plane_has_the_colour_of_the_formula_everywhere() {
     let picture = render_parts(
         &[square_part(0.0, MATTE)],
-        r#"lights: [Sun(direction: (-1, -1, -2), lux: 2)], image: (size: (80, 80), samples: 1)"#,
+        r#"lights: [Directional(direction: (-1, -1, -2), intensity: 2)], image: (size: (80, 80), samples: 1)"#,
     );
     let l = normalize([1.0, 1.0, 2.0]);
     let expected = expected_reflection([0.8, 0.4, 0.1], 0.6, [0.0, 0.0, 1.0], l).map(|c| c * 2.0);
@@ -172,7 +172,7 @@ fn a_lit_plane_has_the_colour_of_the_formula_everywhere() {
 fn a_plane_under_a_point_has_the_colour_of_the_formula_everywhere() {
     let picture = render_parts(
         &[square_part(0.0, MATTE)],
-        r#"lights: [Point(position: (0.5, 0.3, 0.8), candela: 1.5)], image: (size: (88, 88), samples: 1)"#,
+        r#"lights: [Point(position: (0.5, 0.3, 0.8), intensity: 1.5)], image: (size: (88, 88), samples: 1)"#,
     );
     for (x, y) in (6..82).flat_map(|y| (6..82).map(move |x| (x, y))) {
         let place = [f64::from(x) + 0.5, 87.5 - f64::from(y)].map(|c| (c / 88.0 - 0.5) * 2.2);
@@ -188,7 +188,7 @@ fn a_plane_under_a_point_has_the_colour_of_the_formula_everywhere() {
 fn a_lit_sphere_has_the_colours_of_the_formula() {
     let size = 440;
     let rest = format!(
-        "lights: [Sun(direction: (-1, -2, -2), lux: 2.5)], image: (size: ({size}, {size}), samples: 1)"
+        "lights: [Directional(direction: (-1, -2, -2), intensity: 2.5)], image: (size: ({size}, {size}), samples: 1)"
     );
     let picture = render_parts(&[sphere_part(MATTE)], &rest);
     let l = normalize([1.0, 2.0, 2.0]);
@@ -245,7 +245,7 @@ fn a_transparent_picture_laid_over_a_colour_is_the_opaque_one_over_it() {
         ]
     };
     let rest = |background: &str| {
-        let lights = "lights: [Sun(direction: (-1, -2, -2), lux: 2.5), Ambient(lux: 0.5)]";
+        let lights = "lights: [Directional(direction: (-1, -2, -2), intensity: 2.5), Ambient(intensity: 0.5)]";
         format!("{lights}, image: (size: (60, 60), background: {background}, samples: 4)")
     };
     // In 16 bits, for where sRGB is steep half a code of an alpha of 8 bits is more than one of

@@ -29,7 +29,7 @@ fn pixel_position(scene: &Scene, place: Point<World>) -> [f64; 2] {
 #[test]
 fn c3_c84_c101_a_point_passes_model_view_projection_divide_and_viewport_in_this_order() {
     let scene = resolve_text(
-        "Scene(models: [(path: \"crate.glb\", translate: (1, 2, 3), rotate_degrees: (0, 90, 0), scale: 2)],
+        "Scene(models: [(path: \"crate.glb\", translation: (1, 2, 3), rotation_degrees: (0, 90, 0), scale: 2)],
          camera: (view: LookAt(eye: (6, 5, 9), target: (1, 2, 3))), image: (size: (320, 200)))",
     );
     // Scaled by 2, turned from x to −z, moved.
@@ -88,7 +88,7 @@ fn c2_c10_c13_c28_every_edge_of_a_box_is_drawn_hidden_or_not_in_parallel_and_in_
 #[test]
 fn c35_a_ball_beside_the_line_of_sight_is_drawn_as_the_ellipse_that_its_cone_cuts_out() {
     let scene = resolve_text(
-        "Scene(models: [(path: \"spheres.glb\", translate: (0, -0.5, 0))], style: Flat,
+        "Scene(models: [(path: \"spheres.glb\", translation: (0, -0.5, 0))], style: Flat,
          camera: (view: LookTo(eye: (0, 0, 4), gaze: (0, 0, -1)),
                   projection: Perspective(fov_y_degrees: 40)),
          image: (size: (1600, 400), background: Color(\"#fff\"), samples: 16))",

@@ -76,7 +76,7 @@ fn floor_scene(anisotropy: u32) -> Scene {
     let text = format!(
         r##"Scene(models: [(path: "made")],
         camera: (view: LookTo(eye: (0.3, 1, 0), gaze: (0.35, -0.24, -1)), projection: Perspective(fov_y_degrees: 50, near: 0.1, far: 1000)),
-        image: (size: {IMAGE_SIZE:?}, background: Color("#808080"), anisotropy: {anisotropy}))"##
+        image: (size: {IMAGE_SIZE:?}, background: Color("#808080"), max_anisotropy: {anisotropy}))"##
     );
     let file = parse_scene("floor.ron", &text).expect("a scene");
     let placed = ModelInstance { model: Arc::new(floor_model()), model_to_world: Affine::IDENTITY };

@@ -130,10 +130,10 @@ fn pixels_below_box(picture: &Picture) -> Vec<Vec<u8>> {
 #[test]
 fn a_box_and_its_shadow_touch_and_its_lit_side_stays_lit() {
     for lights in [
-        "Sun(direction: (1, -1, 0.1), lux: 3, shadows: On())",
-        "Sun(direction: (1, -1, 0.1), lux: 3, shadows: On(softness_degrees: 0))",
-        "Sun(direction: (1, -0.8, 0.1), lux: 3, shadows: On(softness_degrees: 4))",
-        "Spot(position: (-4, 4, -0.4), direction: (1, -1, 0.1), candela: 90, shadows: On())",
+        "Directional(direction: (1, -1, 0.1), intensity: 3, shadows: On())",
+        "Directional(direction: (1, -1, 0.1), intensity: 3, shadows: On(softness_degrees: 0))",
+        "Directional(direction: (1, -0.8, 0.1), intensity: 3, shadows: On(softness_degrees: 4))",
+        "Spot(position: (-4, 4, -0.4), direction: (1, -1, 0.1), intensity: 90, shadows: On())",
     ] {
         for column in pixels_below_box(&render_box_on_floor("(5, 3, 0)", lights)) {
             // Black from the second pixel on, and light again where the shadow ends.
@@ -170,7 +170,7 @@ fn balls_do_not_shade_themselves_in_grazing_light() {
     let camera = "camera: (view: LookAt(eye: (0, 0, 10), target: (0, 0, 0)), projection: Orthographic(height: 3))";
     for direction in ["(0, -1, -0.02)", "(0, -1, -0.3)", "(0, -0.2, -1)", "(0, -1, 0.4)"] {
         let rest = format!(
-            "{camera}, lights: [Sun(direction: {direction}, lux: 3)], image: (size: (1000, 300))"
+            "{camera}, lights: [Directional(direction: {direction}, intensity: 3)], image: (size: (1000, 300))"
         );
         for shadows in ["On()", "On(softness_degrees: 0)", "On(size: 512)"] {
             let difference = greatest_difference(&balls, &rest, shadows);
@@ -184,7 +184,7 @@ fn a_floor_and_a_bowl_do_not_shade_themselves() {
     let camera = "camera: (view: LookAt(eye: (0, 4, 8), target: (0, 0, 0)))";
     for direction in ["(1, -0.03, 0.2)", "(1, -0.2, 0.2)", "(0.1, -1, 0)"] {
         let rest = format!(
-            "{camera}, lights: [Sun(direction: {direction}, lux: 60)], image: (size: (480, 270))"
+            "{camera}, lights: [Directional(direction: {direction}, intensity: 60)], image: (size: (480, 270))"
         );
         let difference = greatest_difference(
             &[(floor_quad(30.0), matte_material(0.8, 0.8, 0.8))],
@@ -199,7 +199,7 @@ fn a_floor_and_a_bowl_do_not_shade_themselves() {
         bowl.indices.as_chunks::<3>().0.iter().flat_map(|&[a, b, c]| [a, c, b]).collect();
     bowl.normals = bowl.normals.map(|list| list.iter().map(|n| n.map(|c| -c)).collect());
     let rest = "camera: (view: LookAt(eye: (0, 0, 4), target: (0, 0, 0))),
-        lights: [Spot(position: (1, 1, 1), direction: (-1, -1, -2), candela: 40)], image: (size: (480, 270))";
+        lights: [Spot(position: (1, 1, 1), direction: (-1, -1, -2), intensity: 40)], image: (size: (480, 270))";
     let difference = greatest_difference(&[(bowl, matte_material(0.8, 0.8, 0.8))], rest, "On()");
     assert!(difference <= 1, "{difference}");
 }
@@ -218,7 +218,7 @@ fn no_light_comes_through_walls_without_thickness() {
         ];
         let rest = format!(
             "camera: (view: LookAt(eye: (1.5, 1.5, 1.7), target: (-1, 0, -1)), projection: Perspective(fov_y_degrees: 90, near: 0.01)),
-            lights: [Sun(direction: {direction}, lux: 3)], shadows: {shadows}, image: (size: (960, 540), samples: 1)"
+            lights: [Directional(direction: {direction}, intensity: 3)], shadows: {shadows}, image: (size: (960, 540), samples: 1)"
         );
         let picture = render_parts(room, &rest);
         // Where a wall without thickness meets another, light and shade meet too: single pixels on
@@ -248,7 +248,7 @@ fn masked_parts_cast_what_is_left_of_them_and_blended_ones_nothing() {
         let picture = render_parts(
             parts,
             "camera: (view: LookAt(eye: (0, 0.5, 5), target: (0, 0, 0))),
-            lights: [Sun(direction: (0, -1, 0), lux: 3)], shadows: On(), image: (size: (100, 100), samples: 1)",
+            lights: [Directional(direction: (0, -1, 0), intensity: 3)], shadows: On(), image: (size: (100, 100), samples: 1)",
         );
         pixel_at(&picture, 50, 50)[0]
     };
@@ -267,8 +267,8 @@ fn shadows_are_the_same_for_any_number_of_threads() {
     ];
     let scene = shadow_scene(
         parts,
-        "lights: [Sun(direction: (1, -1, 0.3), lux: 2, shadows: On(softness_degrees: 3)),
-            Spot(position: (2, 3, 2), direction: (-2, -3, -2), candela: 20, shadows: On())],
+        "lights: [Directional(direction: (1, -1, 0.3), intensity: 2, shadows: On(softness_degrees: 3)),
+            Spot(position: (2, 3, 2), direction: (-2, -3, -2), intensity: 20, shadows: On())],
         image: (size: (320, 200))",
     );
     let one = render(&scene, 1).expect("a picture");
@@ -305,7 +305,8 @@ fn pixel_of_ground_point(x: f64, z: f64) -> (u32, u32) {
 #[test]
 fn the_ground_shows_the_share_of_light_that_shadows_take() {
     // 3 lux from the sun, 1 from everywhere: where the sun is hidden, three quarters are missing.
-    let lights = "lights: [Sun(direction: (0, -1, 0), lux: 3), Ambient(lux: 1)]";
+    let lights =
+        "lights: [Directional(direction: (0, -1, 0), intensity: 3), Ambient(intensity: 1)]";
     let clear = render_over_ground("Transparent", lights);
     let at = |picture: &Picture, x, z| {
         let (x, y) = pixel_of_ground_point(x, z);
@@ -332,11 +333,11 @@ fn occlusion_darkens_corners_and_nothing_that_is_open() {
         (without, render_parts(parts, &format!("{rest}, ambient_occlusion: (radius: 1)")))
     };
     let floor = || (floor_quad(6.0), matte_material(0.8, 0.8, 0.8));
-    let (without, with) = draw_both(vec![floor()], "Ambient(lux: 3)");
+    let (without, with) = draw_both(vec![floor()], "Ambient(intensity: 3)");
     assert!(without == with, "a plane is open");
     let (without, with) = draw_both(
         vec![(ball_mesh([0.0; 3], 1.0, 60), matte_material(0.8, 0.8, 0.8))],
-        "Ambient(lux: 3)",
+        "Ambient(intensity: 3)",
     );
     let pairs = with.pixels.iter().zip(&without.pixels);
     assert!(
@@ -347,7 +348,7 @@ fn occlusion_darkens_corners_and_nothing_that_is_open() {
     let wall =
         (box_sides([-6.0, 0.0, -4.0], [6.0, 4.0, -0.5], false), matte_material(0.8, 0.8, 0.8));
     let parts = vec![floor(), wall];
-    let (without, with) = draw_both(parts.clone(), "Ambient(lux: 3)");
+    let (without, with) = draw_both(parts.clone(), "Ambient(intensity: 3)");
     let linear = |code: u8| {
         let srgb = f64::from(code) / 255.0;
         if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
@@ -361,7 +362,7 @@ fn occlusion_darkens_corners_and_nothing_that_is_open() {
     assert!((0.35..0.62).contains(&least), "{least}");
     assert_eq!(pixel_at(&with, 150, 199), pixel_at(&without, 150, 199));
     // What a sun gives stays.
-    let (without, with) = draw_both(parts, "Sun(direction: (0, -1, -1), lux: 3)");
+    let (without, with) = draw_both(parts, "Directional(direction: (0, -1, -1), intensity: 3)");
     assert!(without == with);
 }
 
@@ -376,7 +377,7 @@ fn occlusion_has_no_stripes_beside_sharp_edges() {
     let scene = shadow_scene(
         parts,
         "camera: (view: LookAt(eye: (2.2, 2.6, 3.6), target: (0, 0.3, 0)), projection: Perspective(fov_y_degrees: 32)),
-        lights: [Ambient(lux: 3.14159)], ambient_occlusion: (radius: 1), image: (size: (1920, 1080), samples: 1)",
+        lights: [Ambient(intensity: 3.14159)], ambient_occlusion: (radius: 1), image: (size: (1920, 1080), samples: 1)",
     );
     let (textures, mut renderer) = (Textures::for_scene(&scene), Renderer::default());
     let context = RenderContext::new(&scene, &textures, 2);

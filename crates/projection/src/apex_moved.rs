@@ -27,7 +27,7 @@ use homog::{Affine, Clip, Point, Projective, View};
 /// let lesson = ApexMovedFrustum::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0)?;
 /// assert_eq!(lesson.apex(), Point::new(1.0, -0.5, 0.0));
 /// // The window's centre line stays in the middle of the picture at every depth.
-/// let deep = lesson.view_to_clip(Convention::OPENGL).point(Point::new(1.0, -0.5, -5.0));
+/// let deep = lesson.view_to_clip(Convention::OPENGL).transform_point(Point::new(1.0, -0.5, -5.0));
 /// assert_eq!((deep.x(), deep.y()), (0.0, 0.0));
 /// # Ok::<(), projection::ProjectionError>(())
 /// ```

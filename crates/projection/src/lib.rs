@@ -24,7 +24,7 @@
 //! let view_to_clip = lens.view_to_clip(Convention::CHAPTER);
 //!
 //! // Twice as far away is half as large.
-//! let height = |z: f64| view_to_clip.point(Point::new(0.0, 1.0, z)).divide().map(Point::y);
+//! let height = |z: f64| view_to_clip.transform_point(Point::new(0.0, 1.0, z)).divide().map(Point::y);
 //! let (near, far) = (height(-2.0).expect("in front"), height(-4.0).expect("in front"));
 //! assert!((near - 0.5).abs() < 1e-15 && (far - 0.25).abs() < 1e-15);
 //!
@@ -41,7 +41,7 @@
 //! | a camera's perspective, by angle or focal length | [`Perspective`], [`Fov`] |
 //! | an off-centre one: stereo, walls, headsets | [`Frustum`], [`FourAngles`] |
 //! | a box without foreshortening | [`Orthographic`] |
-//! | part of a picture, lens shift, antialiasing | `tile`, `shifted`, `jittered` of the three above ([`Tile`], [`Jitter`]) |
+//! | part of a picture, lens shift, antialiasing | `view_offset`, `shifted`, `jittered` of the three above ([`ViewOffset`], [`Jitter`]) |
 //! | a mirror's or portal's near plane | [`oblique_near_plane`] |
 //! | front, top and side | [`PrincipalView`] |
 //! | isometric, dimetric, trimetric; cavalier, cabinet, military | [`Axonometric`]; [`Oblique`], [`Planometric`] |
@@ -53,7 +53,7 @@
 //! | where parallel lines meet | [`vanishing_point`], [`principal_vanishing_points`] |
 //! | what depth can tell apart | [`DepthCurve`] |
 //! | corners, planes, eye of what is seen | [`ViewVolume`] |
-//! | what a matrix is, or what is wrong with it | [`decompose`], [`readings`], [`misprint_of`], [`symptoms`] |
+//! | what a matrix is, or what is wrong with it | [`decompose()`], [`readings`], [`misprint_of`], [`symptoms`] |
 //! | the family tree | [`ProjectionClass`] |
 //!
 //! View space is right-handed unless the convention says otherwise: x right, y up, looking along

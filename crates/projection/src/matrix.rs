@@ -110,7 +110,7 @@ pub(crate) fn central_matrix(
     ))
 }
 
-/// The inverse of [`central`], by IV-1.
+/// The inverse of [`central_matrix`], by IV-1.
 pub(crate) fn central_inverse(
     fit: WindowFit,
     depth: DepthRow,
@@ -145,7 +145,7 @@ pub(crate) fn parallel_matrix(
     ))
 }
 
-/// The inverse of [`parallel`].
+/// The inverse of [`parallel_matrix`].
 pub(crate) fn parallel_inverse(
     fit: WindowFit,
     depth: DepthRow,

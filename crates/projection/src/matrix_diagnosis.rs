@@ -238,9 +238,9 @@ fn apex_moved(frustum: Frustum) -> Option<DMat4> {
 /// as those of f32 programs do.
 ///
 /// ```
-/// use projection::{Misprint, Orthographic, Wanted, misprint_of};
-/// let wanted = Wanted::Orthographic(Orthographic::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0)?);
-/// let mut slide = wanted.matrix();
+/// use projection::{Misprint, Orthographic, IntendedProjection, misprint_of};
+/// let wanted = IntendedProjection::Orthographic(Orthographic::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0)?);
+/// let mut slide = wanted.correct_matrix();
 /// slide.w_axis.z = 2.0; // + (far + near)/(far − near)
 /// assert_eq!(misprint_of(slide, wanted), Some(Misprint::OrthoOffsetSign));
 /// # Ok::<(), projection::ProjectionError>(())

@@ -28,7 +28,7 @@ use homog::{Clip, HPoint, Plane, Projective, View};
 /// let mirror = Plane::through(Point::new(0.0, 0.0, -5.0), Normal::new(0.0, 0.6, -0.8));
 /// let c = Convention::CHAPTER;
 /// let cut = oblique_near_plane(lens.view_to_clip(c), c, mirror)?;
-/// let on_mirror = cut.point(Point::new(0.3, 0.8, -4.4)).divide().expect("in front");
+/// let on_mirror = cut.transform_point(Point::new(0.3, 0.8, -4.4)).divide().expect("in front");
 /// assert!((on_mirror.z() - c.near_depth()).abs() < 1e-12);
 /// # Ok::<(), projection::ProjectionError>(())
 /// ```

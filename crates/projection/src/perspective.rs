@@ -15,7 +15,7 @@ use homog::{Clip, Projective, View};
 /// use homog::Point;
 /// use projection::{Convention, Fov, Perspective};
 /// let lens = Perspective::new(Fov::vertical_degrees(90.0), 2.0, 1.0, f64::INFINITY)?;
-/// let clip = lens.view_to_clip(Convention::OPENGL).point(Point::new(0.0, 0.0, -1.0));
+/// let clip = lens.view_to_clip(Convention::OPENGL).transform_point(Point::new(0.0, 0.0, -1.0));
 /// assert_eq!(clip.divide(), Some(Point::new(0.0, 0.0, -1.0)));
 /// # Ok::<(), projection::ProjectionError>(())
 /// ```

@@ -30,7 +30,7 @@ use homog::{HPoint, Plane, Point, Projective, Space, Vector};
 /// // A lamp 4 above the floor: shadows are central projections.
 /// let floor = Plane::<View>::through(Point::ORIGIN, Normal::new(0.0, 1.0, 0.0));
 /// let lamp = Projector::from_eye(Point::new(0.0, 4.0, 0.0), floor)?;
-/// let shadow = lamp.onto_plane().point(Point::new(1.0, 2.0, 0.0)).divide();
+/// let shadow = lamp.onto_plane().transform_point(Point::new(1.0, 2.0, 0.0)).divide();
 /// assert_eq!(shadow, Some(Point::new(2.0, 0.0, 0.0)));
 /// # Ok::<(), projection::ProjectionError>(())
 /// ```

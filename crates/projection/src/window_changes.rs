@@ -5,11 +5,11 @@
 //! parallel projections and keep lines, depth and vanishing points where they are.
 //!
 //! ```
-//! use projection::{Convention, Fov, Perspective, Tile};
+//! use projection::{Convention, Fov, Perspective, ViewOffset};
 //! // The right half of a 200 × 100 picture.
 //! let whole = Perspective::new(Fov::vertical_degrees(40.0), 2.0, 0.1, 50.0)?;
-//! let right = Tile { full: (200.0, 100.0), corner: (100.0, 0.0), size: (100.0, 100.0) };
-//! let half = whole.tile(right)?;
+//! let right = ViewOffset { full: (200.0, 100.0), corner: (100.0, 0.0), size: (100.0, 100.0) };
+//! let half = whole.view_offset(right)?;
 //! assert_eq!(half.window().left(), 0.0);
 //! assert_eq!(half.window().right(), whole.to_frustum().window().right());
 //! # Ok::<(), projection::ProjectionError>(())

@@ -40,7 +40,8 @@ pub enum ViewportError {
         /// The least that makes sense.
         least: usize,
     },
-    /// A parameter is too large or too small, or parameters are too far apart in size, for maps to be finite both ways.
+    /// A parameter is too large or too small, or parameters are too far apart in size, for maps to
+    /// be finite both ways.
     #[error("{name} is too large or too small to reckon with")]
     OutOfRange {
         /// The parameter or the result.

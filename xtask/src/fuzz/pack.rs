@@ -1,6 +1,6 @@
 //! Models of several files as one binary file, for the targets read no other files; and what is compressed in them.
 
-use crate::glb::encode_glb;
+use scene_models::glb::encode_glb;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;

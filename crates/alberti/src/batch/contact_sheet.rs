@@ -1,9 +1,9 @@
-//! The contact sheet: all pictures on one page, and what failed.
+//! The contact sheet: an HTML page with all pictures and the failures.
 
 use super::report::{FAILED, JobRecord};
 use std::fmt::Write as _;
 
-/// The page; it needs nothing but the pictures beside it.
+/// The page; it refers to the pictures by paths relative to itself.
 pub(super) fn contact_sheet_html(records: &[JobRecord]) -> String {
     let (failed, shown): (Vec<&JobRecord>, Vec<&JobRecord>) =
         records.iter().partition(|record| record.status == FAILED);
@@ -30,6 +30,7 @@ pub(super) fn contact_sheet_html(records: &[JobRecord]) -> String {
     page + "</html>\n"
 }
 
+/// The head of the page, with its style sheet.
 const PAGE_HEAD: &str = "<!DOCTYPE html>
 <html lang=\"en\">
 <meta charset=\"utf-8\">
@@ -42,11 +43,12 @@ img { width: 100%; background: #fff; border: 1px solid #ccc } pre { white-space:
 </style>
 ";
 
+/// Escapes text for HTML content and attribute values.
 fn escape_html(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }
 
-/// A path as a relative URL.
+/// A relative URL of a path, percent-encoded.
 fn relative_url(path: &str) -> String {
     let mut url = String::from("./");
     for byte in path.bytes() {

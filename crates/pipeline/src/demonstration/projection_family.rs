@@ -236,7 +236,7 @@ mod tests {
             (ProjectionFile::cabinet(), "OB-1", "x 1 at 0° · y 1 at 90° · z 0.5 at 225°"),
             (ProjectionFile::military(), "OB-1", "x 1 at 45° · y 1 at 90° · z 1 at 315°"),
             (
-                ProjectionFile::Multiview(crate::scene::file::PrincipalFile::Front),
+                ProjectionFile::Multiview(projection::PrincipalView::Front),
                 "MV-1",
                 "x 1 at 0° · y 1 at 90° · z a point",
             ),

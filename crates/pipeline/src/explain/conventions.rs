@@ -9,10 +9,10 @@
 //! | Direct3D | 0 to 1 | up | looks along +z |
 //! | WebGPU, Metal | 0 to 1 | up | looks along −z |
 
-use homog::{Affine, View};
+use homog::{Affine, PixelConvention, View};
 use projection::{Convention, Handedness, NdcY};
 use std::str::FromStr;
-use viewport::{DepthRange, PixelConvention, Rectangle, Viewport, ViewportError};
+use viewport::{DepthRange, Rectangle, Viewport, ViewportError};
 
 /// The conventions of a textbook or of a graphics API.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]

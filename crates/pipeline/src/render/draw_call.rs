@@ -14,7 +14,7 @@ use clip::{Outcode, clip_triangle};
 use glam::DVec3;
 use homog::{Clip, HPoint};
 use model::{Primitive, Topology};
-use raster::{CullMode, Frame, Opacity, signed_area};
+use raster::{CullMode, Frame, MeshTriangles, Opacity, signed_area};
 use std::ops::Range;
 
 /// The width of line primitives in pixels. glTF leaves it open.
@@ -44,9 +44,10 @@ impl DrawCall<'_> {
         let mesh = self.mesh;
         let triangles = primitive.indices.as_chunks::<3>().0;
         for (unclipped, to_clip) in mesh.triangle_runs() {
-            let (screen, opacity, cull_mode) =
-                (&mesh.screen_vertices, self.opacity, self.cull_mode);
-            self.frame.add_mesh_runs(screen, triangles, unclipped, first_id, opacity, cull_mode);
+            let vertices = &mesh.screen_vertices;
+            let (opacity, cull) = (self.opacity, self.cull_mode);
+            let run = MeshTriangles { vertices, triangles, first_id, opacity, cull };
+            self.frame.add_mesh_runs(run, unclipped);
             self.clip_and_submit(primitive, to_clip, first_id);
         }
     }

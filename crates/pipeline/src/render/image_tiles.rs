@@ -15,7 +15,7 @@ use super::RenderError;
 use crate::scene::{ImageSpec, Scene};
 use homog::{Clip, PixelRect, Projective, World};
 use raster::MAX_SIDE as TILE_SIDE;
-use viewport::{Tile, Viewport};
+use viewport::Viewport;
 
 /// The longest side of a picture in pixels. Pictures with a side beyond 16,384 pixels are rendered
 /// region by region.
@@ -59,9 +59,7 @@ impl ImageTile {
     ) -> Result<Projective<World, Clip>, RenderError> {
         let world_to_clip = scene.view_projection.world_to_clip();
         let Some([width, height]) = self.image_size else { return Ok(world_to_clip) };
-        let PixelRect { x, y, width: tile_width, height: tile_height } = self.rect;
-        let tile = Tile { x, y, width: tile_width, height: tile_height };
-        let pick_matrix = Viewport::image(width, height)?.pick_matrix(tile.area())?;
+        let pick_matrix = Viewport::image(width, height)?.pick_matrix(self.rect.into())?;
         Ok(Projective::from_raw(pick_matrix.raw() * world_to_clip.raw()))
     }
 }

@@ -14,7 +14,7 @@ use clip::Outcode;
 use core::ops::Range;
 use homog::{Clip, HPoint, Model, Projective};
 use model::{Primitive, SkinnedPrimitive, Topology};
-use raster::{MeshSelection, ScreenVertex, SimdLevel};
+use raster::{MeshSelection, ScreenVertex, SimdLevel, VertexProjection};
 use std::borrow::Cow;
 
 /// The culled and projected vertices of one draw call. The memory is reused for the next.
@@ -93,15 +93,10 @@ impl ProjectedMesh {
         threads: usize,
     ) {
         let (ndc_to_screen, simd_level) = (transform.ndc_to_screen(), SimdLevel::best());
-        ScreenVertex::project_selected_positions(
-            positions,
-            &self.unclipped,
-            model_to_clip,
-            ndc_to_screen,
-            simd_level,
-            threads,
-            &mut self.screen_vertices,
-        );
+        let projection =
+            VertexProjection { to_clip: model_to_clip, ndc_to_screen, simd_level, threads };
+        let screen_vertices = &mut self.screen_vertices;
+        projection.project_selected_positions(positions, &self.unclipped, screen_vertices);
         if self.to_clip.is_empty() {
             return;
         }

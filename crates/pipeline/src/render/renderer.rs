@@ -9,6 +9,7 @@ use super::projected_mesh::ProjectedMesh;
 use super::shadow_maps::ShadowMapRenderer;
 use crate::Picture;
 use drawing::Warning;
+use homog::PixelRect;
 use raster::{Frame, SurfaceDepth};
 use shade::{Channel, Draw, DrawList, Vertex};
 
@@ -122,7 +123,7 @@ impl RenderBuffers {
                 frame.reset(width, height, samples)?;
                 frame
             }
-            _ => Frame::for_region([x, y], [width, height], samples)?,
+            _ => Frame::for_region(PixelRect { x, y, width, height }, samples)?,
         };
         let frame = frame.with_threads(context.threads);
         Ok(FrameMemory {

@@ -41,7 +41,7 @@ fn places_are_the_unprojections_of_pixels_and_depths() {
             }
             seen += 1;
             let ray = unprojector.pick_ray([f64::from(x) + 0.5, f64::from(y) + 0.5], [1.0, -1.0]);
-            let ray = ray.expect("a ray");
+            let ray = ray.expect("a ray").ray;
             let ahead = |p: Point<World>| -world_to_view.transform_point(p).z();
             let per_step = ahead(ray.origin + ray.direction) - ahead(ray.origin);
             let place =

@@ -144,18 +144,18 @@ fn regions_of_a_giant_picture_fit_together_across_its_tiles() {
 const EVERYTHING_SCENE: &str = r#"Scene(
     models: [
         (path: "models/table.glb"),
-        (path: "models/crate.glb", translate: (-1.2, 0.5, 0), scale: 0.6),
-        (path: "models/panes.glb", translate: (1, 1.2, 1), scale: 0.5),
-        (path: "models/finishes.glb", translate: (0, 2.6, 0), scale: 0.3),
+        (path: "models/crate.glb", translation: (-1.2, 0.5, 0), scale: 0.6),
+        (path: "models/panes.glb", translation: (1, 1.2, 1), scale: 0.5),
+        (path: "models/finishes.glb", translation: (0, 2.6, 0), scale: 0.3),
     ],
     camera: (
         view: LookAt(eye: (2, 7, 9), target: (0, 0.6, 0)),
         projection: Perspective(fov_y_degrees: 50),
     ),
     lights: [
-        Sun(direction: (-1, -1.4, -0.4), lux: 2),
-        Spot(position: (3, 5, 4), direction: (-3, -5, -4), candela: 90),
-        Ambient(lux: 0.4),
+        Directional(direction: (-1, -1.4, -0.4), intensity: 2),
+        Spot(position: (3, 5, 4), direction: (-3, -5, -4), intensity: 90),
+        Ambient(intensity: 0.4),
     ],
     shadows: On(size: 512, softness_degrees: 4),
     ground: Shadow(),
