@@ -7,8 +7,8 @@
 //! | how distance becomes depth, and how finely (C48, C68) | [`DepthTable`] |
 //! | wrap-around at w = 0: why clipping comes before the divide (C36) | [`wraparound_panels`] |
 //!
-//! Each returns [`Panels`](drawing::Panels) or a [`Page`](drawing::Page), to be written as SVG, PDF or
-//! PNG; panels can be an HTML page as well. None depends on the number of threads.
+//! Each returns [`Panels`](drawing::Panels) or a [`Page`](drawing::Page), to be written as SVG, PDF
+//! or PNG; panels can be an HTML page as well. None depends on the number of threads.
 
 mod depth_chart;
 mod depth_table;

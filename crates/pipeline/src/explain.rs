@@ -2,10 +2,10 @@
 //! matrix.
 //!
 //! ```text
-//!  subject ─► steps, each with its formula ─► items: matrices, coordinates, text ─► text, JSON, HTML
+//!  subject ─► steps, each with its formula ─► items: matrices, coordinates ─► text, JSON, HTML
 //! ```
-//! Every number comes from the stage that a picture goes through; nothing is computed in another
-//! way here.
+//! Every number comes from the stage that a picture goes through; nothing is computed differently
+//! here.
 //!
 //! | subject | file |
 //! | --- | --- |

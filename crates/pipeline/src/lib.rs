@@ -1,11 +1,12 @@
 //! The viewing pipeline from a glTF model to a picture.
 //!
-//! A picture takes three steps: a description ([`SceneFile`], read from a file or made of defaults),
-//! a scene ([`Scene`], with models loaded and everything decided), and the rendering.
+//! A picture takes three steps: a description ([`SceneFile`], read from a file or made of
+//! defaults), a scene ([`Scene`], with models loaded and everything decided), and the rendering.
 //!
 //! ```no_run
 //! use pipeline::{Origin, Scene, render};
-//! let (origin, mut file) = Origin::from_model_path("model.glb".as_ref()); // or Origin::read_scene("scene.ron".as_ref())?
+//! // Or Origin::read_scene("scene.ron".as_ref())?
+//! let (origin, mut file) = Origin::from_model_path("model.glb".as_ref());
 //! file.image.size = (256, 256);
 //! let scene = Scene::resolve(&origin, &file, &Default::default())?;
 //! let picture = render(&scene, 2)?; // two threads; their number changes no bit of the picture
@@ -17,10 +18,11 @@
 //! | for | begin with | an example |
 //! | --- | --- | --- |
 //! | a picture in memory, or a PNG | [`render()`] | `examples/thumbnail.rs` |
-//! | a line drawing as SVG, PDF or PNG | [`draw_lines`], then [`drawing::Page::to_svg`] | `examples/isometric.rs` |
+//! | a line drawing as SVG, PDF, PNG | [`draw_lines`], [`drawing::Page`] | `examples/isometric.rs` |
 //! | a frame sequence of one scene | [`sequence::Sequence`] | `examples/turntable.rs` |
 //! | depth, normal, id of each pixel | [`mod@render::passes`] | `examples/depth_map.rs` |
-//! | picture after picture without allocation, or larger than memory | [`Renderer`] | its documentation |
+//! | many pictures without allocation | [`Renderer`] | its documentation |
+//! | pictures larger than memory | [`PreparedScene::write_png`] | its documentation |
 //! | every step of a point, a triangle, a pixel | [`explain`] | `examples/explain.rs` |
 //! | lessons: projections, sweeps, depth curves | [`demonstration`] | its documentation |
 //! | models from memory | [`import::load_bytes`], [`Scene::from_models`] | |

@@ -27,11 +27,11 @@
 //!    enter the frame: `Frame::add_mesh_runs` (`raster/src/frame.rs`).
 //! 8. **Vertex processing for shading.** `VertexArrays::write_vertices`
 //!    (`render/vertex_processing.rs`): positions, normals and tangents in the world.
-//! 9. **Binning into tiles.** `bin_triangles` (`raster/src/tile_bins.rs`) sorts triangles into tiles
-//!    of 64 × 64 pixels, which threads take by turns (`raster/src/tile_loop.rs`).
+//! 9. **Binning into tiles.** `bin_triangles` (`raster/src/tile_bins.rs`) sorts triangles into
+//!    tiles of 64 × 64 pixels, which threads take by turns (`raster/src/tile_loop.rs`).
 //! 10. **Coverage and depth test.** `rasterize_triangle` (`raster/src/rasterize.rs`) evaluates edge
-//!     functions by the top-left rule and keeps the nearest depth of each sample; at equal depth the
-//!     first primitive wins.
+//!     functions by the top-left rule and keeps the nearest depth of each sample; at equal depth
+//!     (depth ties) the first primitive wins.
 //! 11. **Visibility buffer.** A tile stores only the nearest triangle of each sample
 //!     (`raster/src/tile_visibility.rs`); masked materials are alpha-tested, translucent layers
 //!     collected and sorted.
@@ -50,7 +50,8 @@
 //!
 //! | subject | file |
 //! | --- | --- |
-//! | one pixel's fragments; depth, normal and id passes | `render/pixel_inspection.rs`, `render/passes.rs` |
+//! | fragments of one pixel | `render/pixel_inspection.rs` |
+//! | passes: depth, normal, id | `render/passes.rs` |
 //! | pictures larger than memory | `render/write_png.rs` |
 //! | ground, environment and backdrop | `render/ground.rs`, `render/background.rs` |
 //! | screen-space ambient occlusion | `render/ambient_occlusion.rs` |

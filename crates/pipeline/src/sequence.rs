@@ -40,8 +40,11 @@ pub enum Motion {
 /// A frame sequence, ready to be rendered.
 #[derive(Debug)]
 pub struct Sequence {
+    /// The scene at the start of the motion.
     scene: Scene,
+    /// The motion of the models.
     motion: Motion,
+    /// The number of frames.
     frame_count: usize,
     /// The point that a turntable's axis passes through.
     pivot: Point<World>,
@@ -68,8 +71,8 @@ const FRAMING_SAMPLES: usize = 16;
 const FRAMES_AHEAD: usize = 2;
 
 impl Sequence {
-    /// A sequence of `frames` pictures of a scene that `file` describes. An automatic camera is fitted
-    /// to the whole motion.
+    /// A sequence of `frames` pictures of a scene that `file` describes. An automatic camera is
+    /// fitted to the whole motion.
     ///
     /// # Errors
     /// If the scene cannot be framed.
@@ -232,8 +235,8 @@ struct Queue {
     finished: BTreeMap<usize, Result<Picture, RenderError>>,
 }
 
-/// Waits until the next frame is at most `ahead` frames before the one delivered last, and starts it;
-/// `None` if all are started.
+/// Waits until the next frame is at most `ahead` frames before the one delivered last, and starts
+/// it; `None` if all are started.
 fn next_frame(
     mut queue: MutexGuard<'_, Queue>,
     progress: &Condvar,
@@ -254,8 +257,10 @@ fn next_frame(
 
 /// The state of one thread: a scene with models of its own, and the buffers of its last frame.
 struct FrameWorker<'a> {
+    /// The sequence, whose scene stays unposed.
     sequence: &'a Sequence,
     scene: Scene,
+    /// The buffers of the worker.
     renderer: Renderer,
 }
 
@@ -276,6 +281,7 @@ impl<'a> FrameWorker<'a> {
         Self { sequence, scene, renderer: Renderer::default() }
     }
 
+    /// Poses the models for a frame and renders it on this thread.
     fn render_frame(
         &mut self,
         frame: usize,

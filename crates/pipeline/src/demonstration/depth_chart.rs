@@ -1,4 +1,12 @@
 //! The depth table as a page: charts of depth and of resolution against distance, and the rows.
+//!
+//! ```text
+//!  ┌ heading ────────────────────────────┐
+//!  │ depth      ╭──── normal    │ table   │   Distances are on a logarithmic axis in both charts;
+//!  │           ╱ ╭─── reversed  │ …       │   the resolution has a logarithmic axis too, since it
+//!  │ resolution ╱╱              │         │   spans many powers of ten.
+//!  └─────────────────────────────────────┘
+//! ```
 
 use super::depth_table::{DepthRow, DepthTable};
 use super::number_format::format_short;
@@ -8,15 +16,22 @@ use drawing::{
 use glam::DVec2;
 use projection::DepthFormat;
 
+/// The color of text and axes.
 const INK: Ink = [26, 31, 38];
+/// The color of curves of normal depth.
 const NORMAL_INK: Ink = [26, 86, 176];
+/// The color of curves of reversed depth, which are dashed as well.
 const REVERSED_INK: Ink = [179, 38, 30];
 
 /// The page in millimeters: A4 landscape, or longer for long tables.
 const PAGE_SIZE: DVec2 = DVec2::new(297.0, 210.0);
+/// Width and height of each chart in millimeters.
 const CHART_SIZE: DVec2 = DVec2::new(150.0, 66.0);
+/// The upper left corner of the chart of depth.
 const UPPER_CHART_CORNER: DVec2 = DVec2::new(24.0, 38.0);
+/// The upper left corner of the chart of resolution.
 const LOWER_CHART_CORNER: DVec2 = DVec2::new(24.0, 126.0);
+/// The upper left corner of the table.
 const TABLE_CORNER: DVec2 = DVec2::new(184.0, 36.0);
 
 /// The right ends of the table's columns in millimeters from its left.
@@ -24,11 +39,13 @@ const COLUMN_ENDS: [f64; 5] = [18.0, 38.0, 59.0, 80.0, 105.0];
 
 /// Letter heights in millimeters.
 const HEADING_HEIGHT: f64 = 4.5;
+/// Letter height of notes and table in millimeters.
 const LETTER_HEIGHT: f64 = 2.3;
+/// Distance of the table's lines in letter heights.
 const LINE_SPACING: f64 = 2.1;
 
-/// Samples of a curve: more than a printer resolves, and enough for every tooth of the floating-point
-/// resolution.
+/// Samples of a curve: more than a printer resolves, and enough for every tooth of the
+/// floating-point resolution.
 const CURVE_SAMPLES: u32 = 800;
 
 impl DepthTable {
@@ -102,12 +119,12 @@ impl DepthTable {
     fn sample_rows(&self) -> Vec<DepthRow> {
         let [near, end] = self.distance_range();
         let ratio = libm::log(end) - libm::log(near);
-        let distance = |place: u32| match place {
+        let distance = |sample: u32| match sample {
             0 => near,
             CURVE_SAMPLES => end,
-            place => near * libm::exp(ratio * (f64::from(place) / f64::from(CURVE_SAMPLES))),
+            sample => near * libm::exp(ratio * (f64::from(sample) / f64::from(CURVE_SAMPLES))),
         };
-        (0..=CURVE_SAMPLES).filter_map(|place| self.row_at(distance(place)).ok()).collect()
+        (0..=CURVE_SAMPLES).filter_map(|sample| self.row_at(distance(sample)).ok()).collect()
     }
 }
 
@@ -126,8 +143,8 @@ fn step_range(samples: &[DepthRow], format: DepthFormat) -> [f64; 2] {
     if coarsest > finest * 2.0 { [finest, coarsest] } else { [finest * 0.5, finest * 4.0] }
 }
 
-/// The part of a curve that is not below a value, without the last sample: at the far plane there is
-/// no step.
+/// The part of a curve that is not below a value, without the last sample: at the far plane there
+/// is no step.
 fn drop_steps_below(mut curve: Curve, least: f64) -> Curve {
     curve.points.pop();
     curve.points.retain(|[_, step]| *step >= least);
@@ -176,8 +193,8 @@ mod tests {
         let layer = page.layers.iter().find(|layer| layer.id == "depth-normal").expect("a curve");
         let points = &layer.groups[0].strokes[0].points;
         assert!(points.len() > 500);
-        for &place in points {
-            let [x, y] = ((to_millimeters(place) - UPPER_CHART_CORNER) / CHART_SIZE).to_array();
+        for &sample in points {
+            let [x, y] = ((to_millimeters(sample) - UPPER_CHART_CORNER) / CHART_SIZE).to_array();
             let distance = 2.0 * libm::pow(20.0, x);
             let depth = 40.0 * (distance - 2.0) / (38.0 * distance);
             assert!((1.0 - y - depth).abs() < 2e-5, "{distance}: {} {depth}", 1.0 - y);

@@ -4,6 +4,13 @@
 //! distances from N to 2FN/(F + N). Stored depth is rounded, so that far away many distances share
 //! one value. Floating-point numbers are finest near 0; with the far plane there (*reversed depth*)
 //! both effects cancel.
+//!
+//! ```text
+//!  depth(D) = F (D − N) / ((F − N) D)        for the range [0, 1] from near N to far F
+//!  resolution of b-bit fixed point: ΔD ≈ D² (F − N) / (F N) / (2^b − 1)
+//! ```
+//! The resolution grows with the square of the distance: doubling N halves it, while F beyond a few
+//! hundred N hardly matters.
 
 use super::number_format::format_short;
 use projection::{Convention, DepthCurve, DepthFormat, ProjectionError, chapter};
@@ -18,9 +25,13 @@ const INFINITE_FAR_RATIO: f64 = 1e4;
 /// Depth against distance, in normal and in reversed depth.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct DepthTable {
+    /// Distance of the near plane.
     near: f64,
+    /// Distance of the far plane, or infinity.
     far: f64,
+    /// The storage format, which decides the resolution.
     format: DepthFormat,
+    /// Depth as a function of distance: normal, reversed.
     curves: [DepthCurve; 2],
 }
 
@@ -36,8 +47,8 @@ pub struct DepthRow {
 }
 
 impl DepthTable {
-    /// The table of a perspective between two planes, in a convention's range of depths and in the same
-    /// range reversed. `far` may be infinite.
+    /// The table of a perspective between two planes, in a convention's range of depths and in the
+    /// same range reversed. `far` may be infinite.
     ///
     /// # Errors
     /// Unless 0 < near < far, and the format has 1 to 64 bits.
@@ -66,7 +77,8 @@ impl DepthTable {
         self.format
     }
 
-    /// The distances of the near and far plane; ten thousand near distances for an infinite far plane.
+    /// The distances of the near and far plane; ten thousand near distances for an infinite far
+    /// plane.
     #[must_use]
     pub fn distance_range(&self) -> [f64; 2] {
         let end = if self.far.is_finite() { self.far } else { self.near * INFINITE_FAR_RATIO };
@@ -92,7 +104,8 @@ impl DepthTable {
     /// The depths and resolutions at a distance.
     ///
     /// # Errors
-    /// If the distance is not positive and finite, or its depth cannot be distinguished from the next.
+    /// If the distance is not positive and finite, or its depth cannot be distinguished from the
+    /// next.
     pub fn row_at(&self, distance: f64) -> Result<DepthRow, ProjectionError> {
         let step = |curve: DepthCurve| curve.resolution(distance, self.format);
         let steps = [step(self.curves[0])?, step(self.curves[1])?];
@@ -176,7 +189,8 @@ impl DepthTable {
         std::iter::once(names).chain(rows.iter().map(row)).collect()
     }
 
-    /// Formats rows as CSV with all digits, for programs: a line of names, then a line per distance.
+    /// Formats rows as CSV with all digits, for programs: a line of names, then a line per
+    /// distance.
     #[must_use]
     pub fn to_csv(&self, rows: &[DepthRow]) -> String {
         let mut text = "distance,depth,reversed_depth,step,reversed_step\n".to_owned();

@@ -1,7 +1,10 @@
 //! Number formatting for captions and tables.
+//!
+//! Captions should be short and equal on every machine: the digits come from Rust's own correctly
+//! rounded formatting, never from a logarithm.
 
-/// Formats a number with at most `digits` significant digits, without trailing zeros; very small and
-/// very large ones with an exponent.
+/// Formats a number with at most `digits` significant digits, without trailing zeros; very small
+/// and very large ones with an exponent.
 pub(super) fn format_short(x: f64, digits: usize) -> String {
     if !x.is_finite() {
         return if x > 0.0 { "infinite".to_owned() } else { format!("{x}") };

@@ -29,8 +29,8 @@ pub struct NamedProjection {
     pub projection: ProjectionFile,
 }
 
-/// Draws the models in each of the projections, from the default viewpoint of each; the camera of the
-/// scene is ignored. The number of threads does not change the panels.
+/// Draws the models in each of the projections, from the default viewpoint of each; the camera of
+/// the scene is ignored. The number of threads does not change the panels.
 ///
 /// # Errors
 /// If the scene cannot be resolved, there is nothing to draw, or the picture has no pixels.
@@ -217,7 +217,8 @@ mod tests {
         panels.panels[0].notes.clone()
     }
 
-    /// √(2/3) in isometric; √(8)/3 and √(2)/3 in the dimetric of 42° and 7°; depth in full and by half; a plan with heights.
+    /// √(2/3) in isometric; √(8)/3 and √(2)/3 in the dimetric of 42° and 7°; depth in full and by
+    /// half; a plan with heights.
     #[test]
     fn parallel_projections_draw_the_axes_as_the_textbooks_say() {
         let cases = [

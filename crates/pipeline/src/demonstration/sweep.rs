@@ -1,8 +1,15 @@
 //! Sweeps: one parameter of camera or lens from one value to another, a picture for each step (C62,
 //! C64, C94).
 //!
-//! Everything else stays as in the scene. Only where the parameter moves the camera are the near and
-//! far plane fitted again, since they would cut off what the step is to show.
+//! Everything else stays as in the scene. Only where the parameter moves the camera are the near
+//! and far plane fitted again, since they would cut off what the step is to show.
+//!
+//! ```text
+//!  fov, lens       tan(fov / 2) = window height / (2 · near)      a smaller angle enlarges
+//!  distance        image size ∝ 1 / distance                      perspective becomes steeper
+//!  dolly           tan(fov / 2) ∝ 1 / distance                    the center keeps its size
+//!  shift           window moved on its plane                      the picture moves undistorted
+//! ```
 
 mod step;
 
@@ -200,9 +207,9 @@ fn add_volume_panel(
 }
 
 /// A trimetric view that shows the models, all eyes and all near windows; `None` without models.
-fn observer_view(scene: &Scene, shots: &[(ViewProjection, String)]) -> Option<ViewProjection> {
+fn observer_view(scene: &Scene, views: &[(ViewProjection, String)]) -> Option<ViewProjection> {
     let mut points = scene.world_points();
-    for (view_projection, _) in shots {
+    for (view_projection, _) in views {
         let clip_to_world = view_projection.world_to_clip().inverse()?;
         let corners = [-1.0, 1.0].map(|x| [-1.0, 1.0].map(|y| HPoint::new(x, y, 1.0, 1.0)));
         let near = corners.as_flattened().iter();

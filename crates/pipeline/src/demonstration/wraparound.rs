@@ -22,22 +22,29 @@ use glam::DVec2;
 use homog::{Clip, HPoint, Ndc, Point, Projective, Vector, World};
 use projection::{Convention, Fov, Perspective};
 
+/// The color of boards ahead of the eye.
 const INK: Ink = [26, 31, 38];
+/// The color of boards that cross the plane of the eye.
 const RED: Ink = [179, 38, 30];
+/// The color of boards behind the eye.
 const BLUE: Ink = [26, 86, 176];
 
 /// Width and height of each picture in millimeters.
 const PICTURE_SIZE: DVec2 = DVec2::new(88.0, 66.0);
+/// Letter height in millimeters.
 const LETTER_HEIGHT: f64 = 2.2;
+/// Line width of boards in millimeters.
 const STROKE_WIDTH: f64 = 0.35;
 
 /// The eye's height above the floor.
 const EYE_HEIGHT: f64 = 1.6;
+/// Distance of the near plane.
 const NEAR: f64 = 0.5;
+/// Distance of the far plane.
 const FAR: f64 = 40.0;
 
-/// The z at which rows of boards begin and end, from far ahead to behind the eye. The third row crosses
-/// the plane of the eye, z = 0.
+/// The z at which rows of boards begin and end, from far ahead to behind the eye. The third row
+/// crosses the plane of the eye, z = 0.
 const BOARD_ENDS: [f64; 5] = [-15.0, -9.0, -3.0, 3.0, 9.0];
 /// The x of the borders between boards.
 const BOARD_BORDERS: [f64; 5] = [-2.0, -1.0, 0.0, 1.0, 2.0];
@@ -51,7 +58,9 @@ const BOARD_KINDS: [(&str, &str, Ink); 3] = [
 
 /// A board of the floor: index of its layer, corners.
 struct Board {
+    /// Index into [`BOARD_KINDS`].
     kind: usize,
+    /// The corners in order around the board.
     corners: [Point<World>; 4],
 }
 
@@ -107,9 +116,9 @@ fn floor_boards() -> Vec<Board> {
 
 /// The scene from the side, looking to the left: the visible part is left of the eye.
 fn side_panel(boards: &[Board]) -> Panel {
-    let place = |z: f64, y: f64| DVec2::new(56.0 + z * 3.2, 40.0 - y * 3.2);
+    let position = |z: f64, y: f64| DVec2::new(56.0 + z * 3.2, 40.0 - y * 3.2);
     let line = |a: [f64; 2], b: [f64; 2]| {
-        Polyline::through_points(&[place(a[0], a[1]), place(b[0], b[1])], false)
+        Polyline::through_points(&[position(a[0], a[1]), position(b[0], b[1])], false)
     };
     let floor = |kind: usize| {
         let boards_of_kind = boards.iter().filter(|board| board.kind == kind);
@@ -133,10 +142,10 @@ fn side_panel(boards: &[Board]) -> Panel {
         ("angle", "what is seen", [110, 116, 124]),
         angle.into_iter().flatten().collect(),
     );
-    let mut strokes = label_strokes("eye", place(0.6, EYE_HEIGHT), TextAlign::Start);
-    strokes.extend(label_strokes("w = 0", place(0.0, 7.4), TextAlign::Middle));
-    strokes.extend(label_strokes("w > 0", place(-7.5, -1.3), TextAlign::End));
-    strokes.extend(label_strokes("w < 0", place(2.0, -1.3), TextAlign::Start));
+    let mut strokes = label_strokes("eye", position(0.6, EYE_HEIGHT), TextAlign::Start);
+    strokes.extend(label_strokes("w = 0", position(0.0, 7.4), TextAlign::Middle));
+    strokes.extend(label_strokes("w > 0", position(-7.5, -1.3), TextAlign::End));
+    strokes.extend(label_strokes("w < 0", position(2.0, -1.3), TextAlign::Start));
     let words = stroke_layer(("words", "names", INK), strokes);
     page.layers.extend([plane, with_thin_pen(angle), with_thin_pen(words)]);
     let notes = vec![
@@ -170,8 +179,8 @@ fn clipped_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
     let outline = |board: &Board| -> Vec<Polyline> {
         let images: Vec<Point<Ndc>> =
             ring(board).points().iter().filter_map(|p| p.divide()).collect();
-        let places: Vec<DVec2> = images.into_iter().map(to_page).collect();
-        Polyline::through_points(&places, true).into_iter().collect()
+        let positions: Vec<DVec2> = images.into_iter().map(to_page).collect();
+        Polyline::through_points(&positions, true).into_iter().collect()
     };
     let least = boards.iter().flat_map(|board| ring(board).points().to_vec()).map(HPoint::w);
     let least = least.fold(f64::INFINITY, f64::min);
@@ -228,20 +237,24 @@ fn describe_image(map: Projective<World, Clip>, point: Point<World>) -> String {
     format!("has w = {w}, goes to ({x}, {y})")
 }
 
+/// A text as strokes.
 fn label_strokes(words: &str, at: DVec2, align: TextAlign) -> Vec<Polyline> {
     Label::new(words, at, LETTER_HEIGHT).with_align(align).strokes()
 }
 
+/// A group that holds strokes only.
 fn stroke_group(strokes: Vec<Polyline>) -> Group {
     Group { strokes, ..Group::default() }
 }
 
+/// A layer of strokes with the pen of the boards.
 fn stroke_layer((id, title, ink): (&str, &str, Ink), strokes: Vec<Polyline>) -> Layer {
     let mut layer = Layer::new(id, title, Pen::solid(STROKE_WIDTH, ink));
     layer.groups.push(stroke_group(strokes));
     layer
 }
 
+/// The layer with the pen width of letters.
 fn with_thin_pen(mut layer: Layer) -> Layer {
     layer.pen.width = LETTER_HEIGHT * 0.1;
     layer
@@ -255,10 +268,11 @@ mod tests {
     fn stroke_heights(panel: &Panel, layer: &str) -> Vec<f64> {
         let found = panel.page.layers.iter().filter(|found| found.id == layer);
         let lines = found.flat_map(|layer| &layer.groups).flat_map(|group| &group.strokes);
-        lines.flat_map(|line| &line.points).map(|place| to_millimeters(*place).y).collect()
+        lines.flat_map(|line| &line.points).map(|position| to_millimeters(*position).y).collect()
     }
 
-    /// The floor is below the horizon, which is the middle of the picture: nothing of it may be drawn above.
+    /// The floor is below the horizon, which is the middle of the picture: nothing of it may be
+    /// drawn above.
     #[test]
     fn only_what_is_clipped_first_stays_below_the_horizon() {
         let panels = wraparound_panels().expect("the panels").panels;

@@ -1,5 +1,13 @@
-//! Conventions of graphics APIs: canonical view volume, handedness of view space, pixel coordinates.
-//! The picture does not depend on them, the numbers of an explanation do.
+//! Conventions of graphics APIs: canonical view volume, handedness of view space, pixel
+//! coordinates. The picture does not depend on them, the numbers of an explanation do.
+//!
+//! | conventions | NDC z, near to far | y in clip space | view space |
+//! | --- | --- | --- | --- |
+//! | alberti, chapter | +1 to −1 | up | looks along −z |
+//! | OpenGL | −1 to +1 | up | looks along −z |
+//! | Vulkan | 0 to 1 | down | looks along −z |
+//! | Direct3D | 0 to 1 | up | looks along +z |
+//! | WebGPU, Metal | 0 to 1 | up | looks along −z |
 
 use homog::{Affine, PixelConvention, View};
 use projection::{Convention, Handedness, NdcY};
@@ -9,8 +17,8 @@ use viewport::{DepthRange, Rectangle, Viewport, ViewportError};
 /// The conventions of a textbook or of a graphics API.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum ApiConventions {
-    /// The program's own: the chapter's volume, near at z = +1; pixels as in image files, depth 1 at
-    /// the near plane.
+    /// The program's own: the chapter's volume, near at z = +1; pixels as in image files, depth 1
+    /// at the near plane.
     #[default]
     Alberti,
     /// Shirley and others, chapters 7 and 8: near at z = +1, integer pixel centers, y up, z

@@ -1,4 +1,7 @@
 //! An explanation as a self-contained HTML page: diagrams, then the steps.
+//!
+//! The page has no script and loads nothing: style sheet, diagrams (SVG) and picture (a data URI)
+//! are inside. It follows the color scheme of the reader's system.
 
 use super::diagrams::draw_diagrams;
 use super::plain_text::format_number;
@@ -7,8 +10,8 @@ use super::{Explanation, Item, ItemValue, Step};
 use shade::Picture;
 
 impl Explanation {
-    /// Formats the explanation as an HTML page. `chain` is the chain it was made with; `picture`, of any
-    /// size and of the scene's aspect ratio, shows the position of the subject.
+    /// Formats the explanation as an HTML page. `chain` is the chain it was made with; `picture`,
+    /// of any size and of the scene's aspect ratio, shows the position of the subject.
     #[must_use]
     pub fn to_html(&self, chain: &TransformChain, picture: Option<&Picture>) -> String {
         let subject = escape_html(&self.subject);

@@ -1,4 +1,10 @@
 //! An explanation as JSON, for programs. Numbers are exact: the decimals parse to the same f64.
+//!
+//! ```json
+//! {"schema": {"name": "alberti-explain", "version": 1}, "subject": "…", "verdict": "…",
+//!  "steps": [{"id": "camera", "title": "…", "formula": "CA-1, CA-2",
+//!             "items": [{"id": "eye", "name": "eye", "value": [4, 3, 6]}]}]}
+//! ```
 
 use super::{Explanation, Item, ItemValue, Step};
 use serde_json::{Value as Json, json};
@@ -10,8 +16,8 @@ pub const SCHEMA_NAME: &str = "alberti-explain";
 pub const SCHEMA_VERSION: u32 = 1;
 
 impl Explanation {
-    /// Formats the explanation as a JSON document: a list of steps, each with a list of items. Numbers
-    /// that are not finite become `null`.
+    /// Formats the explanation as a JSON document: a list of steps, each with a list of items.
+    /// Numbers that are not finite become `null`.
     #[must_use]
     pub fn to_json(&self) -> Json {
         json!({
@@ -23,6 +29,7 @@ impl Explanation {
     }
 }
 
+/// One step with its items.
 fn step_json(step: &Step) -> Json {
     json!({
         "id": step.id,
@@ -32,6 +39,7 @@ fn step_json(step: &Step) -> Json {
     })
 }
 
+/// One item; a matrix as an object with its rows.
 fn item_json(item: &Item) -> Json {
     let value = match &item.value {
         ItemValue::Matrix(rows) => json!({"rows": rows}),

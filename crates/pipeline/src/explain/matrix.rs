@@ -1,5 +1,10 @@
-//! Explanation of a 4 × 4 matrix: its kind, the projections it may be in known conventions, and known
-//! misprints it resembles.
+//! Explanation of a 4 × 4 matrix: its kind, the projections it may be in known conventions, and
+//! known misprints it resembles.
+//!
+//! The same sixteen numbers can be several projections, each in another convention: OpenGL's and
+//! the textbook's differ by the sign of z. All readings are listed, the simplest first. Misprints
+//! are those of the chapter and of widespread tutorials, such as a transposed matrix or a sign lost
+//! in the third row.
 
 use super::conventions::volume_name;
 use super::plain_text::format_number;
@@ -71,8 +76,8 @@ fn affine_step(map: Projective<View, Clip>) -> Option<Step> {
 fn vanishing_points_step(map: Projective<View, Clip>) -> Step {
     let points = map.principal_vanishing_points(1e-12);
     let words = |meaning: HPointKind<Clip>| match meaning {
-        HPointKind::Finite(place) => {
-            let [x, y, z] = <[f64; 3]>::from(place).map(format_number);
+        HPointKind::Finite(point) => {
+            let [x, y, z] = <[f64; 3]>::from(point).map(format_number);
             format!("vanishes at ({x}, {y}, {z})")
         }
         HPointKind::AtInfinity(_) => "stays parallel".to_owned(),

@@ -1,4 +1,11 @@
 //! An explanation as plain text: labels in a column, matrices aligned.
+//!
+//! ```text
+//!  1. Camera: from the world to view space (CA-1, CA-2)
+//!     eye                     (4, 3, 6)
+//!     R, u v w to the axes    [ 0.83205 0       -0.5547  0 ]
+//!                             [ …                        ]
+//! ```
 
 use super::{Explanation, Item, ItemValue, Step};
 use homog::MatrixDisplay;

@@ -1,4 +1,9 @@
 //! Explanation of a world point or of a mesh vertex: all transforms to its pixel.
+//!
+//! ```text
+//!  mesh ─nodes─► model ─scene─► world ─camera─► view ─projection─► clip ─÷ w─► NDC ─► pixel
+//! ```
+//! A vertex is explained in the model's current pose: skinned and morphed as the scene has it.
 
 use super::plain_text::format_number;
 use super::transform_chain::{TransformChain, describe_outcode};
@@ -22,9 +27,9 @@ pub fn explain_transforms(chain: &TransformChain) -> Explanation {
 
 /// Follows a world point through every stage.
 #[must_use]
-pub fn explain_point(chain: &TransformChain, place: Point<World>) -> Explanation {
-    let [x, y, z] = <[f64; 3]>::from(place).map(format_number);
-    explain_world_point(chain, place, format!("The point ({x}, {y}, {z}) of the world"), Vec::new())
+pub fn explain_point(chain: &TransformChain, point: Point<World>) -> Explanation {
+    let [x, y, z] = <[f64; 3]>::from(point).map(format_number);
+    explain_world_point(chain, point, format!("The point ({x}, {y}, {z}) of the world"), Vec::new())
 }
 
 /// The indices of a mesh vertex.
@@ -44,23 +49,24 @@ pub struct VertexRef {
 /// If the model does not show such a vertex; the text says what there is.
 pub fn explain_vertex(
     chain: &TransformChain,
-    placed: &ModelInstance,
+    model_instance: &ModelInstance,
     vertex: VertexRef,
 ) -> Result<Explanation, String> {
-    let (instance, primitive) = find_shown_primitive(&placed.model, vertex.node, vertex.primitive)?;
-    let posed = placed.model.skin_primitive(instance, primitive);
-    let position = *posed.positions.get(vertex.index).ok_or_else(|| {
-        let count = posed.positions.len();
+    let (instance, primitive) =
+        find_shown_primitive(&model_instance.model, vertex.node, vertex.primitive)?;
+    let skinned = model_instance.model.skin_primitive(instance, primitive);
+    let position = *skinned.positions.get(vertex.index).ok_or_else(|| {
+        let count = skinned.positions.len();
         format!(
             "primitive {} has {count} vertices; there is no vertex {}",
             vertex.primitive, vertex.index
         )
     })?;
-    let to_world = posed.to_model.then(placed.model_to_world);
+    let to_world = skinned.to_model.then(model_instance.model_to_world);
     let mesh_point = model_point(position);
-    let node = describe_node(&placed.model, vertex.node);
+    let node = describe_node(&model_instance.model, vertex.node);
     let world = to_world.transform_point(mesh_point);
-    let step = model_step(placed, posed.to_model, &[("", mesh_point)]);
+    let step = model_step(model_instance, skinned.to_model, &[("", mesh_point)]);
     let subject = format!("Vertex {} of primitive {} at {node}", vertex.index, vertex.primitive);
     Ok(explain_world_point(chain, world, subject, vec![step]))
 }
@@ -68,13 +74,13 @@ pub fn explain_vertex(
 /// The steps of a world point, after those that led to it.
 fn explain_world_point(
     chain: &TransformChain,
-    place: Point<World>,
+    point: Point<World>,
     subject: String,
     mut steps: Vec<Step>,
 ) -> Explanation {
-    let clip = chain.world_to_clip().transform_point(place);
-    steps.push(chain.camera_step(&[("", place)]));
-    steps.push(chain.projection_step(&[("", place)]));
+    let clip = chain.world_to_clip().transform_point(point);
+    steps.push(chain.camera_step(&[("", point)]));
+    steps.push(chain.projection_step(&[("", point)]));
     steps.push(chain.outcode_step(&[("", clip)]));
     steps.extend(chain.screen_steps(&[("", clip)]));
     let code = chain.clip_volume().outcode(clip);
@@ -90,14 +96,18 @@ fn explain_world_point(
 
 /// The model transform: mesh to world, for labeled points.
 pub(super) fn model_step(
-    placed: &ModelInstance,
+    model_instance: &ModelInstance,
     to_model: Affine<ModelSpace, ModelSpace>,
     points: &[(&str, Point<ModelSpace>)],
 ) -> Step {
-    let to_world = to_model.then(placed.model_to_world);
+    let to_world = to_model.then(model_instance.model_to_world);
     let mut step = Step::new("model", "Model: from the mesh to the world", Some("HO-4, HO-5"))
         .with_item("node_to_model", "the nodes' transforms", to_model.rows())
-        .with_item("model_to_world", "the model's place in the scene", placed.model_to_world.rows())
+        .with_item(
+            "model_to_world",
+            "the model's place in the scene",
+            model_instance.model_to_world.rows(),
+        )
         .with_item("mesh_to_world", "the product", to_world.rows());
     for (name, point) in points {
         let label = |what: &str| {

@@ -1,5 +1,10 @@
 //! Factorization of a projection matrix into shear, scale and depth mapping, and the ids of its
 //! formulas.
+//!
+//! ```text
+//!  perspective = depth · scale · shear   (frustum centered, sides to 45°, depth to clip space)
+//!  oblique     = fit · shear             (projectors upright, box to the canonical volume)
+//! ```
 
 use super::Step;
 use super::conventions::ApiConventions;
@@ -37,8 +42,8 @@ pub(super) fn add_projection_factors(
     }
 }
 
-/// The ids of the formulas of a projection in the pipeline's own conventions, as the chapter numbers
-/// them.
+/// The ids of the formulas of a projection in the pipeline's own conventions, as the chapter
+/// numbers them.
 pub(crate) fn formula_ids(view_to_clip: Projective<View, Clip>) -> Option<&'static str> {
     let decomposition =
         decompose(view_to_clip.raw(), ApiConventions::Alberti.canonical_volume()).ok()?;

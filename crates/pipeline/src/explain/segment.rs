@@ -1,4 +1,10 @@
 //! Explanation of a segment: clipping against the view volume before the divide (CL-2).
+//!
+//! ```text
+//!  p(t) = a + t (b − a) in clip space;  each plane cuts at t = d(a) / (d(a) − d(b))
+//! ```
+//! d is a plane's signed distance, such as w − x for the right plane. The visible part runs from
+//! the largest t where the segment enters to the smallest where it leaves (Liang and Barsky, 1984).
 
 use super::plain_text::format_number;
 use super::transform_chain::{TransformChain, describe_outcode};

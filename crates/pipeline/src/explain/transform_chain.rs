@@ -1,5 +1,5 @@
-//! The transform chain from world to screen in the conventions of a graphics API, and the steps that
-//! points take through it (PL-1).
+//! The transform chain from world to screen in the conventions of a graphics API, and the steps
+//! that points take through it (PL-1).
 //!
 //! ```text
 //!  World ──T, R──► View ──projection──► Clip ──÷w──► Ndc ──M_vp──► Screen
@@ -17,9 +17,13 @@ use viewport::{Viewport, ViewportError};
 /// Camera, projection and viewport in the conventions of a graphics API.
 #[derive(Clone, Copy, Debug)]
 pub struct TransformChain {
+    /// The camera, whose view space looks along −z.
     camera: Camera,
+    /// The projection, converted to the conventions.
     view_to_clip: Projective<View, Clip>,
+    /// The conventions of all coordinates.
     conventions: ApiConventions,
+    /// The viewport, with its pixel convention.
     viewport: Viewport,
     /// World → clip → screen in these conventions.
     transform: ViewTransform,
@@ -226,7 +230,7 @@ impl TransformChain {
                 divide.items.push(infinity_item(name));
                 continue;
             };
-            let place = <[f64; 3]>::from(self.ndc_to_screen().transform_point(ndc));
+            let position = <[f64; 3]>::from(self.ndc_to_screen().transform_point(ndc));
             divide = divide.with_item(
                 format!("ndc{}", id_suffix(name)),
                 label_with_name("ndc", name),
@@ -236,12 +240,12 @@ impl TransformChain {
                 .with_item(
                     format!("screen{}", id_suffix(name)),
                     label_with_name("x, y, depth", name),
-                    place,
+                    position,
                 )
                 .with_item(
                     format!("pixel{}", id_suffix(name)),
                     label_with_name("pixel", name),
-                    self.describe_pixel(place),
+                    self.describe_pixel(position),
                 );
         }
         [divide, screen]

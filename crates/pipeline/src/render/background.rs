@@ -1,5 +1,13 @@
 //! The background of a frame: environment or backdrop as two triangles at the far plane that fill
 //! the picture.
+//!
+//! Both are draw calls like any other: behind all models by their depth, so that translucent
+//! surfaces blend over them, and shaded for visible fragments only.
+//!
+//! | kind | vertices carry | shading |
+//! | --- | --- | --- |
+//! | environment | positions on the far plane | direction from the eye, blurred radiance |
+//! | backdrop | fractions of the picture | color, gradient or image |
 
 use super::RenderError;
 use super::primitive_assembly::{DEFAULT_MATERIAL, PrimitiveAssembler, QUAD};

@@ -27,7 +27,9 @@ pub struct RenderContext<'a> {
     pub textures: &'a Textures<'a>,
     /// The most threads to render with, at least 1. Their number changes no bit of the result.
     pub threads: usize,
+    /// The stopwatch of the stages.
     timings: Option<&'a Timings>,
+    /// The flag that ends the rendering.
     cancel: Option<&'a CancelToken>,
 }
 

@@ -24,10 +24,15 @@ const POINT_SIZE_PIXELS: f64 = 3.0;
 
 /// The state of one draw call: its projected vertices and how its triangles enter the frame.
 pub(super) struct DrawCall<'a> {
+    /// The raster's transform and guard band.
     pub(super) transform: &'a ScreenTransform,
+    /// The culled and projected vertices.
     pub(super) mesh: &'a ProjectedMesh,
+    /// The frame that gets the primitives.
     pub(super) frame: &'a mut Frame,
+    /// Opaque, alpha-tested or translucent.
     pub(super) opacity: Opacity,
+    /// The winding of back faces, if they are culled.
     pub(super) cull_mode: CullMode,
 }
 
@@ -65,12 +70,14 @@ impl DrawCall<'_> {
         }
     }
 
+    /// A point is a square of constant size, drawn if its center is inside the guard band.
     fn submit_point(&mut self, vertex: u32, id: u32) {
         if let Some(center) = self.mesh.screen_vertices[vertex as usize] {
             self.frame.add_point(center, POINT_SIZE_PIXELS, id, self.opacity);
         }
     }
 
+    /// A line is clipped like a triangle, and drawn as a rectangle of constant width.
     fn submit_line(&mut self, ends: [u32; 2], id: u32) {
         let ends = ends.map(|vertex| self.mesh.clip_positions[vertex as usize]);
         let Some(visible) = self.transform.clip_line(ends) else { return };

@@ -1,5 +1,9 @@
 //! Fragment shading: the scene's lights, environment and style as a [`Surface`](raster::Surface)
 //! that the rasterizer calls for each visible fragment.
+//!
+//! The rasterizer calls the surface for each visible triangle of a pixel, not for each that covers
+//! it: shading is deferred until the visibility buffer of a tile is complete. Styles wrap the
+//! physically based shading and use only its alpha test and geometry.
 
 use super::renderer::FrameMemory;
 use crate::scene::{Scene, Style};
@@ -25,8 +29,8 @@ pub(super) fn fragment_shading<'a>(
     }
 }
 
-/// The shading of a style that overrides the materials: clay, matcap, normals, depth, toon, X-ray …;
-/// `None` for styles that show the materials, and for line drawings.
+/// The shading of a style that overrides the materials: clay, matcap, normals, depth, toon, X-ray
+/// …; `None` for styles that show the materials, and for line drawings.
 pub(super) fn style_shading<'a>(
     scene: &Scene,
     shading: &'a Shading<'a>,

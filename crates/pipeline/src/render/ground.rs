@@ -1,4 +1,8 @@
 //! The ground as a shadow catcher: a translucent rectangle that shows nothing but shadows.
+//!
+//! Its fragments have the color black and as alpha the fraction of light that shadows take away;
+//! where everything is lit they are transparent. Blending over the background then darkens it as a
+//! real ground would, without a visible edge of the rectangle.
 
 use super::RenderError;
 use super::draw_call::DrawCall;

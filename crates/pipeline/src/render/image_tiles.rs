@@ -67,6 +67,7 @@ impl ImageTile {
 /// The intersection of a region with a tile.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct TileRegion {
+    /// The tile.
     pub(super) tile: ImageTile,
     /// Its pixels in the picture.
     pub(super) rect: PixelRect,

@@ -1,4 +1,13 @@
 //! Insets: pictures of other cameras composited into rectangles of a picture.
+//!
+//! ```text
+//!  ┌──────────────┐   Insets are rendered like pictures of their own and composited in scene
+//!  │   picture  ┌─┤   order over the picture: opaque, with an optional border inside of their
+//!  │            │2│   rectangle, or in cyan for the right eye of a red-cyan anaglyph.
+//!  │       ┌──┐ └─┤
+//!  └───────┤1 ├───┘   A region of the picture renders only the parts of insets that it contains.
+//!          └──┘
+//! ```
 
 use crate::Picture;
 use crate::scene::{Inset, Scene};

@@ -1,4 +1,12 @@
-//! Line drawings of a scene: hidden-line removal to a vector page, and the lines drawn over surfaces.
+//! Line drawings of a scene: hidden-line removal to a vector page, and the lines drawn over
+//! surfaces.
+//!
+//! ```text
+//!  models ─► welded edges ─► exact visibility ─► chains ─► Page: layers of strokes, warnings
+//! ```
+//! The engine is the crate `drawing`; this module gives it the scene, and adds what belongs to the
+//! picture: paper, backdrop, overlays. Shaded styles with outlines (toon) and the overlay of edges
+//! take the layers of such a drawing and put them over the surfaces.
 
 use super::RenderError;
 use crate::scene::{ImageSpec, Scene, Style};

@@ -1,5 +1,14 @@
 //! Mip chains: the textures of a scene's models prefiltered at all levels, built once and shared by
 //! all renderings.
+//!
+//! ```text
+//!  level 0  64 × 64   the image, decoded
+//!  level 1  32 × 32   each texel the mean of 2 × 2, in linear light for colors
+//!  …
+//!  level 6   1 × 1
+//! ```
+//! A chain costs a third of the image's memory. One image can need two: as a color texture its
+//! texels are decoded from sRGB before they are averaged, as data they are averaged as they are.
 
 use crate::scene::Scene;
 use model::{Image, Material, Model, ModelInstance, Texture, TextureSlot};

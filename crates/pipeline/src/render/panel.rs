@@ -1,4 +1,7 @@
 //! Panels: a scene drawn as one of several pictures on a page.
+//!
+//! Lessons put panels side by side: the same models in several projections, or steps of a sweep.
+//! Lines stay vectors; surfaces become an image of twice the panel's resolution.
 
 use super::{RenderContext, RenderError, Renderer, Textures, draw_lines};
 use crate::{Picture, Scene, Timings};

@@ -7,8 +7,8 @@
 //! One sample at the pixel's center decides by the rasterizer's own rules: the nearest surface,
 //! opaque or translucent, without the holes of masked materials. The weights are then computed anew
 //! at the exact center, in f64, on the triangle before snapping to 1/256 pixel (IN-2; Olano and
-//! Greer, 1997, homogeneous barycentric coordinates). Where snapping puts a center outside the exact
-//! triangle, the weights are those of a point on its border.
+//! Greer, 1997, homogeneous barycentric coordinates). Where snapping puts a center outside the
+//! exact triangle, the weights are those of a point on its border.
 
 mod buffer;
 mod geometry;
@@ -64,7 +64,9 @@ pub fn render_passes(
 
 /// The passes of one image tile.
 struct TilePasses<'a> {
+    /// The scene as it is; each frame draws a variant of it.
     context: RenderContext<'a>,
+    /// The part of the tile that the region needs.
     tile_region: TileRegion,
 }
 

@@ -2,6 +2,9 @@
 //!
 //! The pixel is rendered once more as a region of 1 × 1 pixel, whose bits are those of the picture,
 //! with a surface that records each shading call.
+//!
+//! It answers "why has this pixel this color?": which triangles of which nodes are in it, with
+//! which barycentric weights, and with which linear color each contributes.
 
 use super::RenderError;
 use super::ambient_occlusion::build_full_ssao_buffer;
@@ -106,8 +109,11 @@ fn record_fragments<S: Surface>(
 ///
 /// The rasterizer shades from several threads through a shared reference, hence the mutex.
 struct Recorder<'a, S> {
+    /// The surface that shades.
     surface: &'a S,
+    /// The pixel whose fragments are recorded.
     pixel: [u32; 2],
+    /// The recorded shading calls, in any order.
     fragments: Mutex<Vec<RecordedFragment>>,
 }
 

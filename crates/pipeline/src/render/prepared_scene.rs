@@ -27,7 +27,9 @@ use shade::{AmbientOcclusion, Channel};
 /// Regions are parts of the picture bit for bit, whatever their size and order.
 #[derive(Debug)]
 pub struct PreparedScene<'a> {
+    /// Scene, textures and threads.
     pub(super) context: RenderContext<'a>,
+    /// The renderer's memory, borrowed until the picture is finished.
     buffers: &'a mut RenderBuffers,
     /// The drawing of a style that shows lines only.
     page: Option<Page>,
@@ -37,12 +39,14 @@ pub struct PreparedScene<'a> {
     has_shadow_maps: bool,
     /// The occlusion buffer of the whole picture, for regions that are a part of it.
     full_ssao: Option<AmbientOcclusion>,
+    /// Warnings about this scene, without those of its insets.
     warnings: Vec<Warning>,
     /// The insets of the scene, in their order.
     insets: Vec<Self>,
 }
 
 impl<'a> PreparedScene<'a> {
+    /// Draws the lines of a scene and of its insets, each inset with a renderer of its own.
     pub(super) fn new(
         renderer: &'a mut Renderer,
         context: RenderContext<'a>,

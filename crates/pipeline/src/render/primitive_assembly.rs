@@ -75,12 +75,17 @@ pub(super) fn assemble_with_opacity<'a>(
 
 /// The state of an assembly: transform, style, the frame so far, and the next free ids.
 pub(super) struct PrimitiveAssembler<'a> {
+    /// The transform of the image tile.
     pub(super) transform: ScreenTransform,
     /// The eye, or the direction to it.
     viewer: HPoint<World>,
+    /// The needs of the style.
     inputs: VertexInputs,
+    /// The most texture samples per fragment along the longer axis of its footprint.
     anisotropy: u32,
+    /// The most threads for large meshes.
     threads: usize,
+    /// The frame and its draw calls.
     pub(super) memory: FrameMemory<'a>,
     /// The id of the next point, line or triangle.
     pub(super) next_id: u32,

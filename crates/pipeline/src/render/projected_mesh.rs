@@ -109,7 +109,7 @@ impl ProjectedMesh {
             guard_band.project_positions(model_to_clip, &positions[run.clone()], clip, outcodes);
             let screen = &mut self.screen_vertices[run];
             ScreenVertex::divide_and_snap_points(clip, ndc_to_screen, simd_level, screen);
-            // A vertex outside has a place on the grid by chance, or a wrong one behind the eye.
+            // Outside the guard band a snapped position is off the grid, or wrong behind the eye.
             for (vertex, code) in screen.iter_mut().zip(outcodes) {
                 *vertex = vertex.filter(|_| code.is_inside());
             }

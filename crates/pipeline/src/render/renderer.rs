@@ -35,6 +35,7 @@ use shade::{Channel, Draw, DrawList, Vertex};
 /// ```
 #[derive(Debug, Default)]
 pub struct Renderer {
+    /// The buffers of the picture without its insets.
     pub(super) buffers: RenderBuffers,
     /// One renderer for each inset, in their order.
     pub(super) insets: Vec<Self>,
@@ -76,11 +77,15 @@ impl Renderer {
 /// The memory that pictures leave to the next.
 #[derive(Debug, Default)]
 pub(super) struct RenderBuffers {
+    /// The rasterizer's frame; `None` before the first picture and after an error.
     frame: Option<Frame>,
+    /// Vertices of one draw call.
     mesh: ProjectedMesh,
     /// Always empty; it lends its capacity.
     draws: Vec<Draw<'static>>,
+    /// Vertex lists of the last picture's draw calls.
     vertex_pool: Vec<Vec<Vertex>>,
+    /// The shadow maps of the scene at hand, and their memory.
     pub(super) shadow_maps: ShadowMapRenderer,
     /// The depth buffer of screen-space ambient occlusion.
     pub(super) nearest_surfaces: Vec<SurfaceDepth>,

@@ -26,6 +26,7 @@ pub(super) struct ScreenTransform {
     /// The clipping volume: near and far plane of the view volume, sides moved out to the guard
     /// band.
     pub(super) guard_band: Volume,
+    /// The inverse viewport transform.
     screen_to_ndc: Affine<Screen, Ndc>,
     /// Whether the projection mirrors the picture, which reverses the winding of triangles.
     pub(super) is_mirrored: bool,
@@ -141,7 +142,7 @@ impl ScreenTransform {
         ScreenVertex::snap(self.view.project_to_screen(point)?, point.w())
     }
 
-    /// The vertices of a primitive on the rasterizer's grid, if all have a place there.
+    /// The vertices of a primitive on the rasterizer's grid, or `None` if one is off the grid.
     pub(super) fn snap_vertices<const N: usize>(
         &self,
         points: [HPoint<Clip>; N],

@@ -21,7 +21,9 @@ use shade::{DrawList, ShadowMap};
 /// Shadow maps and the memory to render them, reused from picture to picture.
 #[derive(Debug, Default)]
 pub(super) struct ShadowMapRenderer {
+    /// The frame of the last map.
     frame: Option<Frame>,
+    /// Vertices of one draw call.
     mesh: ProjectedMesh,
     /// The map of each light, in their order; empty if no light casts shadows.
     pub(super) maps: Vec<Option<ShadowMap>>,

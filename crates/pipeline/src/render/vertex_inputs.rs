@@ -1,4 +1,8 @@
 //! The vertex attributes, opacity and faces that a style needs of each draw call.
+//!
+//! A style that overrides materials (clay, normals, ids …) still needs some of their properties:
+//! the alpha test for the holes of masked surfaces, and whether surfaces are double-sided. The
+//! X-ray style makes everything translucent and shows back faces as well.
 
 use super::vertex_processing::material_uv_set;
 use crate::scene::Style;
@@ -14,6 +18,7 @@ pub(super) struct VertexInputs {
     pub(super) forces_lit_inputs: bool,
     /// Whether back faces of single-sided materials are visible.
     pub(super) shows_back_faces: bool,
+    /// How the opacity follows from the material.
     opacity_rule: OpacityRule,
     /// Whether the first set of texture coordinates is needed, whatever the material reads.
     needs_first_uv_set: bool,

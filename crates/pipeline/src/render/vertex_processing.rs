@@ -15,8 +15,11 @@ use std::borrow::Cow;
 /// The vertex attribute arrays of a primitive; `None` where the shading needs none.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct VertexArrays<'a> {
+    /// Positions in model space.
     pub(super) positions: Option<&'a [[f32; 3]]>,
+    /// Unit normals in model space.
     pub(super) normals: Option<&'a [[f32; 3]]>,
+    /// Texture coordinates of the set that the material reads.
     pub(super) uvs: Option<&'a [[f32; 2]]>,
 }
 

@@ -1,4 +1,9 @@
 //! PNG files rendered in bands of rows: the picture is never in memory as a whole.
+//!
+//! ```text
+//!  region ─► band of rows ─► render_region ─► rows to the PNG encoder ─► next band, same memory
+//! ```
+//! A band is a region like any other: the file has the bytes of one that is encoded from memory.
 
 use super::RenderError;
 use super::prepared_scene::PreparedScene;

@@ -1,4 +1,5 @@
-//! Regions, bands and sheets: parts of a picture are the whole, bit for bit, and 16 bits are the 8 bits and more.
+//! Regions, bands and sheets: parts of a picture are the whole, bit for bit, and 16 bits are the 8
+//! bits and more.
 
 use super::load_scene;
 use homog::PixelRect;
@@ -8,7 +9,8 @@ use pipeline::scene::{ResolveOptions, parse_scene};
 use pipeline::{Channel, Origin, Picture, RenderContext, Renderer, Scene, Textures, render};
 use std::path::Path;
 
-/// Scenes with thin lines, layers, an environment behind everything, overlays, letters and line drawings.
+/// Scenes with thin lines, layers, an environment behind everything, overlays, letters and line
+/// drawings.
 const SCENES: [&str; 7] =
     ["floor", "panes", "primitives", "finishes", "two_point", "technical", "view_volume"];
 
@@ -136,8 +138,9 @@ fn regions_of_a_giant_picture_fit_together_across_its_tiles() {
     }
 }
 
-/// Textures, glass, soft and sharp shadows, a ground that catches them, occlusion, an environment, an overlay, and a view with a
-/// camera of its own: all that looks beyond a pixel, in a tall picture.
+/// Textures, glass, soft and sharp shadows, a ground that catches them, occlusion, an environment,
+/// an overlay, and a view with a camera of its own: all that looks beyond a pixel, in a tall
+/// picture.
 const EVERYTHING_SCENE: &str = r#"Scene(
     models: [
         (path: "models/table.glb"),

@@ -1,4 +1,8 @@
 //! One step of a sweep: the scene's camera and projection with one parameter changed.
+//!
+//! The scene's projection is first decomposed into a frustum or an orthographic box, then one
+//! number of it is replaced. Parameters that a projection lacks (a height of a perspective, an
+//! angle of view of a parallel one) are refused with the one to vary instead.
 
 use super::super::DemonstrationError;
 use super::super::number_format::format_short;
@@ -13,7 +17,9 @@ use projection::{
 
 /// The scene's view, decomposed into camera and parameters.
 pub(super) struct SweepBase {
+    /// The scene's camera.
     camera: Camera,
+    /// The scene's projection.
     projection: BaseProjection,
     /// All vertices, to fit near and far plane.
     points: Vec<Point<World>>,

@@ -1,4 +1,7 @@
 //! Pass buffers: the values of one pass for every pixel of a region.
+//!
+//! Floating-point passes hold f32, integer passes u32. They are written as NumPy arrays without
+//! loss, or as 16-bit PNG files quantized to the range of the values.
 
 use super::geometry::{Hit, SceneGeometry};
 use super::pass::{Pass, PassEncoding};
@@ -83,7 +86,7 @@ impl PassBuffer {
     ) {
         let (pass, width) = (self.pass, self.width as usize);
         let [left, top] = part.offset_in_tile();
-        let place = |row: usize, column: usize| [left + column as u32, top + row as u32];
+        let pixel = |row: usize, column: usize| [left + column as u32, top + row as u32];
         match &mut self.values {
             PassValues::Floats(values) => {
                 let count = pass.channels();
@@ -91,7 +94,7 @@ impl PassBuffer {
                 raster::for_each_parallel(threads, rows, |(row, (values, hits))| {
                     let pixels = values.chunks_exact_mut(count).zip(hits).enumerate();
                     for (column, (values, hit)) in pixels {
-                        geometry.write_value(pass, hit, place(row, column), values);
+                        geometry.write_value(pass, hit, pixel(row, column), values);
                     }
                 });
             }

@@ -1,5 +1,9 @@
 //! Attribute interpolation for passes: exact barycentric weights of a pixel's center, and position,
 //! normal and texture coordinates by them, in f64.
+//!
+//! The rasterizer's own weights are f32 and belong to vertices snapped to 1/256 pixel: good for
+//! colors, not for positions that are to agree with the unprojection of a depth. Everything is
+//! therefore computed again for the one visible triangle of each pixel.
 
 use super::pass::Pass;
 use crate::render::RenderError;
@@ -22,33 +26,46 @@ pub(super) struct Hit {
 }
 
 impl Hit {
+    /// No primitive.
     pub(super) const MISS: Self = Self { id: u32::MAX, weights: [0.0; 3] };
 }
 
 /// All primitives of a scene, by ascending primitive id.
 pub(super) struct SceneGeometry<'a> {
+    /// The draw calls in scene order.
     draws: Vec<DrawGeometry<'a>>,
+    /// The view transform, for depths and view-space normals.
     world_to_view: Affine<World, View>,
+    /// The eye, or the direction to it.
     viewer: HPoint<World>,
+    /// The inverse viewport transform of the tile.
     screen_to_ndc: Affine<Screen, homog::Ndc>,
+    /// Whether the style shades triangles flat, so that vertex normals are ignored.
     is_flat: bool,
 }
 
 /// One primitive of one mesh instance: the draw call that the frame has for it.
 struct DrawGeometry<'a> {
+    /// The id of its first point, line or triangle.
     first_id: u32,
     /// Index plus one of model, node, mesh and material; 0 for none.
     owner_ids: [u32; 4],
+    /// Indices and topology.
     primitive: &'a Primitive,
+    /// Posed positions and normals.
     skinned: SkinnedPrimitive<'a>,
+    /// The texture coordinates `TEXCOORD_0`.
     uvs: Option<Cow<'a, [[f32; 2]]>>,
+    /// The model matrix.
     model_to_world: Affine<Model, World>,
+    /// The model-view-projection matrix of the tile.
     model_to_clip: Projective<Model, Clip>,
     /// The normal matrix.
     normal_to_world: DMat3,
 }
 
 impl<'a> SceneGeometry<'a> {
+    /// Collects the draw calls of a scene, posed, with the same ids as the frame of the tile.
     pub(super) fn new(scene: &'a Scene, tile: ImageTile) -> Result<Self, RenderError> {
         let transform = ScreenTransform::for_tile(scene, tile)?;
         let mut draws = Vec::new();
@@ -208,9 +225,13 @@ impl DrawGeometry<'_> {
 
 /// A point on a primitive.
 struct SurfacePoint {
+    /// Vertex indices.
     vertices: [usize; 3],
+    /// Vertex positions in the world.
     corners: [Point<World>; 3],
+    /// Barycentric weights.
     weights: [f64; 3],
+    /// The point in the world.
     position: Point<World>,
 }
 
@@ -219,12 +240,13 @@ fn interpolate([a, b, c]: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     a * weights[0] + b * weights[1] + c * weights[2]
 }
 
-/// Perspective-correct barycentric weights of a triangle at a point (x, y, 1) of the picture; `None`
-/// if the triangle is seen edge-on.
+/// Perspective-correct barycentric weights of a triangle at a point (x, y, 1) of the picture;
+/// `None` if the triangle is seen edge-on.
 ///
 /// The point is, up to a factor, the sum of the vertices' (x, y, w) times their weights, so the
 /// weights are its products with the edge normals: (q × r) · point for p, and so on. No divide is
-/// involved and vertices may lie behind the eye. Negative weights, of points just outside, become 0.
+/// involved and vertices may lie behind the eye. Negative weights, of points just outside, become
+/// 0.
 fn perspective_weights(corners: [HPoint<Clip>; 3], point: DVec3) -> Option<[f64; 3]> {
     let [p, q, r] = corners.map(|corner| DVec3::new(corner.x(), corner.y(), corner.w()));
     let edge_values = [q.cross(r), r.cross(p), p.cross(q)].map(|normal| normal.dot(point));

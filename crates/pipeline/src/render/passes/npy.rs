@@ -8,8 +8,8 @@ use super::buffer::{PassBuffer, PassValues};
 use std::fmt::Write;
 
 impl PassBuffer {
-    /// Encodes the pass as an NPY file: an array of rows × columns, or rows × columns × channels, of
-    /// f32 or u32.
+    /// Encodes the pass as an NPY file: an array of rows × columns, or rows × columns × channels,
+    /// of f32 or u32.
     #[must_use]
     pub fn to_npy(&self) -> Vec<u8> {
         let type_code = if self.pass.is_integer() { "<u4" } else { "<f4" };

@@ -1,4 +1,12 @@
 //! The list of render passes: meaning, unit and empty value of each.
+//!
+//! | passes | type | channels | empty |
+//! | --- | --- | --- | --- |
+//! | depth, distance | f32 | 1 | +∞ |
+//! | normal, view-normal, position, barycentric | f32 | 3 | 0 |
+//! | uv | f32 | 2 | 0 |
+//! | coverage | f32 | 1 | 0 |
+//! | id, model, node, mesh, material, overdraw | u32 | 1 | 0 |
 
 /// A render pass: one quantity for each pixel, of the nearest surface at its center.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -8,8 +16,8 @@ pub enum Pass {
     Depth,
     /// Distance from the eye, in scene units; +∞ where nothing is visible.
     Distance,
-    /// Unit normal in the world, of the visible side: the interpolated vertex normal, without normal
-    /// maps. 0 where nothing is visible.
+    /// Unit normal in the world, of the visible side: the interpolated vertex normal, without
+    /// normal maps. 0 where nothing is visible.
     Normal,
     /// Unit normal in view space: x to the right, y up, z towards the viewer.
     ViewNormal,
@@ -18,7 +26,8 @@ pub enum Pass {
     /// Texture coordinates of the set `TEXCOORD_0`: u to the right, v down in the texture. 0 where
     /// there are none.
     Uv,
-    /// Barycentric weights of the triangle's vertices; their sum is 1, or 0 where nothing is visible.
+    /// Barycentric weights of the triangle's vertices; their sum is 1, or 0 where nothing is
+    /// visible.
     Barycentric,
     /// Primitive id: the point, line or triangle, counted from 1 in scene order; 0 where nothing is
     /// visible.

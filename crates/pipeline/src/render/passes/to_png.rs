@@ -30,6 +30,7 @@ impl PassBuffer {
         }
     }
 
+    /// Encodes floating-point values, each channel in a range of its own.
     fn floats_to_png(&self, values: &[f32]) -> Vec<u8> {
         let count = self.pass.channels();
         let mut text = format!("{}: {}", self.pass.name(), unit_description(self.pass));
@@ -51,7 +52,8 @@ impl PassBuffer {
         )
     }
 
-    /// The range of values that the codes of a channel span, which is also added to the description.
+    /// The range of values that the codes of a channel span, which is also added to the
+    /// description.
     fn code_range(&self, values: &[f32], channel: usize, text: &mut String) -> CodeRange {
         match self.pass {
             Pass::Normal | Pass::ViewNormal => {
@@ -75,6 +77,7 @@ impl PassBuffer {
         CodeRange { min: from.into(), max: to.into(), first_code: 1.0 }
     }
 
+    /// Encodes integers: one channel, or two for values beyond 16 bits.
     fn integers_to_png(&self, values: &[u32]) -> Vec<u8> {
         let text = format!("{}: {}", self.pass.name(), unit_description(self.pass));
         if values.iter().all(|value| *value <= 65_535) {
@@ -86,6 +89,7 @@ impl PassBuffer {
         self.write_png16(&codes.collect::<Vec<_>>(), ColorType::Rgb, &text)
     }
 
+    /// Writes codes as a PNG file with a description.
     fn write_png16(&self, codes: &[u16], color: ColorType, text: &str) -> Vec<u8> {
         let mut bytes = Vec::new();
         let mut encoder = Encoder::new(&mut bytes, self.width, self.height);
@@ -104,13 +108,16 @@ impl PassBuffer {
 
 /// The values of the first and the last code.
 struct CodeRange {
+    /// The value of the first code.
     min: f64,
+    /// The value of the last code, 65,535.
     max: f64,
     /// The first code that stands for a value: 0, or 1 where 0 marks empty pixels.
     first_code: f64,
 }
 
 impl CodeRange {
+    /// The code of a value, clamped to the range and rounded to nearest.
     fn encode_value(&self, value: f64) -> u16 {
         let width = self.max - self.min;
         let fraction = if width > 0.0 { (value - self.min) / width } else { 0.0 };

@@ -1,4 +1,13 @@
 //! Shadow casters: the depth-only pass over all triangles that are not translucent.
+//!
+//! | material | casts |
+//! | --- | --- |
+//! | opaque | always |
+//! | masked (alpha test) | where its alpha passes the cutoff |
+//! | blended or transmissive | never: no colored or partial shadows |
+//!
+//! Points and lines cast no shadows either. The pass has ids of its own, since it leaves primitives
+//! out.
 
 use crate::render::RenderError;
 use crate::render::context::RenderContext;
@@ -32,8 +41,11 @@ impl Surface for DepthOnly<'_, '_> {
 
 /// The depth-only pass of one light.
 pub(super) struct CasterPass<'a, 'b> {
+    /// The transform of the light's camera.
     pub(super) transform: ScreenTransform,
+    /// Vertices of one draw call.
     pub(super) mesh: &'b mut ProjectedMesh,
+    /// The frame that becomes the shadow map.
     pub(super) frame: &'b mut Frame,
     /// The draw calls of masked primitives, for the alpha test.
     pub(super) draws: &'b mut DrawList<'a>,

@@ -1,5 +1,5 @@
-//! Shadow map fitting: the camera of a light, with a view volume as small as possible, so that texels
-//! are small.
+//! Shadow map fitting: the camera of a light, with a view volume as small as possible, so that
+//! texels are small.
 //!
 //! ```text
 //!   sun ─►│ ┌──────────────┐ │     near and far plane enclose the whole scene, since casters
@@ -21,6 +21,7 @@ use shade::{Light, Shadow};
 /// The camera of a light, fitted to the scene.
 #[derive(Debug)]
 pub(super) struct LightCamera {
+    /// Camera and projection of the light.
     pub(super) view_projection: ViewProjection,
     /// Width and height of the shadow map in texels.
     pub(super) size: [u32; 2],
@@ -29,7 +30,8 @@ pub(super) struct LightCamera {
     /// The width of the penumbra in texels per unit of depth between caster and receiver; see
     /// [`ShadowMap::set_penumbra`](shade::ShadowMap::set_penumbra).
     pub(super) penumbra: f64,
-    /// For a perspective map, the limit of its depth at infinite distance; `None` if depth is linear.
+    /// For a perspective map, the limit of its depth at infinite distance; `None` if depth is
+    /// linear.
     pub(super) depth_at_infinity: Option<f64>,
 }
 
@@ -57,11 +59,14 @@ impl LightCamera {
 /// An axis-aligned bounding box in a light's view space.
 #[derive(Clone, Copy, Debug)]
 struct ViewBounds {
+    /// The least coordinates.
     min: DVec3,
+    /// The greatest coordinates.
     max: DVec3,
 }
 
 impl ViewBounds {
+    /// The box of no points: any point extends it.
     const EMPTY: Self =
         Self { min: DVec3::splat(f64::INFINITY), max: DVec3::splat(f64::NEG_INFINITY) };
 
@@ -73,6 +78,7 @@ impl ViewBounds {
         }
     }
 
+    /// The center of the box.
     fn center(self) -> DVec3 {
         0.5 * (self.min + self.max)
     }
@@ -80,6 +86,7 @@ impl ViewBounds {
 
 /// A window on square texels: the raster of a shadow map.
 struct FittedWindow {
+    /// The window on the light's picture plane.
     window: Window,
     /// Width and height in texels, at least 16.
     size: [u32; 2],
