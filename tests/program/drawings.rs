@@ -246,7 +246,7 @@ fn drawing_errors_are_reported_and_leave_no_file() {
         sandbox.run(&["check", name])
     };
     for (more, message) in [
-        ("style: Lines(width: Iso(0.4))", "ISO 128 has no group of line widths 0.4"),
+        ("style: Lines(width: Iso(0.4))", "ISO 128 has no line group of width 0.4"),
         ("style: Lines(color: \"bleu\")", "`bleu` is not a color"),
         ("sheet: (scale: (1, 0))", "scale of the thing"),
         ("camera: (projection: NPoint())", "p, q and r are all 0"),
