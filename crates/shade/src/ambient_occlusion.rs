@@ -377,7 +377,12 @@ impl AmbientOcclusion {
         f32: std::ops::Div<T, Output = T>,
     {
         let inv_w = 1.0 / transform_row(&self.screen_to_world[3], screen_position);
-        [0, 1, 2].map(|k: usize| transform_row(&self.screen_to_world[k], screen_position) * inv_w)
+        let [x, y, z, _] = &self.screen_to_world;
+        [
+            transform_row(x, screen_position) * inv_w,
+            transform_row(y, screen_position) * inv_w,
+            transform_row(z, screen_position) * inv_w,
+        ]
     }
 }
 

@@ -14,7 +14,7 @@ mod srgb16;
 pub(crate) use primaries::{XYZ_TO_SRGB, multiply_matrix};
 pub use srgb16::Srgb16Encoder;
 
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, map_to_lanes};
 use raster::{Encode, F32x8, LANES};
 use std::sync::OnceLock;
 
@@ -131,7 +131,7 @@ impl Encode<[u8; 4]> for &SrgbEncoder {
 
     #[inline(always)]
     fn encode_eight(&self, colors: &[F32x8; 4]) -> [[u8; 4]; LANES] {
-        self.encode_pixels(&colors.map(Lanes)).map(u32::to_le_bytes)
+        self.encode_pixels(&map_to_lanes(colors, Lanes)).map(u32::to_le_bytes)
     }
 }
 

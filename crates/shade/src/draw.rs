@@ -14,7 +14,7 @@
 use super::MaterialTextures;
 use super::attributes::{PrimitiveIndices, UV, Vertex, VertexIndices, interpolate};
 use super::fragment_lanes::FragmentLanes;
-use super::lanes::{Lanes, Vec3Lanes};
+use super::lanes::{Lanes, Vec3Lanes, map_to_lanes};
 use super::surface_geometry::TangentLanes;
 use super::texture::UvLanes;
 use model::{Material, Primitive, TextureInfo, Topology};
@@ -125,7 +125,11 @@ impl Draw<'_> {
         if is_single_primitive {
             PrimitiveIndices::One((ids[0] - self.first_id) as usize)
         } else {
-            PrimitiveIndices::Each(ids.map(|id| (id - self.first_id) as usize))
+            let mut primitives = [0; N];
+            for (primitive, id) in primitives.iter_mut().zip(ids) {
+                *primitive = (id - self.first_id) as usize;
+            }
+            PrimitiveIndices::Each(primitives)
         }
     }
 
@@ -173,16 +177,24 @@ impl Draw<'_> {
         } else {
             return UvLanes::ZERO;
         };
-        // The texture's transform (KHR_texture_transform), whose translation derivatives lack.
-        let transform_step = |weights| {
-            let [u, v] = interpolate(&attributes, &weights);
-            info.uv_matrix.map(|[a, b, _]| a * u + b * v)
-        };
+        // The texture's transform (KHR_texture_transform).
         let [u, v] = interpolate(&attributes, &fragments.weights());
+        let uv = map_to_lanes(&info.uv_matrix, |[a, b, c]| a * u + b * v + c);
+        let dx = interpolate(&attributes, &fragments.weights_dx());
+        let dy = interpolate(&attributes, &fragments.weights_dy());
         UvLanes {
-            uv: info.uv_matrix.map(|[a, b, c]| a * u + b * v + c),
-            dx: transform_step(fragments.weights_dx()),
-            dy: transform_step(fragments.weights_dy()),
+            uv,
+            dx: transform_uv_step(&info.uv_matrix, dx),
+            dy: transform_uv_step(&info.uv_matrix, dy),
         }
     }
+}
+
+/// Transforms a derivative of texture coordinates, to which the translation does not apply.
+#[inline(always)]
+fn transform_uv_step<const N: usize>(
+    uv_matrix: &[[f32; 3]; 2],
+    [u, v]: [Lanes<N>; 2],
+) -> [Lanes<N>; 2] {
+    map_to_lanes(uv_matrix, |[a, b, _]| a * u + b * v)
 }

@@ -5,10 +5,13 @@
 //! vertices and their screen-space derivatives. The derivatives (`dFdx` and `dFdy` of GLSL) are
 //! exact, from the triangle's plane equations, not differences between neighboring fragments.
 
-use super::lanes::Lanes;
+use super::lanes::{Lanes, map_to_lanes};
 use raster::{Fragment, Fragments, LANES};
 
 /// The weights of the vertices of some fragments' primitives.
+///
+/// Implemented for a single fragment, for packets of eight, and by shading styles for a fragment at
+/// a vertex. Weights and derivatives are those of the whole triangle, also where it was clipped.
 pub(super) trait FragmentLanes<const N: usize> {
     /// The perspective-correct barycentric weights of the three vertices.
     fn weights(&self) -> [Lanes<N>; 3];
@@ -48,9 +51,9 @@ impl FragmentPacket {
         // One set of barycentrics, clipped triangles included; derivatives by the quotient rule.
         let weights = fragments.weights();
         Self {
-            weights: weights.values.map(Lanes),
-            weights_dx: weights.dx().map(Lanes),
-            weights_dy: weights.dy().map(Lanes),
+            weights: map_to_lanes(&weights.values, Lanes),
+            weights_dx: map_to_lanes(&weights.dx(), Lanes),
+            weights_dy: map_to_lanes(&weights.dy(), Lanes),
         }
     }
 }

@@ -247,6 +247,22 @@ where
     }
 }
 
+/// Lanes from each item of an array.
+///
+/// In kernels it stands for the `map` of arrays, which is too large to be inlined always, and is then
+/// a call to code without the kernel's vector instructions.
+#[inline(always)]
+pub(crate) fn map_to_lanes<T: Copy, const N: usize, const K: usize>(
+    items: &[T; K],
+    function: impl Fn(T) -> Lanes<N>,
+) -> [Lanes<N>; K] {
+    let mut lanes = [Lanes::ZERO; K];
+    for (lanes, item) in lanes.iter_mut().zip(items) {
+        *lanes = function(*item);
+    }
+    lanes
+}
+
 /// Declares a type of three numbers of each of `N` fragments, with the componentwise operations
 /// that vectors and colors have in common.
 macro_rules! three_components {
@@ -288,7 +304,12 @@ macro_rules! three_components {
             /// A function of each component.
             #[inline(always)]
             pub(crate) fn map(self, function: impl Fn(Lanes<N>) -> Lanes<N>) -> Self {
-                Self { $a: function(self.$a), $b: function(self.$b), $c: function(self.$c) }
+                // A loop calls the function at one place, where it is inlined.
+                let mut components = [self.$a, self.$b, self.$c];
+                for component in &mut components {
+                    *component = function(*component);
+                }
+                Self::from(components)
             }
 
             /// A function of each two components.
@@ -298,11 +319,12 @@ macro_rules! three_components {
                 other: Self,
                 function: impl Fn(Lanes<N>, Lanes<N>) -> Lanes<N>,
             ) -> Self {
-                Self {
-                    $a: function(self.$a, other.$a),
-                    $b: function(self.$b, other.$b),
-                    $c: function(self.$c, other.$c),
+                let mut components = [self.$a, self.$b, self.$c];
+                let others = [other.$a, other.$b, other.$c];
+                for (component, other) in components.iter_mut().zip(&others) {
+                    *component = function(*component, *other);
                 }
+                Self::from(components)
             }
         }
 

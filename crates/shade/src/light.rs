@@ -55,6 +55,9 @@ pub enum Light {
 }
 
 /// The light of one source at some fragments.
+///
+/// It is what the BRDF sees of a light: no kind, no position, only a direction and an illuminance.
+/// Shadows reduce it, and so does sheen for the layers below.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct IncidentLight<const N: usize> {
     /// The unit vectors towards the light.

@@ -89,6 +89,8 @@ impl<'a> MaterialTextures<'a> {
     }
 
     /// Samples the textures of one group at its coordinates: see [`MipChain::sample`].
+    ///
+    /// The result has one entry for each texture of the group, in its order; further ones are zero.
     #[inline(always)]
     pub(super) fn sample_group<const N: usize>(
         &self,

@@ -175,7 +175,8 @@ impl Kernel for ShadeEight<'_> {
                 *is_done |= is_own;
             }
         }
-        colors.map(|channel| channel.0)
+        let [r, g, b, alpha] = colors;
+        [r.0, g.0, b.0, alpha.0]
     }
 }
 

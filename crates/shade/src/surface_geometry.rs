@@ -111,8 +111,10 @@ impl Draw<'_> {
             // The lengths shrink where normals diverge; derivatives are of the unnormalized
             // vectors.
             let squares = normals.dot(normals);
-            let steps = [fragments.weights_dx(), fragments.weights_dy()]
-                .map(|weights| interpolate(&attributes, &weights).into());
+            let steps = [
+                interpolate(&attributes, &fragments.weights_dx()).into(),
+                interpolate(&attributes, &fragments.weights_dy()).into(),
+            ];
             if !normalize_vectors(&mut normals, squares) {
                 self.replace_degenerate_normals(vertices, squares, &mut normals);
             }
@@ -152,7 +154,8 @@ impl Draw<'_> {
         positions: &Attributes<N, 3>,
     ) -> Vec3Lanes<N> {
         // Cross product of two edges, right-handed for counterclockwise front faces.
-        let [a, b, c] = positions.map(Vec3Lanes::from);
+        let [a, b, c] = *positions;
+        let (a, b, c) = (Vec3Lanes::from(a), Vec3Lanes::from(b), Vec3Lanes::from(c));
         let sign = if self.flips_winding { -1.0 } else { 1.0 };
         (b - a).cross(c - a) * sign
     }

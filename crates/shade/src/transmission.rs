@@ -15,7 +15,7 @@
 
 use super::Shading;
 use super::fragment_lanes::FragmentPacket;
-use super::lanes::{Lanes, Rgb};
+use super::lanes::{Lanes, Rgb, map_to_lanes};
 use super::material_inputs::MaterialInputs;
 use model::{AlphaMode, MaterialExtensions};
 use raster::{F32x8, Fragments, Kernel, LANES};
@@ -32,10 +32,9 @@ pub(super) fn transmission_tint<const N: usize>(
     let volume = extensions.volume.as_deref().copied().unwrap_or_default();
     let length = inputs.layers.thickness * world_scale / volume.attenuation_distance;
     // Beer's law. A surface without thickness absorbs nothing.
-    let absorb = |color: f32| {
+    let [r, g, b] = map_to_lanes(&volume.attenuation_color, |color| {
         length.map(|length| if length > 0.0 { libm::powf(color, length) } else { 1.0 })
-    };
-    let [r, g, b] = volume.attenuation_color.map(absorb);
+    });
     inputs.base_color * Rgb { r, g, b }
 }
 

@@ -176,7 +176,12 @@ impl<const N: usize> BaseBrdf<N> {
         self.specular_albedo = self.f0.map(|f0| f0 * a + self.f90 * b) * self.energy_compensation;
     }
 
-    /// Adds the light from one direction that the base reflects to the viewer.
+    /// Adds the light from one direction that the base reflects to the viewer: the BRDF times the
+    /// illuminance of the surface.
+    ///
+    /// ```text
+    ///  L += E · ( diffuse · (1 − F_dielectric) · n·l / π  +  F · compensation · D V n·l )
+    /// ```
     #[inline(always)]
     pub(super) fn add_direct_light(
         &self,

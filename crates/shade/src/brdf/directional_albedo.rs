@@ -23,7 +23,7 @@
 
 mod table;
 
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, map_to_lanes};
 use table::TABLE;
 
 /// `A` and `B` of the split sum at some fragments.
@@ -59,7 +59,7 @@ impl<const N: usize> DirectionalAlbedo<N> {
             }
         }
         let [a, b, c, d] = entries;
-        let [f0_scale, f90_scale] = [0, 1].map(|k: usize| {
+        let [f0_scale, f90_scale] = map_to_lanes(&[0, 1], |k: usize| {
             let left = a[k].lerp(c[k], s);
             let right = b[k].lerp(d[k], s);
             left.lerp(right, t)

@@ -10,7 +10,7 @@
 //! ```
 
 use super::octahedral_map::{OctahedralMap, decode_octahedral, node_coordinate};
-use crate::lanes::{Rgb, Vec3Lanes};
+use crate::lanes::{Rgb, Vec3Lanes, map_to_lanes};
 use crate::vector::normalize;
 use std::f64::consts::PI;
 
@@ -82,7 +82,7 @@ impl IrradianceHarmonics {
     #[inline(always)]
     pub(super) fn irradiance_over_pi<const N: usize>(&self, normals: Vec3Lanes<N>) -> Rgb<N> {
         let Vec3Lanes { x, y, z } = normals;
-        let [r, g, b] = [0, 1, 2].map(|channel: usize| {
+        let [r, g, b] = map_to_lanes(&[0, 1, 2], |channel: usize| {
             let f = &self.coefficients[channel];
             // Bands 0 and 1, then the five functions of band 2.
             let linear = f[0] + f[1] * x + f[2] * y + f[3] * z;

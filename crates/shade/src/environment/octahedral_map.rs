@@ -10,7 +10,7 @@
 //!   └────┴────┘
 //! ```
 
-use crate::lanes::{Lanes, Vec3Lanes};
+use crate::lanes::{Lanes, Vec3Lanes, map_to_lanes};
 use crate::vector::normalize;
 
 /// Red, green and blue, and padding: four numbers are loaded at once.
@@ -38,18 +38,20 @@ pub(super) fn sample_trilinear<'a, const N: usize>(
 ) -> [Texel; N] {
     // Gather the two maps of each lane; their sizes become lanes too.
     let mut maps = [[level(near_levels[0]); N]; 2];
-    for (lane, &near) in near_levels.iter().enumerate() {
-        maps[0][lane] = level(near);
-        maps[1][lane] = level(near + usize::from(fractions[lane] != 0.0));
+    for (lane, &near_level) in near_levels.iter().enumerate() {
+        maps[0][lane] = level(near_level);
+        maps[1][lane] = level(near_level + usize::from(fractions[lane] != 0.0));
     }
-    let last_nodes = maps.map(|maps| Lanes::from_fn(|lane| (maps[lane].side - 1) as f32));
+    let last_nodes =
+        map_to_lanes(&maps, |maps| Lanes::from_fn(|lane| (maps[lane].side - 1) as f32));
     let positions = encode_octahedral(directions);
-    let nodes = last_nodes.map(|last_nodes| BilinearNodes::locate(positions, last_nodes));
+    let near = BilinearNodes::locate(positions, last_nodes[0]);
+    let next = BilinearNodes::locate(positions, last_nodes[1]);
     // Four channels of one lane at a time, in one vector register.
     let mut colors = [[0.0; 4]; N];
     for (lane, color) in colors.iter_mut().enumerate() {
-        let a = maps[0][lane].sample_bilinear(&nodes[0], lane);
-        let b = maps[1][lane].sample_bilinear(&nodes[1], lane);
+        let a = maps[0][lane].sample_bilinear(&near, lane);
+        let b = maps[1][lane].sample_bilinear(&next, lane);
         *color = lerp_texels(a, b, fractions[lane]);
     }
     colors
@@ -66,7 +68,8 @@ fn encode_octahedral<const N: usize>(directions: Vec3Lanes<N>) -> [Lanes<N>; 2] 
     let folded_u = (1.0 - v.abs()) * u.map(sign_not_zero);
     let folded_v = (1.0 - u.abs()) * v.map(sign_not_zero);
     let is_lower = y.is_below(0.0);
-    [folded_u.select(&is_lower, u), folded_v.select(&is_lower, v)].map(|c| c * 0.5 + 0.5)
+    let (u, v) = (folded_u.select(&is_lower, u), folded_v.select(&is_lower, v));
+    [u * 0.5 + 0.5, v * 0.5 + 0.5]
 }
 
 /// The four nodes around a position, in all lanes: column and row of the first, and the fractions

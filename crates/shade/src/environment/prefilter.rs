@@ -112,6 +112,9 @@ impl SamplePacket {
 
 /// Directions in which a surface of this α reflects the view along its normal, with their mip
 /// levels.
+///
+/// The level is half the logarithm of the sample's solid angle over that of a texel, and one more:
+/// a bias against noise, which costs no sharpness that the next level of roughness would show.
 fn importance_sample_ggx(alpha: f32, mip_chain: &[OctahedralMap]) -> Vec<SamplePacket> {
     let alpha_squared = alpha * alpha;
     let texel_solid_angle = 4.0 * PI / (mip_chain[0].side * mip_chain[0].side) as f32;
@@ -153,7 +156,8 @@ impl Kernel for PrefilterKernel<'_> {
         let aside = if normal[1].abs() < 0.9 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] };
         let tangent = normalize(cross(aside, normal));
         let bitangent = cross(normal, tangent);
-        let [t, b, n] = [tangent, bitangent, normal].map(Vec3Lanes::splat);
+        let [t, b, n] =
+            [Vec3Lanes::splat(tangent), Vec3Lanes::splat(bitangent), Vec3Lanes::splat(normal)];
         let (mut sum, mut weight_sum) = ([0.0; 4], 0.0);
         for packet in samples {
             let Vec3Lanes { x, y, z } = packet.directions;

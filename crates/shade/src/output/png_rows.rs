@@ -23,6 +23,8 @@ pub struct PngRows<'a, W: Write> {
 /// Encodes a PNG file of this width and height with 8 or 16 bits a channel: RGB if the picture is
 /// opaque, RGBA with straight alpha otherwise. `draw` writes its pixels.
 ///
+/// The file says that its colors are sRGB. It needs memory for one chunk of compressed data only.
+///
 /// # Errors
 /// If the file cannot be written, `draw` fails, or it has written too many pixels or too few.
 pub fn encode_png<W: Write, E: From<io::Error>>(

@@ -119,9 +119,11 @@ impl TexelAddressing {
         let Sampler { wrap_u, wrap_v, mag_filter, min_filter, .. } = self.sampler;
         let is_mag_linear = mag_filter == TextureFilter::Linear;
         let is_min_linear = min_filter == TextureFilter::Linear;
-        let levels = lod_levels.map(|level| (level - 1).max(0));
-        let are_linear =
-            lod_levels.map(|level| if level == 0 { is_mag_linear } else { is_min_linear });
+        let (mut levels, mut are_linear) = ([0; N], [false; N]);
+        for ((level, is_linear), lod) in levels.iter_mut().zip(&mut are_linear).zip(lod_levels) {
+            *level = (lod - 1).max(0);
+            *is_linear = if *lod == 0 { is_mag_linear } else { is_min_linear };
+        }
         let columns = TexelAxis::locate(u, self.width, &levels, &are_linear, wrap_u);
         let rows = TexelAxis::locate(v, self.height, &levels, &are_linear, wrap_v);
         let mut quads = TexelQuads {

@@ -17,7 +17,7 @@
 use super::addressing::TexelQuads;
 use super::footprint::Tap;
 use super::{MipChain, TexelLanes, UvLanes};
-use crate::lanes::{Lanes, Rgb};
+use crate::lanes::{Lanes, Rgb, map_to_lanes};
 
 impl MipChain<'_> {
     /// The filtered color of the texture, linear with straight alpha, over the footprints of
@@ -66,11 +66,12 @@ impl MipChain<'_> {
         needs_alpha: bool,
     ) -> TexelLanes<N> {
         let texels = self.fetch_texels(quads);
-        let [r, g, b] = [0, 1, 2].map(|channel| match self.srgb_table {
+        let [r, g, b] = map_to_lanes(&[0, 1, 2], |channel| match self.srgb_table {
             Some(table) => {
                 // sRGB decoding before filtering.
-                let linear = channel_codes(&texels, channel)
-                    .map(|codes| Lanes::from_fn(|lane| table[codes[lane] as usize]));
+                let linear = map_to_lanes(&texels, |texels| {
+                    Lanes::from_fn(|lane| table[channel_code(texels[lane], channel) as usize])
+                });
                 bilinear(linear, quads)
             }
             None => filter_linear_channel(&texels, channel, quads),
@@ -97,10 +98,10 @@ impl MipChain<'_> {
     }
 }
 
-/// One channel of packed texels, from 0 to 255.
+/// One channel of a packed texel, from 0 to 255.
 #[inline(always)]
-fn channel_codes<const N: usize>(texels: &[[u32; N]; 4], channel: usize) -> [[u32; N]; 4] {
-    texels.map(|texels| texels.map(|texel| texel >> (8 * channel) & 255))
+fn channel_code(texel: u32, channel: usize) -> u32 {
+    texel >> (8 * channel) & 255
 }
 
 /// One channel that is stored linearly, from 0 to 1. The division by 255 comes after the
@@ -112,8 +113,9 @@ fn filter_linear_channel<const N: usize>(
     quads: &TexelQuads<N>,
 ) -> Lanes<N> {
     // By way of `i32`, which vector instructions convert to `f32` where they do not convert `u32`.
-    let codes = channel_codes(texels, channel)
-        .map(|codes| Lanes::from_fn(|lane| codes[lane] as i32 as f32));
+    let codes = map_to_lanes(texels, |texels| {
+        Lanes::from_fn(|lane| channel_code(texels[lane], channel) as i32 as f32)
+    });
     bilinear(codes, quads) / 255.0
 }
 

@@ -43,6 +43,8 @@ pub(super) struct MipLevel<'a> {
 impl<'a> MipChain<'a> {
     /// Builds the levels of an image; only the first if the sampler asks for no others.
     ///
+    /// The full image is borrowed: several chains, with other samplers, may share it.
+    ///
     /// Colors are averaged in linear light. The levels take a third of the image's memory.
     #[must_use]
     pub fn new(image: &'a Image, sampler: Sampler, encoding: TexelEncoding) -> Self {
