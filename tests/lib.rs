@@ -35,7 +35,8 @@ pub fn program_path() -> Result<PathBuf, String> {
     let test = std::env::current_exe().map_err(|error| error.to_string())?;
     let folder = test.ancestors().nth(2).ok_or("the test is in no target folder")?;
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.args(["build", "--quiet", "--package", "alberti", "--bin", "alberti"]);
+    // As in `cargo xtask test`: with the features of the whole workspace nothing is compiled twice.
+    cargo.args(["build", "--quiet", "--workspace", "--bin", "alberti"]);
     if let Some(target) = folder.parent() {
         cargo.arg("--target-dir").arg(target);
     }

@@ -13,7 +13,7 @@ pub struct Package {
     /// Names of the packages in its table `[dependencies]`; those of tests and build scripts are
     /// left out.
     pub dependencies: Vec<String>,
-    /// Name and source file of its integration tests, in the order of the manifest.
+    /// Name and source file of its integration tests, sorted by name.
     pub tests: Vec<(String, PathBuf)>,
 }
 

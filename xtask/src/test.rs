@@ -2,9 +2,9 @@
 //!
 //! A step is a name and a command. Each integration test of `tests/` is a step of its own, so that
 //! `cargo xtask test vectors` runs just that one, with its environment (`VECTORS=DIR`,
-//! `ASSETS=DIR`) passed through. All steps but the last two build with one profile and one set of
-//! features, so that nothing is compiled twice. Lines that begin with `SKIPPED` in the output of a
-//! step are repeated at the end.
+//! `ASSETS=DIR`) passed through. Steps select targets of the whole workspace, not packages: Cargo
+//! unifies features over the selected packages, and would compile most crates again for every other
+//! selection. Lines that begin with `SKIPPED` in the output of a step are repeated at the end.
 
 mod no_std;
 mod step;
@@ -48,6 +48,8 @@ pub fn run_tests(arguments: &[String]) -> Outcome {
 fn all_steps() -> Result<Vec<Step>, String> {
     let maths: String = NO_STD.iter().map(|name| format!(" --package {name}")).collect();
     let without_maths: String = NO_STD.iter().map(|name| format!(" --exclude {name}")).collect();
+    let metadata = Metadata::load()?;
+    let unit_tests = tests_of_crates(&metadata);
     let mut steps = vec![
         Step::cargo("fmt", "rustfmt would change nothing", &["fmt --all --check"]),
         Step::built_in("tidy", "project rules that no lint covers", || crate::tidy::run_tidy(&[])),
@@ -78,13 +80,12 @@ fn all_steps() -> Result<Vec<Step>, String> {
             "units",
             "unit tests and doctests of the other crates",
             &[
-                &format!("test --workspace{without_maths} --exclude alberti-tests"),
-                "test --package alberti-tests --lib",
-                "test --package alberti-tests --doc",
+                &format!("test --workspace{without_maths} --lib --bins --examples{unit_tests}"),
+                &format!("test --workspace{without_maths} --doc"),
             ],
         ),
     ];
-    steps.extend(integration_tests()?);
+    steps.extend(integration_tests(&metadata)?);
     steps.push(Step {
         name: "docs".into(),
         about: "the documentation builds without warnings".into(),
@@ -106,14 +107,21 @@ fn all_steps() -> Result<Vec<Step>, String> {
 
 /// A step for each integration test of `alberti-tests`, described by the first sentence of its
 /// file.
-fn integration_tests() -> Result<Vec<Step>, String> {
-    let metadata = Metadata::load()?;
+fn integration_tests(metadata: &Metadata) -> Result<Vec<Step>, String> {
     let package = metadata.package("alberti-tests").ok_or("there is no package alberti-tests")?;
     let step = |(name, path): &(String, PathBuf)| {
-        let call = format!("test --package alberti-tests --test {name}");
+        let call = format!("test --workspace --test {name}");
         Ok(Step::cargo(name, &first_sentence(&read_text(path)?), &[&call]))
     };
     package.tests.iter().map(step).collect()
+}
+
+/// Flags for the integration tests of the crates, besides those of mathematics.
+fn tests_of_crates(metadata: &Metadata) -> String {
+    let others = metadata.packages.iter().filter(|package| {
+        package.name != "alberti-tests" && !NO_STD.contains(&package.name.as_str())
+    });
+    others.flat_map(|package| &package.tests).map(|(name, _)| format!(" --test {name}")).collect()
 }
 
 /// The first sentence of a file's documentation.
