@@ -102,7 +102,7 @@ pub fn compare_with_script() -> Result<(), String> {
     .into_iter()
     .enumerate()
     {
-        let found =
+        let actual =
             score_picture(&ours, &reference).map_or_else(String::new, |score| score.to_string());
         if actual != printed {
             return Err(format!("pair {number}: score.py prints {printed}, actual {actual}"));

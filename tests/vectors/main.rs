@@ -12,6 +12,7 @@
 #![allow(unreachable_pub, reason = "in a program `pub` means: used by another file")]
 
 mod chain;
+mod classical;
 mod clipping;
 mod explained;
 mod lessons;
@@ -35,6 +36,7 @@ type Runner = fn(&Value, &Value) -> Result<(), String>;
 /// The runners, by the name of their file.
 const RUNNERS: &[&[(&str, Runner)]] = &[
     chain::RUNNERS,
+    classical::RUNNERS,
     clipping::RUNNERS,
     lessons::RUNNERS,
     lines::RUNNERS,

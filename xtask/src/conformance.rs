@@ -78,5 +78,7 @@ fn coverage_summary(tests: &[Test]) -> String {
     let proved =
         |item: &&items::Item| item.owners.iter().all(|owner| table::has_test(item, owner, tests));
     let proved = items::all_items().filter(proved).count();
-    format!("{naming} tests name items; {proved} of {all} items are proved by every owner")
+    format!(
+        "{naming} tests name topics; {proved} of {all} topics have a test in every crate that implements them"
+    )
 }

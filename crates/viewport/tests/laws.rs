@@ -136,8 +136,8 @@ proptest! {
         prop_assert!((by_pick - in_tile).length() < 1e-9, "{by_pick:?} is not {in_tile:?}");
     }
 
-    /// C26, UN-1 and UN-2: what is unprojected projects back, and the ray of a pixel runs from the
-    /// eye through it.
+    /// C1, C26, UN-1 and UN-2: an unprojected point projects back, and the ray of a pixel runs from
+    /// the eye through it.
     #[test]
     fn rays_run_from_the_eye_through_their_pixel(
         viewport in viewport(),

@@ -65,7 +65,7 @@ fn parse_rows(table: &'static str) -> Vec<Item> {
 }
 
 const ITEM_ROWS: &str = "\
-C1    | camera pipeline     | Forward map and ray of a pixel from one camera undo each other
+C1    | viewport pipeline   | Forward map and ray of a pixel from one camera undo each other
 C2    | raster pipeline     | Wireframe pictures: near lines do not hide far ones
 C3    | homog pipeline      | World, camera, canonical and screen space; the chain is the product of its factors
 C4    | projection clip     | The canonical volume [−1, 1]³, looked at along −z

@@ -70,7 +70,8 @@ fn declared_type(line: &str) -> Option<&str> {
     let is_type = matches!(keyword, "struct" | "enum" | "trait" | "union")
         || keyword == "type" && !line.starts_with(' ');
     let name = words.next().filter(|_| is_type)?;
-    Some(name.split(|c: char| !is_word_char(c)).next().unwrap_or(name))
+    // In a macro the name may be a variable: `struct $name`.
+    name.split(|c: char| !is_word_char(c)).next().filter(|name| !name.is_empty())
 }
 
 fn declares_of(line: &str) -> bool {

@@ -19,7 +19,9 @@ const MACHINE_PATHS: [&str; 5] = ["/home/", "/root/", "/tmp/", "/Users/", "C:\\U
 /// Files begin with module documentation.
 pub fn module_docs(source: &Source) -> Vec<Violation> {
     let first = source.text.lines().find(|line| !line.trim().is_empty());
-    if first.is_some_and(|line| line.starts_with("//!")) {
+    if first
+        .is_some_and(|line| line.starts_with("//!") || line.starts_with("#![doc = include_str!("))
+    {
         return Vec::new();
     }
     vec![Violation::new(&source.path, "open the file with `//!`: what it is and why")]

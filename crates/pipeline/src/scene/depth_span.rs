@@ -29,7 +29,7 @@ impl DepthSpan {
 
     /// Near and far planes of a perspective: tight around the vertices with a margin of 1 %. The near
     /// plane is at least 1e-5 of the far distance away from the eye, because depth resolution falls
-    /// with the ratio of the two (PE-6).
+    /// with the ratio of the two (ZP-1).
     pub(crate) fn perspective_planes(self, near: Option<f64>, far: Option<f64>) -> (f64, f64) {
         let farthest =
             far.unwrap_or(if self.farthest_depth > 0.0 { self.farthest_depth * 1.01 } else { 1.0 });

@@ -146,37 +146,19 @@ fn bad_parameters_are_refused_by_name() {
     assert!(message(Frustum::new(0.0, 1.0, 0.0, 1.0, 2.0, 1.0)).contains("beyond"));
     assert!(message(Frustum::new(0.0, 1.0, 0.0, 1.0, 1.0, nan)).contains("`far` is NaN"));
     assert!(message(Frustum::new(0.0, 1e-300, 0.0, 1.0, 1e300, 2e300)).contains("too extreme"));
-    for fov in [0.0, -1.0, core::f64::consts::PI, 4.0, nan, f64::INFINITY] {
-        assert!(
-            matches!(
-                Perspective::new(Fov::Vertical(fov), 1.0, 1.0, 2.0),
-                Err(ProjectionError::NotFinite { .. } | ProjectionError::OutOfRange { .. })
-            ),
-            "{fov}"
-        );
-        assert!(
-            matches!(
-                Perspective::new(Fov::Diagonal(fov), 1.0, 1.0, 2.0),
-                Err(ProjectionError::NotFinite { .. } | ProjectionError::OutOfRange { .. })
-            ),
-            "{fov}"
-        );
+    let is_out_of_range = |fov: Fov, aspect: f64| {
+        matches!(
+            Perspective::new(fov, aspect, 1.0, 2.0),
+            Err(ProjectionError::NotFinite { .. } | ProjectionError::OutOfRange { .. })
+        )
+    };
+    for angle in [0.0, -1.0, core::f64::consts::PI, 4.0, nan, f64::INFINITY] {
+        assert!(is_out_of_range(Fov::Vertical(angle), 1.0), "{angle}");
+        assert!(is_out_of_range(Fov::Diagonal(angle), 1.0), "{angle}");
     }
     for bad in [0.0, -1.0, nan, f64::INFINITY] {
-        assert!(
-            matches!(
-                Perspective::new(Fov::Vertical(1.0), bad, 1.0, 2.0),
-                Err(ProjectionError::NotFinite { .. } | ProjectionError::OutOfRange { .. })
-            ),
-            "{bad}"
-        );
-        assert!(
-            matches!(
-                Perspective::new(Fov::equivalent_35mm(bad), 1.0, 1.0, 2.0),
-                Err(ProjectionError::NotFinite { .. } | ProjectionError::OutOfRange { .. })
-            ),
-            "{bad}"
-        );
+        assert!(is_out_of_range(Fov::Vertical(1.0), bad), "{bad}");
+        assert!(is_out_of_range(Fov::equivalent_35mm(bad), 1.0), "{bad}");
     }
     assert!(matches!(
         Orthographic::new(-1.0, 1.0, -1.0, 1.0, 0.0, f64::INFINITY),

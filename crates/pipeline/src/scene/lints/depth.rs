@@ -34,7 +34,7 @@ pub(super) fn lint_depth_clipping(adviser: &Linter<'_>) -> Vec<Lint> {
 }
 
 /// A near plane of a perspective far before everything: depth is spent on empty space, for most of
-/// its steps are just behind the near plane (PE-6).
+/// its steps are just behind the near plane (ZP-1).
 pub(super) fn lint_depth_range(adviser: &Linter<'_>) -> Option<Lint> {
     let near = near_distance(adviser)?;
     let spans = adviser.surveys.iter().filter_map(super::VisibilitySurvey::depth_range);
