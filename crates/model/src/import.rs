@@ -103,7 +103,10 @@ pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> 
         let resolver = UriResolver::new(path, bytes.len(), options)?;
         import_gltf(path, &bytes, &resolver, options)
     });
-    loaded.map_err(|diagnostic| ImportError { file: path.to_owned(), diagnostic })
+    loaded.map_err(|diagnostic| ImportError {
+        file: path.to_owned(),
+        diagnostic: Box::new(diagnostic),
+    })
 }
 
 /// Loads a model from a file in memory, as [`load`] does; `name` stands for its path in messages.
@@ -117,5 +120,8 @@ pub fn load_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<M
     let path = Path::new(name);
     let loaded = UriResolver::in_memory(bytes.len(), options)
         .and_then(|resolver| import_gltf(path, bytes, &resolver, options));
-    loaded.map_err(|diagnostic| ImportError { file: path.to_owned(), diagnostic })
+    loaded.map_err(|diagnostic| ImportError {
+        file: path.to_owned(),
+        diagnostic: Box::new(diagnostic),
+    })
 }

@@ -179,7 +179,7 @@ fn picture_diagram(chain: &TransformChain, picture: &Picture, marks: &[LabeledPo
     );
     let positions: Vec<[f64; 2]> = marks
         .iter()
-        .map(|mark| chain.from_top_left([mark.coordinates[0], mark.coordinates[1]]))
+        .map(|mark| chain.image_coordinates([mark.coordinates[0], mark.coordinates[1]]))
         .collect();
     svg += &subject_svg(marks, &positions, width / SIZE[0]);
     svg += "</svg>";

@@ -142,7 +142,7 @@ impl TransformChain {
     }
 
     /// Screen coordinates as pixels from the upper left corner of the picture, y down.
-    pub(super) fn from_top_left(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub(super) fn image_coordinates(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let border = self.viewport.convention().centers.image_border();
         let (x, y) = (x - border, y - border);
         [x, if self.rows_run_up() { self.image_size()[1] - y } else { y }]

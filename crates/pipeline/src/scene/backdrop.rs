@@ -35,7 +35,6 @@ impl SceneFile {
     }
 }
 /// An error that points into the background, at the value at the end of `rest`.
-
 fn background_error(
     origin: &Origin,
     rest: &[PathStep<'_>],

@@ -82,7 +82,6 @@ impl Panorama {
     }
 }
 /// The integer part below a coordinate, and the fraction above it, for bilinear interpolation.
-
 fn split_floor(place: f32) -> (i64, f32) {
     (place.floor() as i64, place - place.floor())
 }

@@ -71,12 +71,10 @@ impl IncludeMap {
         (source.map(|(name, text)| (name.as_str(), text.as_str())), path)
     }
     /// The names of the included files, in the order in which they were read.
-
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.files.iter().map(|(name, _)| name.as_str())
     }
     /// The texts of the included files, in the order in which they were read.
-
     pub(super) fn included_texts(&self) -> impl Iterator<Item = &str> {
         self.files.iter().map(|(_, text)| text.as_str())
     }
@@ -139,7 +137,6 @@ struct MergedScene {
     lists: ElementSources,
 }
 /// Reads included files depth first, and collects the mistakes in all of them.
-
 struct IncludeResolver<'a> {
     origin: &'a Origin,
     allowed: &'a [PathBuf],
@@ -305,7 +302,6 @@ fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
     MergedScene { file, fields, lists }
 }
 /// Both lists in one, the included one first.
-
 fn concat_lists<T>(below: Vec<T>, above: Vec<T>) -> Vec<T> {
     below.into_iter().chain(above).collect()
 }

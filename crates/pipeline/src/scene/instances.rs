@@ -19,7 +19,6 @@ pub(super) const MAX_INSTANCES: usize = 100_000;
 /// each.
 const MAX_INSTANCE_VERTICES: usize = 1 << 25;
 /// A transform of an instance within the space of its model.
-
 type InstanceTransform = Affine<ModelSpace, ModelSpace>;
 
 /// That the scene has not too many copies, each of its models counted.
@@ -54,7 +53,6 @@ impl ModelFile {
     }
 }
 /// The path of a model's `instances`, and of a value in them.
-
 fn instances_path<'a>(number: usize, rest: &[PathStep<'a>]) -> Vec<PathStep<'a>> {
     [&[Field("models"), Index(number), Field("instances")], rest].concat()
 }
@@ -62,7 +60,6 @@ fn instances_path<'a>(number: usize, rest: &[PathStep<'a>]) -> Vec<PathStep<'a>>
 ///
 /// # Errors
 /// If there are none.
-
 fn checked_instance_count(
     origin: &Origin,
     number: usize,
@@ -122,7 +119,6 @@ fn scale_then_rotate(scale: Scale, rotation_degrees: Triple) -> InstanceTransfor
         .then(InstanceTransform::rotation_z(rz))
 }
 /// A translation.
-
 fn translate_by(by: [f64; 3]) -> InstanceTransform {
     InstanceTransform::translation(Vector::from(by))
 }
@@ -187,7 +183,6 @@ fn circle_angles(count: u32, start: Finite, sweep: Finite) -> impl Iterator<Item
     (0..count).map(move |at| (start + sweep * (f64::from(at) / steps)).to_radians())
 }
 /// Instances on a circle around an axis through the origin.
-
 struct CircleLayout {
     axis: [f64; 3],
     radius: f64,
@@ -216,7 +211,6 @@ impl CircleLayout {
     }
 }
 /// The vector with length 1; `None` if it is 0.
-
 fn normalize_vector(v: [f64; 3]) -> Option<[f64; 3]> {
     // Scaled first, so that no square leaves the range of numbers.
     let largest = v.iter().fold(0.0_f64, |most, c| most.max(c.abs()));

@@ -12,7 +12,6 @@ use model::ModelInstance;
 use shade::{Light, Shadow};
 /// The lights of a scene: those of the file, or of the models, or a default key light with ambient
 /// light where nothing else would light the models.
-
 pub(super) fn resolve_lights(
     origin: &Origin,
     file: &SceneFile,
@@ -78,7 +77,6 @@ fn default_lights(view_projection: &ViewProjection, shadow: Option<Shadow>) -> V
 }
 /// A directional light from the upper left of the camera, so that all visible sides differ in
 /// brightness.
-
 fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<Shadow>) -> Light {
     let camera = view_projection.camera;
     let towards = camera.u() * -0.45 + camera.v() * 0.65 + camera.w();
@@ -199,7 +197,6 @@ fn resolve_light_shadow(
     own.map_or(Ok(of_scene), |own| resolve_shadow(origin, Some(&own), &path))
 }
 /// The light of a color at an intensity, in the unit of the intensity.
-
 fn scale_color(color: LightColor, intensity: NonNegative) -> [f32; 3] {
     color.0.map(|channel| (channel * intensity.value()) as f32)
 }

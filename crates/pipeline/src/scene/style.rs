@@ -41,7 +41,6 @@ fn resolve_lines(origin: &Origin, file: &LinesFile) -> Result<LineStyle, SceneEr
     })
 }
 /// The widths of wide and narrow lines.
-
 fn resolve_widths(origin: &Origin, file: WidthFile) -> Result<LineWidths, SceneError> {
     match file {
         WidthFile::Px(pixels) => Ok(LineWidths::Pixels(pixels.value())),

@@ -22,7 +22,6 @@ use model::world_points;
 use model::{CameraProjection, MeshInstance, ModelCamera};
 use projection::{Convention, Fov, Frustum, Orthographic, Perspective, ProjectionError};
 /// The path of the position and direction of the camera.
-
 pub(super) const VIEW_PATH: [PathStep<'static>; 2] = [Field("camera"), Field("view")];
 /// The path of the projection.
 pub(super) const PROJECTION_PATH: [PathStep<'static>; 2] = [Field("camera"), Field("projection")];
@@ -121,7 +120,6 @@ impl<'a> CameraResolver<'a> {
         self.view_error(error.to_string(), None)
     }
     /// An error that points at the view.
-
     pub(super) fn view_error(
         &self,
         message: impl Into<String>,
@@ -130,7 +128,6 @@ impl<'a> CameraResolver<'a> {
         self.origin.error_at(&VIEW_PATH, message, help)
     }
     /// An error of the projection, such as a far plane before the near plane.
-
     pub(super) fn projection_error(&self, error: &ProjectionError) -> SceneError {
         self.projection_error_with(error.to_string(), None)
     }
@@ -144,7 +141,6 @@ impl<'a> CameraResolver<'a> {
         self.origin.error_at(&PROJECTION_PATH, message, help)
     }
     /// An error of framing: nothing to frame, or no room for it.
-
     pub(super) fn framing_error(&self, error: &camera::FramingError) -> SceneError {
         if matches!(error, camera::FramingError::NoPoints) {
             return self.nothing_to_draw_error();
@@ -152,7 +148,6 @@ impl<'a> CameraResolver<'a> {
         self.view_error(error.to_string(), None)
     }
     /// Models without primitives: there is nothing to frame.
-
     pub(super) fn nothing_to_draw_error(&self) -> SceneError {
         // What the importer left out is the likely reason.
         let warnings = self.models.iter().flat_map(|placed| &placed.model.warnings).next();
@@ -261,7 +256,6 @@ impl<'a> CameraResolver<'a> {
         self.project_from_camera(framed.camera, projection, None)
     }
     /// The axes of a camera that looks from a named direction or a vector towards the models.
-
     pub(super) fn view_basis(&self, from: &FromFile) -> Result<Basis, SceneError> {
         let named = match from {
             FromFile::Front => NamedView::Front,
@@ -303,7 +297,6 @@ impl<'a> CameraResolver<'a> {
     }
     /// The projection of a camera in a model. The aspect is that of the image: the vertical field
     /// of view of a perspective is kept, and the window of an orthographic camera is widened.
-
     fn project_through_lens(
         &self,
         camera: Camera,
@@ -352,7 +345,6 @@ impl<'a> CameraResolver<'a> {
         Err(self.unknown_camera_error(choice, &names))
     }
     /// A camera that no model has, with the names of those that exist.
-
     fn unknown_camera_error(&self, choice: &CameraChoice, names: &[String]) -> SceneError {
         let wanted = match choice {
             CameraChoice::Index(index) => index.to_string(),

@@ -42,7 +42,6 @@ fn modern_name<'a>(key: &Key<'a>, owner: &str, edits: &mut Vec<Edit>) -> &'a str
     }
 }
 /// Collects the edits in a value of this type. Values of another form are left to the parser.
-
 fn collect_edits(node: &Node<'_>, value_type: &ValueType, edits: &mut Vec<Edit>) {
     let items = node.group().map_or(&[][..], |group| &group.items);
     match value_type {
@@ -61,7 +60,6 @@ fn collect_edits(node: &Node<'_>, value_type: &ValueType, edits: &mut Vec<Edit>)
 }
 /// Collects the edits in a value of a declared type: its fields, or the name and content of its
 /// variant.
-
 fn collect_declared(node: &Node<'_>, entry: &'static TypeEntry, edits: &mut Vec<Edit>) {
     match (entry.shape, &node.kind) {
         // An optional value may be written `Some(value)`.
@@ -107,7 +105,6 @@ fn collect_inner(
     collect_edits(&node, value_type, edits);
 }
 /// Collects the edits in the fields of `owner`, a struct or a variant.
-
 fn collect_fields(
     group: &Group<'_>,
     owner: &str,

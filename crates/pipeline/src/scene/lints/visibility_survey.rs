@@ -63,7 +63,6 @@ impl VisibilitySurvey {
     }
     /// The least and the greatest distance of a vertex along the line of sight; `None` without
     /// vertices.
-
     pub(super) fn depth_range(&self) -> Option<(f64, f64)> {
         self.depth_range
     }
@@ -74,13 +73,11 @@ impl VisibilitySurvey {
         self.crossings.iter().all(|count| *count >= 1)
     }
     /// Extends the depth range to a distance.
-
     fn extend_depth_range(&mut self, distance: f64) {
         let (near, far) = self.depth_range.unwrap_or((distance, distance));
         self.depth_range = Some((near.min(distance), far.max(distance)));
     }
     /// Adds the vertices and the points, lines or triangles of a mesh primitive.
-
     fn survey_primitive(
         &mut self,
         view_projection: &ViewProjection,

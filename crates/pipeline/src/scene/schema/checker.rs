@@ -44,7 +44,6 @@ impl<'a> Checker<'a> {
         Self { source, ..Self::default() }
     }
     /// The mistakes, in the order in which they were found.
-
     pub(in crate::scene) fn finish(self) -> Checked {
         Checked { mistakes: self.mistakes, retained: self.retained }
     }
@@ -100,7 +99,6 @@ impl<'a> Checker<'a> {
         text
     }
     /// The path of the value, quoted, as a message begins; empty for the whole scene.
-
     fn path_prefix(&self) -> String {
         let path = self.path_text();
         if path.is_empty() { path } else { format!("`{path}`: ") }
@@ -142,7 +140,7 @@ impl<'a> Checker<'a> {
                 if let Some(name) = group.name.as_ref().filter(|name| name.name != entry.name) {
                     self.report_struct_name(name, entry)?;
                 }
-                self.read_fields(group, node.span.clone(), owner, fields)
+                self.read_fields(group, &node.span, &owner, fields)
             }
             NodeKind::Invalid => None,
             NodeKind::Word(word) if suggest_variant(entry, word, None).is_known() => {
@@ -180,8 +178,8 @@ impl<'a> Checker<'a> {
     fn read_fields<'n>(
         &mut self,
         group: &'n Group<'n>,
-        span: Range<usize>,
-        owner: Owner,
+        span: &Range<usize>,
+        owner: &Owner,
         declared: &'static [FieldEntry],
     ) -> Option<Fields<'n>> {
         let mut found: Vec<(&'static str, &'n Item<'n>)> = Vec::new();
@@ -200,7 +198,7 @@ impl<'a> Checker<'a> {
                 Some(key) => match declared.iter().find(|field| field.name == key.name) {
                     None => {
                         unknown += 1;
-                        meant.extend(self.report_unknown_field(key, &owner, declared));
+                        meant.extend(self.report_unknown_field(key, owner, declared));
                     }
                     Some(field) if found.iter().any(|(name, _)| *name == field.name) => {
                         let message = format!("the field `{}` is there twice", field.name);
@@ -228,7 +226,6 @@ impl<'a> Checker<'a> {
         Some(Fields { items: found })
     }
     /// Reports a value without a name among fields, such as the 5 of `fov_y_degrees: 3,5`.
-
     fn report_keyless_item(&mut self, item: &Item<'_>) {
         if item.value.kind == NodeKind::Invalid {
             return;
@@ -283,7 +280,6 @@ impl<'a> Checker<'a> {
         Some(Variant { entry, variant, group, span: node.span.clone() })
     }
     /// Ends the variant that [`open_variant`](Self::open_variant) began.
-
     pub(in crate::scene) fn close_variant(&mut self) {
         self.path.pop();
     }
@@ -430,7 +426,7 @@ impl<'n> Variant<'n> {
             shown: self.variant.name,
         };
         let group: &'n Group<'n> = self.group.unwrap_or(&EMPTY);
-        checker.read_fields(group, self.span.clone(), owner, self.variant.fields)
+        checker.read_fields(group, &self.span, &owner, self.variant.fields)
     }
 
     /// The value in the brackets. The brackets of the variant are also those of a struct, list or

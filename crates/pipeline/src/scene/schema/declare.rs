@@ -10,7 +10,6 @@ pub(super) fn join_doc_lines(doc: &str) -> String {
     remove_links(&paragraphs.join("\n\n"))
 }
 /// Replaces links to Rust items by the text they show.
-
 fn remove_links(text: &str) -> String {
     let mut plain = String::new();
     let mut rest = text;

@@ -68,7 +68,6 @@ fn sites(root: &'static TypeEntry) -> Vec<Site> {
     sites
 }
 /// Adds the struct or enum of an entry with its variants, and queues the types of their fields.
-
 fn add_sites(
     entry: &'static TypeEntry,
     before: &str,

@@ -56,7 +56,6 @@ fn unescape_character(rest: &str) -> Result<(Option<char>, usize), &'static str>
     }
 }
 /// Whether there are digits, and all of them are hexadecimal.
-
 fn is_hexadecimal(digits: &str) -> bool {
     !digits.is_empty() && digits.chars().all(|digit| digit.is_ascii_hexdigit())
 }

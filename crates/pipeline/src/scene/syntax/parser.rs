@@ -21,7 +21,6 @@ use core::ops::Range;
 /// Groups are nested this deep at most, so that no text overflows the stack.
 const MAX_DEPTH: usize = 128;
 /// The help for files that are no scenes at all.
-
 pub(in crate::scene) const SAMPLE_SCENE: &str =
     "a scene looks like this: Scene(models: [(path: \"model.glb\")])";
 
@@ -37,10 +36,8 @@ pub(in crate::scene) struct SyntaxTree<'a> {
 
 /// Parses the text of a scene file.
 pub(in crate::scene) fn parse_tree(source: &str) -> SyntaxTree<'_> {
-    let is_code = |token: &Token<'_>| match token.kind {
-        TokenKind::LineComment | TokenKind::BlockComment => false,
-        _ => true,
-    };
+    let is_code =
+        |token: &Token<'_>| !matches!(token.kind, TokenKind::LineComment | TokenKind::BlockComment);
     let tokens = tokenize(source);
     let mut parser = Parser {
         source,
@@ -57,7 +54,6 @@ pub(in crate::scene) fn parse_tree(source: &str) -> SyntaxTree<'_> {
     SyntaxTree { root, errors, is_unreliable }
 }
 /// The state of the parser: a position among the tokens, and the brackets that are open.
-
 struct Parser<'a> {
     source: &'a str,
     /// The tokens without comments and attributes.
@@ -78,7 +74,6 @@ impl<'a> Parser<'a> {
         self.tokens.get(self.at).copied()
     }
     /// The kind of the next token.
-
     fn peek_kind(&self) -> Option<TokenKind> {
         self.peek().map(|token| token.kind)
     }
@@ -90,7 +85,6 @@ impl<'a> Parser<'a> {
         found
     }
     /// Reports an error of grammar.
-
     fn report(&mut self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
         self.errors.push(Mistake::new(span, message, Some(help.into())));
     }
@@ -338,7 +332,6 @@ impl<'a> Parser<'a> {
     }
 }
 /// Whether a word is a string literal, plain or raw.
-
 fn is_string(word: &str) -> bool {
     word.starts_with('"')
         || (word.starts_with('r')
@@ -358,7 +351,6 @@ fn is_terminated_string(word: &str) -> bool {
 }
 /// Whether a word can be a name. Hyphens are accepted, so that `camera-position` is an unknown
 /// field and not an error of grammar.
-
 fn is_identifier(word: &str) -> bool {
     let word = word.strip_prefix("r#").unwrap_or(word);
     word.starts_with(|c: char| c.is_alphabetic() || c == '_')
@@ -366,7 +358,6 @@ fn is_identifier(word: &str) -> bool {
         && !matches!(word, "inf" | "NaN")
 }
 /// The bracket that closes `open`.
-
 fn closing(open: &str) -> &'static str {
     match open {
         "[" => "]",
