@@ -39,8 +39,8 @@ scene_enum! {
         List(Vec<InstanceFile>),
     }
 }
-/// 360 degrees.
 
+/// 360 degrees.
 const FULL_CIRCLE: Finite = Finite::constant(360.0);
 
 scene_struct! {

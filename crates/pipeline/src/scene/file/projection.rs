@@ -177,8 +177,8 @@ impl ProjectionFile {
         !matches!(self, Self::Perspective { .. } | Self::Orthographic { .. } | Self::Frustum { .. })
     }
 }
-/// 45 degrees, the direction of depth in most oblique drawings.
 
+/// 45 degrees, the direction of depth in most oblique drawings.
 const HALF_RIGHT_ANGLE: Finite = Finite::constant(45.0);
 
 /// A point of the picture.

@@ -38,8 +38,8 @@ pub(super) struct FormatGroup {
 pub(super) fn group_tokens(tokens: &[Token<'_>]) -> Vec<FormatItem> {
     ItemReader { tokens, at: 0 }.read_items()
 }
-/// Recursive-descent reader of items; comments are items too.
 
+/// Recursive-descent reader of items; comments are items too.
 struct ItemReader<'a> {
     tokens: &'a [Token<'a>],
     at: usize,
@@ -52,8 +52,8 @@ impl<'a> ItemReader<'a> {
         self.at += 1;
         Some(token)
     }
-    /// The next token.
 
+    /// The next token.
     fn peek(&self) -> Option<Token<'a>> {
         self.tokens.get(self.at).copied()
     }
@@ -95,7 +95,7 @@ impl<'a> ItemReader<'a> {
         let text = token.text.to_owned();
         match items.last_mut() {
             Some(last) if token.line_breaks_before == 0 && last.comment.is_none() => {
-                last.comment = Some(text)
+                last.comment = Some(text);
             }
             _ => {
                 let blank_before = token.line_breaks_before > 1;

@@ -43,8 +43,8 @@ impl<'a> Checker<'a> {
     pub(in crate::scene) fn new(source: &'a str) -> Self {
         Self { source, ..Self::default() }
     }
-    /// The mistakes, in the order in which they were found.
 
+    /// The mistakes, in the order in which they were found.
     pub(in crate::scene) fn finish(self) -> Checked {
         Checked { mistakes: self.mistakes, retained: self.retained }
     }
@@ -99,8 +99,8 @@ impl<'a> Checker<'a> {
         }
         text
     }
-    /// The path of the value, quoted, as a message begins; empty for the whole scene.
 
+    /// The path of the value, quoted, as a message begins; empty for the whole scene.
     fn path_prefix(&self) -> String {
         let path = self.path_text();
         if path.is_empty() { path } else { format!("`{path}`: ") }
@@ -142,7 +142,7 @@ impl<'a> Checker<'a> {
                 if let Some(name) = group.name.as_ref().filter(|name| name.name != entry.name) {
                     self.report_struct_name(name, entry)?;
                 }
-                self.read_fields(group, node.span.clone(), owner, fields)
+                self.read_fields(group, node.span.clone(), &owner, fields)
             }
             NodeKind::Invalid => None,
             NodeKind::Word(word) if suggest_variant(entry, word, None).is_known() => {
@@ -181,7 +181,7 @@ impl<'a> Checker<'a> {
         &mut self,
         group: &'n Group<'n>,
         span: Range<usize>,
-        owner: Owner,
+        owner: &Owner,
         declared: &'static [FieldEntry],
     ) -> Option<Fields<'n>> {
         let mut found: Vec<(&'static str, &'n Item<'n>)> = Vec::new();
@@ -200,7 +200,7 @@ impl<'a> Checker<'a> {
                 Some(key) => match declared.iter().find(|field| field.name == key.name) {
                     None => {
                         unknown += 1;
-                        meant.extend(self.report_unknown_field(key, &owner, declared));
+                        meant.extend(self.report_unknown_field(key, owner, declared));
                     }
                     Some(field) if found.iter().any(|(name, _)| *name == field.name) => {
                         let message = format!("the field `{}` is there twice", field.name);
@@ -227,8 +227,8 @@ impl<'a> Checker<'a> {
         }
         Some(Fields { items: found })
     }
-    /// Reports a value without a name among fields, such as the 5 of `fov_y_degrees: 3,5`.
 
+    /// Reports a value without a name among fields, such as the 5 of `fov_y_degrees: 3,5`.
     fn report_keyless_item(&mut self, item: &Item<'_>) {
         if item.value.kind == NodeKind::Invalid {
             return;
@@ -282,8 +282,8 @@ impl<'a> Checker<'a> {
         self.path.push(Segment::Variant(variant.name));
         Some(Variant { entry, variant, group, span: node.span.clone() })
     }
-    /// Ends the variant that [`open_variant`](Self::open_variant) began.
 
+    /// Ends the variant that [`open_variant`](Self::open_variant) began.
     pub(in crate::scene) fn close_variant(&mut self) {
         self.path.pop();
     }
@@ -430,7 +430,7 @@ impl<'n> Variant<'n> {
             shown: self.variant.name,
         };
         let group: &'n Group<'n> = self.group.unwrap_or(&EMPTY);
-        checker.read_fields(group, self.span.clone(), owner, self.variant.fields)
+        checker.read_fields(group, self.span.clone(), &owner, self.variant.fields)
     }
 
     /// The value in the brackets. The brackets of the variant are also those of a struct, list or
