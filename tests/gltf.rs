@@ -15,7 +15,8 @@ pub struct Document {
 }
 
 impl Document {
-    /// One indexed triangle: accessor 0 holds the positions, without bounds; accessor 1 the indices.
+    /// One indexed triangle: accessor 0 holds the positions, without bounds; accessor 1 the
+    /// indices.
     #[must_use]
     pub fn single_triangle() -> Self {
         let mut document = Self {
@@ -40,8 +41,8 @@ impl Document {
         document
     }
 
-    /// One of each core object: a skinned, textured triangle with normals, vertex colors and a morph target, a
-    /// camera, an animation, a sparse accessor.
+    /// One of each core object: a skinned, textured triangle with normals, vertex colors and a
+    /// morph target, a camera, an animation, a sparse accessor.
     #[must_use]
     pub fn with_all_members() -> Self {
         let mut document = Self::single_triangle();
@@ -99,8 +100,9 @@ impl Document {
         document
     }
 
-    /// All of [`Self::with_all_members`], the rare attributes and every extension: tangents, a second set of joints, morph targets of all
-    /// attributes, lights, variants, edge visibility, animation pointers, every KHR_materials extension.
+    /// All of [`Self::with_all_members`], the rare attributes and every extension: tangents, a
+    /// second set of joints, morph targets of all attributes, lights, variants, edge visibility,
+    /// animation pointers, every KHR_materials extension.
     #[must_use]
     pub fn with_extensions() -> Self {
         let mut document = Self::with_all_members();
@@ -171,7 +173,8 @@ impl Document {
         }
     }
 
-    /// Animates a factor of the material, of the light, of a texture, and a weight (KHR_animation_pointer).
+    /// Animates a factor of the material, of the light, of a texture, and a weight
+    /// (KHR_animation_pointer).
     fn animate_by_pointers(&mut self) {
         let one = json!({"componentType": 5126, "type": "SCALAR", "count": 2});
         let output = self.add_accessor(&float_bytes(&[0.0, 1.0]), one);

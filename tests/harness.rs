@@ -1,9 +1,10 @@
 //! Harness of the table-driven test programs: arguments, folders, a tally, the exit code.
 //!
-//! A table-driven program has a `main` of its own (`harness = false`), because its cases are files that are found at run
-//! time. All of them behave alike: arguments that are not flags select cases by a part of their name, as in
-//! `cargo test`; a failed case prints a line that begins with `FAILED`; what cannot be tested prints a line that
-//! begins with `SKIPPED`, which `cargo xtask test` repeats at its end; the last line counts.
+//! A table-driven program has a `main` of its own (`harness = false`), because its cases are files
+//! that are found at run time. All of them behave alike: arguments that are not flags select cases
+//! by a part of their name, as in `cargo test`; a failed case prints a line that begins with
+//! `FAILED`; what cannot be tested prints a line that begins with `SKIPPED`, which `cargo xtask
+//! test` repeats at its end; the last line counts.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -95,7 +96,8 @@ impl std::ops::AddAssign for Tally {
 
 /// Runs a test program, prints its counts, and turns them into the exit code.
 ///
-/// Filters that select nothing are no failure: `cargo test NAME` passes its filter to every test program.
+/// Filters that select nothing are no failure: `cargo test NAME` passes its filter to every test
+/// program.
 pub fn run_program(name: &str, run: impl FnOnce(&Arguments) -> Result<Tally, String>) -> ExitCode {
     let tally = run(&Arguments::from_env()).unwrap_or_else(|reason| {
         let mut tally = Tally::default();
@@ -159,7 +161,8 @@ impl Drop for TemporaryFolder {
     }
 }
 
-/// Applies `work` to the index and the value of every item on two threads; results are in the order of the items.
+/// Applies `work` to the index and the value of every item on two threads; results are in the order
+/// of the items.
 ///
 /// A panic in `work` ends the program: work that may panic catches it itself.
 pub fn map_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(usize, &T) -> R + Sync) -> Vec<R> {

@@ -1,5 +1,6 @@
-//! Shared by the tests across crates: the [harness] of the table-driven programs, a corpus of [samples] with its [manifest], small
-//! [glTF documents](gltf), the path of the program under test, and a PNG reader.
+//! Shared by the tests across crates: the [harness] of the table-driven programs, a corpus of
+//! [samples] with its [manifest], small [glTF documents](gltf), the path of the program under test,
+//! and a PNG reader.
 
 #![allow(clippy::print_stdout, reason = "the harness prints for test programs")]
 
@@ -19,7 +20,8 @@ pub fn project_root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
 }
 
-/// The program `alberti`: `$ALBERTI` if that is set, else a fresh build in the profile of the calling test.
+/// The program `alberti`: `$ALBERTI` if that is set, else a fresh build in the profile of the
+/// calling test.
 ///
 /// # Errors
 /// If `$ALBERTI` names no file, or if the program does not build.
@@ -28,11 +30,13 @@ pub fn program_path() -> Result<PathBuf, String> {
         let missing = || format!("ALBERTI names {}, which is not a file", path.display());
         return path.is_file().then(|| path.clone()).ok_or_else(missing);
     }
-    // A test is target/PROFILE/deps/NAME-HASH. Cargo knows whether the program in target/PROFILE is up to date.
+    // A test is target/PROFILE/deps/NAME-HASH. Cargo knows whether the program in target/PROFILE is
+    // up to date.
     let test = std::env::current_exe().map_err(|error| error.to_string())?;
     let folder = test.ancestors().nth(2).ok_or("the test is in no target folder")?;
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.args(["build", "--quiet", "--package", "alberti", "--bin", "alberti"]);
+    // As in `cargo xtask test`: with the features of the whole workspace nothing is compiled twice.
+    cargo.args(["build", "--quiet", "--workspace", "--bin", "alberti"]);
     if let Some(target) = folder.parent() {
         cargo.arg("--target-dir").arg(target);
     }

@@ -1,7 +1,7 @@
 //! Manifest of a corpus: a table of model files with the facts that tests compare against.
 //!
-//! `MANIFEST.tsv` has one row per file, columns separated by tabs and named in the first row. Only `path` is
-//! required; other columns than those of [`Row`] are ignored.
+//! `MANIFEST.tsv` has one row per file, columns separated by tabs and named in the first row. Only
+//! `path` is required; other columns than those of [`Row`] are ignored.
 
 use std::path::Path;
 
@@ -12,10 +12,11 @@ pub struct Row {
     pub path: String,
     /// Column `scene_triangles`: the triangles of the default scene, counted once per instance.
     pub scene_triangles: Option<usize>,
-    /// Column `validator_error_codes`: the codes of the errors that the Khronos glTF validator reports, separated by commas.
+    /// Column `validator_error_codes`: the codes of the errors that the Khronos glTF validator
+    /// reports, separated by commas.
     pub validator_errors: Vec<String>,
-    /// Column `expected`: what rendering must do with the file. `drawn`, `blank` (a picture of one color), or a part of the
-    /// reason for which it is refused.
+    /// Column `expected`: what rendering must do with the file. `drawn`, `blank` (a picture of one
+    /// color), or a part of the reason for which it is refused.
     pub expected: Option<String>,
 }
 

@@ -1,7 +1,9 @@
-//! A corpus of small glTF files that this code writes: ordinary, odd and broken ones, with the expected outcome of each.
+//! A corpus of small glTF files that this code writes: ordinary, odd and broken ones, with the
+//! expected outcome of each.
 //!
-//! The tests `corpus` and `check` run on it in every clone. `models` holds valid files, `bad` broken ones; the
-//! manifest lists the errors that the Khronos glTF validator reports for each, and what rendering does with it.
+//! The tests `corpus` and `check` run on it in every clone. `models` holds valid files, `bad`
+//! broken ones; the manifest lists the errors that the Khronos glTF validator reports for each, and
+//! what rendering does with it.
 
 mod broken;
 mod containers;
@@ -100,8 +102,8 @@ fn triangle() -> Document {
         .with_value("/accessors/0/max", json!([1, 1, 0]))
 }
 
-/// A valid quad of two triangles with normals and texture coordinates: accessors 0 to 3 are positions, normals, texture
-/// coordinates and indices.
+/// A valid quad of two triangles with normals and texture coordinates: accessors 0 to 3 are
+/// positions, normals, texture coordinates and indices.
 fn quad() -> Document {
     let mut document = triangle();
     document.bytes.clear();

@@ -1,9 +1,13 @@
-//! `check` against the Khronos glTF validator: every file of a corpus, the errors of both side by side.
+//! `check` against the Khronos glTF validator: every file of a corpus, the errors of both side by
+//! side.
 //!
-//! Two corpora are checked: the one that [`alberti_tests::samples`] generates, and, if it exists, the folder `$ASSETS` or
-//! `shared/assets` beside the repository. The column `validator_error_codes` of a manifest lists the codes of the validator's errors. Where it lists none,
-//! the check must find none; where it lists some, the check must find them and locate each by a JSON pointer. Differences that are intended stand in [`expected`].
-//! Broken files are also loaded leniently. Arguments that are not flags select files by a part of their path; `--all` prints every diagnostic.
+//! Two corpora are checked: the one that [`alberti_tests::samples`] generates, and, if it exists,
+//! the folder `$ASSETS` or `shared/assets` beside the repository. The column
+//! `validator_error_codes` of a manifest lists the codes of the validator's errors. Where it lists
+//! none, the check must find none; where it lists some, the check must find them and locate each by
+//! a JSON pointer. Differences that are intended stand in [`expected`]. Broken files are also
+//! loaded leniently. Arguments that are not flags select files by a part of their path; `--all`
+//! prints every diagnostic.
 
 #![allow(clippy::print_stdout, reason = "a test program prints its results")]
 #![allow(missing_docs, unreachable_pub, reason = "in a program `pub` means: used by another file")]

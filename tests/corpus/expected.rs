@@ -1,6 +1,8 @@
-//! Expected outcomes of the files in `shared/assets`: which models are refused, and which pictures are blank; all others are drawn.
+//! Expected outcomes of the files in `shared/assets`: which models are refused, and which pictures
+//! are blank; all others are drawn.
 //!
-//! The test fails if a model is refused that is not listed here, and if a listed one is drawn: then its row is removed.
+//! The test fails if a model is refused that is not listed here, and if a listed one is drawn: then
+//! its row is removed.
 
 use crate::verdict::Verdict;
 use alberti_tests::manifest::Row;
@@ -27,7 +29,8 @@ const BLANK: &[(&str, &str)] = &[
     ("skin-shared.gltf", "its meshes have one vertex each"),
 ];
 
-/// Models with EXT_mesh_gpu_instancing and their numbers of triangles: the manifest counts each node once.
+/// Models with EXT_mesh_gpu_instancing and their numbers of triangles: the manifest counts each
+/// node once.
 const INSTANCED: &[(&str, usize)] =
     &[("blender-gpu-instancing", 4_032 * (958 + 941) + 2), ("simple-instancing", 12 * 125)];
 

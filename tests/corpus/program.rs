@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Time limit per file. The largest file has eight million triangles and takes three seconds in a build without
-/// optimization; the machine may be busy with other work.
+/// Time limit per file. The largest file has eight million triangles and takes three seconds in a
+/// build without optimization; the machine may be busy with other work.
 const TIME_LIMIT: Duration = Duration::from_secs(30);
 
 /// The program `alberti`.

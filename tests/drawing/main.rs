@@ -1,8 +1,9 @@
 //! Line drawings against z-buffer images: at most 0.2 percent of the visible length may disagree.
 //!
-//! The models are those of the scenes and, if it exists, the listed ones of `$ASSETS` or of `shared/assets` beside the repository. Each
-//! is drawn from six directions in perspective, in isometric and in cavalier projection. Arguments that are not flags select
-//! models by a part of their path; a path below the folder's `models` names one that is not listed.
+//! The models are those of the scenes and, if it exists, the listed ones of `$ASSETS` or of
+//! `shared/assets` beside the repository. Each is drawn from six directions in perspective, in
+//! isometric and in cavalier projection. Arguments that are not flags select models by a part of
+//! their path; a path below the folder's `models` names one that is not listed.
 
 #![allow(clippy::print_stdout, reason = "a test program prints its results")]
 #![allow(unreachable_pub, reason = "in a program `pub` means: used by another file")]
@@ -164,7 +165,8 @@ fn measure_agreement(
         Ok::<_, String>((agreement, drawing))
     };
     let (removed, drawing) = agreement(&DrawOptions::hidden_edges_removed())?;
-    // The comparison itself must be able to fail: it does if hidden edges are drawn as visible ones.
+    // The comparison itself must be able to fail: it does if hidden edges are drawn as visible
+    // ones.
     if kind == ViewKind::Perspective && direction == 0 {
         let (all, _) = agreement(&DrawOptions {
             hidden_edges: HiddenEdges::Ignored,

@@ -1,8 +1,11 @@
-//! Golden images: the real program renders every scene of `scenes/` to exactly the pixels of `tests/goldens/NAME.png`.
+//! Golden images: the real program renders every scene of `scenes/` to exactly the pixels of
+//! `tests/goldens/NAME.png`.
 //!
-//! Pixels are compared, not bytes, so that a new release of the PNG encoder changes nothing. Where they differ, the new picture and
-//! a map of the differences are left as `NAME.actual.png` and `NAME.diff.png` in the folder of the goldens. `cargo xtask golden --bless NAME` makes a
-//! picture golden after someone has looked at it. Arguments that are not flags select scenes by a part of their name.
+//! Pixels are compared, not bytes, so that a new release of the PNG encoder changes nothing. Where
+//! they differ, the new picture and a map of the differences are left as `NAME.actual.png` and
+//! `NAME.diff.png` in the folder of the goldens. `cargo xtask golden --bless NAME` makes a picture
+//! golden after someone has looked at it. Arguments that are not flags select scenes by a part of
+//! their name.
 
 #![allow(clippy::print_stdout, reason = "a test program prints its results")]
 #![allow(unreachable_pub, reason = "in a program `pub` means: used by another file")]
@@ -66,7 +69,7 @@ fn compare_scene(program: &Path, name: &str) -> Result<(), String> {
     }
 }
 
-/// What an earlier run left; nothing is there to be removed most of the time.
+/// Removes a file that an earlier run may have left.
 fn remove_file(path: &Path) {
     let _ = fs::remove_file(path);
 }

@@ -15,7 +15,8 @@ pub struct Picture {
 pub enum Difference {
     /// Their sizes differ.
     Size(String),
-    /// Number, bounds and size of the differences, and a map of them: the golden faded, differing pixels red.
+    /// Number, bounds and size of the differences, and a map of them: the golden faded, differing
+    /// pixels red.
     Pixels { message: String, map: Picture },
 }
 

@@ -1,4 +1,4 @@
-//! A hostile file, and what is to come of it.
+//! Cases: a hostile file and its expected outcome.
 
 use crate::promises;
 use alberti_tests::gltf::Document;
@@ -14,7 +14,7 @@ pub struct Case {
     pub expected: Expected,
 }
 
-/// What must come of a file, besides that loading returns and keeps its promises.
+/// Expected outcome of a file, besides that loading returns and keeps its promises.
 pub enum Expected {
     /// Either a model or an error.
     Anything,
@@ -68,7 +68,8 @@ impl Case {
         Err(format!("{} problems of {all} are listed", report.diagnostics.len()))
     }
 
-    /// Loads the file leniently: what loads otherwise loads so too, and what is left keeps every promise.
+    /// Loads the file leniently: what loads otherwise loads so too, and what is left keeps every
+    /// promise.
     pub fn load_leniently(&self) -> Result<(), String> {
         let options = ImportOptions { lenient: true, ..self.options.clone() };
         let loads = load_bytes("model.gltf", &self.file, &self.options).is_ok();

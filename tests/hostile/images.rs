@@ -90,6 +90,7 @@ fn webp_cases() -> [Case; 2] {
     ]
 }
 
+/// All cases about images.
 pub fn image_cases() -> Vec<Case> {
     let mut cases = vec![
         textured_case(
@@ -134,9 +135,16 @@ pub fn image_cases() -> Vec<Case> {
     ];
     cases.extend(jpeg_cases());
     cases.extend(webp_cases());
+    cases.extend(mutated_cases());
+    cases
+}
+
+/// Every bit depth and color type, and files cut off or changed at every byte.
+fn mutated_cases() -> Vec<Case> {
+    let mut cases = Vec::new();
     for depth in [0, 1, 2, 3, 4, 8, 16, 32] {
         for color in 0..8 {
-            let name = format!("PNG of {depth} bits, colour type {color}");
+            let name = format!("PNG of {depth} bits, color type {color}");
             cases.push(textured_case(
                 &name,
                 &png_with_false_size(2, 2, depth, color),

@@ -1,8 +1,9 @@
 //! Hostile glTF files, built here and loaded in this process.
 //!
-//! Whatever a file contains, loading and checking it return without a panic, in bounded time and memory; and a model that is returned,
-//! from strict or lenient import, keeps every promise of its documentation. The expected outcome is stated wherever the message
-//! matters. Arguments that are not flags select cases by a part of their name; `--write DIR` writes all files and loads none.
+//! Whatever a file contains, loading and checking it return without a panic, in bounded time and
+//! memory; and a model that is returned, from strict or lenient import, keeps every promise of its
+//! documentation. The expected outcome is stated wherever the message matters. Arguments that are
+//! not flags select cases by a part of their name; `--write DIR` writes all files and loads none.
 
 #![allow(clippy::print_stdout, reason = "a test program prints its results")]
 #![allow(missing_docs, unreachable_pub, reason = "in a program `pub` means: used by another file")]
@@ -118,7 +119,8 @@ fn case_groups() -> [(&'static str, Cases); 10] {
 }
 
 impl Extremes {
-    /// Runs a case, notes its time and the memory of the process, and turns a panic or a timeout into an error.
+    /// Runs a case, notes its time and the memory of the process, and turns a panic or a timeout
+    /// into an error.
     fn measure(&mut self, name: &str, run: &dyn Fn() -> Result<(), String>) -> Result<(), String> {
         let start = Instant::now();
         let result =

@@ -4,7 +4,8 @@ use crate::case::{Case, Expected};
 use alberti_tests::gltf::Document;
 use serde_json::json;
 
-/// The triangle with its positions and indices compressed: every byte in full, and every index written out.
+/// The triangle with its positions and indices compressed: every byte in full, and every index
+/// written out.
 fn compressed_document() -> Document {
     let mut document = Document::single_triangle();
     let plain = document.bytes.clone();

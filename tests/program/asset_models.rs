@@ -7,7 +7,7 @@ use serde_json::Value;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-/// The file of a model; `None`, told on the error stream, if there are no assets.
+/// The path of a model; `None`, with a note on the standard error stream, if there are no assets.
 pub(crate) fn asset_path(name: &str) -> Option<PathBuf> {
     let chosen = std::env::var_os("ASSETS").map(PathBuf::from);
     let beside = alberti_tests::project_root().join("../shared/assets");

@@ -23,7 +23,7 @@ fn batch_sandbox(name: &str) -> Sandbox {
 
 const SMALL: [&str; 6] = ["batch", "models", "--out-dir", "out", "--size", "32x24"];
 
-/// What the report says: the status of each picture.
+/// The status of each picture in a report.
 fn read_report(sandbox: &Sandbox, name: &str) -> BTreeMap<String, String> {
     let text = std::fs::read_to_string(sandbox.path_of(name)).expect("a report");
     let record = |line: &str| {

@@ -66,7 +66,7 @@ impl GltfBuilder {
         )
     }
 
-    /// Adds to the list at a pointer; gives the place.
+    /// Appends to the array at a JSON pointer; returns the index.
     pub(crate) fn push_item(&mut self, pointer: &str, value: Value) -> usize {
         let list = self.json.pointer_mut(pointer).and_then(Value::as_array_mut).expect("a list");
         list.push(value);

@@ -28,7 +28,7 @@ fn a_file_that_is_no_model_is_refused() {
     }
 }
 
-/// What `info --json` says of a document.
+/// The output of `info --json` for a document.
 fn info_json(sandbox: &Sandbox, document: &mut GltfBuilder) -> Value {
     document.write_file(sandbox, "model");
     let run = sandbox.run(&["info", "--json", "model.gltf"]);

@@ -47,7 +47,7 @@ fn json_names_steps_and_items() {
 fn what_is_no_matrix_is_refused_with_the_reason() {
     let sandbox = Sandbox::new("matrix_refused");
     for (numbers, reason) in [
-        ("1 2 3", "a matrix has 16 numbers, and here are 3"),
+        ("1 2 3", "expected 16 numbers, found 3"),
         ("one", "`one` is not a number"),
         (
             "1/0 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1",

@@ -5,9 +5,9 @@
 //!
 //! ```text
 //! === what is wrong, in words
-//! --- scene.ron                     files, as many as it takes; the models of `scenes/` are there already
+//! --- scene.ron                     files; the models of `scenes/models` are there already
 //! Scene(modles: [])
-//! $ alberti render scene.ron        the call, then what it writes to its standard error, and its code
+//! $ alberti render scene.ron        the call, its standard error stream, and its exit code
 //! error: …
 //! [1]
 //! ```
@@ -50,7 +50,7 @@ fn parse_case(text: &str) -> Case {
 }
 
 impl Case {
-    /// What the program tells now.
+    /// Runs the call; returns its message and exit code.
     fn run_case(&self, sandbox: &Sandbox) -> String {
         for (name, content) in &self.files {
             let folder = sandbox.path_of(name).parent().map(PathBuf::from).expect("a folder");

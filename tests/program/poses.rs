@@ -5,7 +5,7 @@ use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
 use serde_json::{Value, json};
 
-/// What `info --json` says of a file.
+/// The output of `info --json` for a file.
 fn info_json(sandbox: &Sandbox, arguments: &[&str]) -> Value {
     let run = sandbox.run(&[&["info", "--json"][..], arguments].concat());
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{arguments:?}");

@@ -192,7 +192,7 @@ fn comparisons_print_figures_and_decide_the_exit_code() {
     assert!(sandbox.path_of("other.png").exists(), "the picture is there to be looked at");
     let run = sandbox.run(&["render", "crate.glb", "--size", "10x10", "--compare", "expected.png"]);
     assert_eq!(run.code, 1);
-    assert!(run.stderr.contains("it has 120 x 90 pixels, and the picture has 10 x 10"));
+    assert!(run.stderr.contains("its size is 120 x 90, but the picture is 10 x 10"));
 }
 
 #[test]

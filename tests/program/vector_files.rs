@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-/// A place on the page in millimetres.
+/// A point on the page in millimetres.
 pub(crate) type PagePoint = [f64; 2];
 
 /// Lines as their points, by the id of their layer.
@@ -164,7 +164,7 @@ pub(crate) fn layer_bounds(layers: &Layers, wanted: impl Fn(&str) -> bool) -> [P
     point_bounds(chosen.flat_map(|(_, lines)| lines).flatten())
 }
 
-/// The least and the greatest coordinates of places.
+/// The minimum and maximum coordinates of points.
 pub(crate) fn point_bounds<'a>(places: impl Iterator<Item = &'a PagePoint>) -> [PagePoint; 2] {
     places.fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], place| {
         let axis = |f: fn(f64, f64) -> f64, from: PagePoint| [0, 1].map(|k| f(from[k], place[k]));

@@ -1,4 +1,5 @@
-//! The forms of a file: JSON with data URIs, with files in the same folder, and the binary container, whole and broken.
+//! The forms of a file: JSON with data URIs, with files in the same folder, and the binary
+//! container, whole and broken.
 
 use super::{Sample, textured_quad, triangle};
 use crate::gltf::{Document, encode_png};

@@ -225,7 +225,8 @@ fn skinned() -> Document {
     document.with_value("/scenes/0/nodes", json!([0, 1]))
 }
 
-/// Extensions that are supported: each KHR_materials extension on a quad, lights, variants, instances.
+/// Extensions that are supported: each KHR_materials extension on a quad, lights, variants,
+/// instances.
 fn extensions() -> Vec<Sample> {
     let materials = [
         ("unlit", json!({})),

@@ -53,7 +53,7 @@ struct ViewChain {
     kind: ProjectionKind,
 }
 
-/// What the rest of the chain must know of the projection.
+/// Properties of the projection that the rest of the chain needs.
 struct ProjectionKind {
     volume: Volume,
     near_far: [f64; 2],

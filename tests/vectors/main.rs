@@ -1,10 +1,12 @@
 //! Exact vectors: one JSON file per topic, computed elsewhere with rational or 50-digit arithmetic.
 //!
-//! The files and their format are in `tests/vectors/data`; `$VECTORS` names another folder. A file without a runner is a
-//! failure, so that none is left out in silence. Arguments that are not flags select files by a part of their name.
+//! The files and their format are in `tests/vectors/data`; `$VECTORS` names another folder. A file
+//! without a runner is a failure, so that none is left out in silence. Arguments that are not flags
+//! select files by a part of their name.
 //!
-//! A runner tests one case: `fn(in, out) -> Result<(), String>`, where the error says what differs. Cases whose
-//! exact answer rests on a tie are marked `"fragile": true`: they run, because they must not panic, but are not compared.
+//! A runner tests one case: `fn(in, out) -> Result<(), String>`, where the error says what differs.
+//! Cases whose exact answer rests on a tie are marked `"fragile": true`: they run, because they
+//! must not panic, but are not compared.
 
 #![allow(clippy::print_stdout, reason = "a test program prints its results")]
 #![allow(unreachable_pub, reason = "in a program `pub` means: used by another file")]

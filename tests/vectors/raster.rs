@@ -1,7 +1,7 @@
 //! Coverage and interpolated values (RA-1, RA-2, IN-2).
 //!
-//! Coverage must agree sample by sample. Depth and weights are kept in f32 on purpose, so they are judged with
-//! the precision that f32 has.
+//! Coverage must agree sample by sample. Depth and weights are kept in f32 on purpose, so they are
+//! judged with the precision that f32 has.
 
 use crate::numbers::{assert_close, parse_number};
 use homog::{PixelConvention, Point, Screen};
@@ -106,7 +106,7 @@ fn check_attributes(input: &Value, out: &Value) -> Result<(), String> {
     Ok(())
 }
 
-/// What is kept of a fragment.
+/// A fragment as the test surface records it.
 struct CoveredFragment {
     x: u32,
     y: u32,
@@ -158,7 +158,8 @@ impl TestImage {
         ScreenVertex::snap(place, w).ok_or_else(|| format!("({x}, {y}) cannot be drawn"))
     }
 
-    /// The pixel's name in the convention of the file: its column and its row, from the top or from the bottom.
+    /// The pixel's name in the convention of the file: its column and its row, from the top or from
+    /// the bottom.
     fn pixel_at(&self, at: usize) -> [i64; 2] {
         let (width, height) = (i64::from(self.width), i64::from(self.height));
         let (x, y) = (at as i64 % width, at as i64 / width);

@@ -132,7 +132,8 @@ fn check_window_to_viewport(case: &Value, out: &Value) -> Result<(), String> {
     })
 }
 
-/// The viewport on a whole image of `nx` by `ny` pixels; depth is kept unless the case says otherwise.
+/// The viewport on a whole image of `nx` by `ny` pixels; depth is kept unless the case says
+/// otherwise.
 pub fn full_image_viewport(case: &Value) -> Result<Result<Viewport, ViewportError>, String> {
     let y = match text_field(case, "y")? {
         "up" => YAxis::Up,

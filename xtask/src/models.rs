@@ -10,6 +10,7 @@ fn models_folder() -> PathBuf {
     project_root().join("scenes/models")
 }
 
+/// Writes the models, or compares them with `--check`.
 pub fn run_models(arguments: &[String]) -> Outcome {
     match arguments {
         [] => write_models(),

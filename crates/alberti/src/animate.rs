@@ -4,13 +4,14 @@ mod frame_sink;
 
 use super::CliError;
 use super::load_options::LoadArgs;
+use super::messages::print_warnings;
 use super::progress::ProgressCounter;
-use super::render::{open_input, print_warnings, thread_count};
+use super::render::thread_count;
 use super::scene_overrides::SceneOverrideArgs;
 use frame_sink::FrameSink;
 use model::ModelInstance;
 use pipeline::scene::file::{Choice, Finite, SceneFile};
-use pipeline::scene::{CameraPath, ResolveOptions, select_animation};
+use pipeline::scene::{CameraPath, select_animation};
 use pipeline::sequence::{Motion, Sequence, SequenceError};
 use pipeline::{Origin, ResolveError, Scene};
 use std::path::PathBuf;
@@ -58,14 +59,7 @@ pub(crate) struct AnimateArgs {
 
 /// Renders the frames and writes each as soon as it is there.
 pub(crate) fn run(args: &AnimateArgs) -> Result<(), CliError> {
-    let (origin, mut file) =
-        open_input(&args.input, &args.overrides.import_options(&args.load_options))?;
-    args.overrides.apply_to(&mut file);
-    let scene = Scene::resolve(
-        &origin,
-        &file,
-        &ResolveOptions { import: args.overrides.import_options(&args.load_options) },
-    )?;
+    let (origin, file, scene) = args.overrides.open_scene(&args.input, &args.load_options)?;
     print_warnings(&scene, &[]);
     let film = args.build_sequence(&origin, &file, scene)?;
     let mut sink = FrameSink::open(&args.input, &args.output, &film, args.fps)?;

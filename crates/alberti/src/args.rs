@@ -29,7 +29,7 @@ use std::path::PathBuf;
 
 /// Render, draw, validate and explain glTF models without a GPU, a display or a browser
 ///
-/// The same input gives the same bytes on every machine and for any number of threads.
+/// Output is deterministic: the bytes depend neither on the machine nor on the number of threads.
 #[derive(Debug, Parser)]
 #[command(name = "alberti", version, max_term_width = 100, after_help = HELP_EXAMPLES)]
 pub(crate) struct Args {
@@ -187,82 +187,85 @@ pub(crate) struct InfoArgs {
     pub(crate) load_options: LoadArgs,
 }
 
+/// The values of `--style`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum StyleArg {
-    /// Lit, with the smooth normals of the file
+    /// Physically based shading with the normals of the file
     Shaded,
-    /// Lit, each triangle with one normal
+    /// Physically based shading with one normal per triangle
     Flat,
-    /// Lit at the corners of triangles and blended over them
+    /// Gouraud shading: lit at the vertices, interpolated between them
     Gouraud,
-    /// Matt clay in the light of the scene
+    /// Matte clay in the light of the scene
     Clay,
-    /// A ball of glazed clay that faces the viewer alike
+    /// Material capture: shading by the normal in view space alone
     Matcap,
-    /// Normals in the world as colours: (n + 1) / 2
+    /// World-space normals as colors: (n + 1) / 2
     Normals,
-    /// The nearer, the brighter
+    /// Depth: near is bright
     Depth,
-    /// A checkerboard by texture coordinates
+    /// Checkerboard of texture coordinates
     Uv,
-    /// A colour for each part
+    /// A distinct color for each part
     Ids,
-    /// The colours of materials in three steps of light, with outlines
+    /// Cel shading: material colors in three steps of light, with outlines
     Toon,
-    /// As if of glass: denser along the line of sight
+    /// Transparent surfaces, denser at grazing angles
     XRay,
-    /// The edges of all triangles
+    /// Edges of all triangles
     Wireframe,
-    /// The edges of all triangles, paler the farther away they are
+    /// Edges of all triangles, fading with distance
     DepthCued,
-    /// A line drawing with hidden lines removed
+    /// Line drawing with hidden lines removed
     Lines,
-    /// A line drawing with hidden lines dashed
+    /// Line drawing with hidden lines dashed
     Dashed,
-    /// The outline alone
+    /// Silhouette lines only
     Silhouette,
     /// Visible, hidden and tangent edges with the line types and widths of ISO 128
     Technical,
 }
 
+/// The values of `--overlay`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum OverlayArg {
-    /// The axes of the world
+    /// Axes of world space
     Axes,
-    /// A grid on the ground
+    /// Grid on the ground
     Grid,
-    /// Where horizontal directions vanish
+    /// Horizon line
     Horizon,
-    /// Where the axes vanish
+    /// Vanishing points of the axes
     VanishingPoints,
-    /// The edges of the surfaces, where they can be seen
+    /// Visible edges of the surfaces
     Edges,
 }
 
+/// The values of `--projection`, each with default parameters.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum ProjectionArg {
-    /// What is farther away is smaller
+    /// Perspective: distant objects are smaller
     Perspective,
-    /// Parallel, at right angles to the picture
+    /// Parallel, perpendicular to the picture
     Orthographic,
-    /// The front in true shape, or what --view names
+    /// Principal view, from the front or the direction of --view
     Multiview,
-    /// All three axes shortened alike
+    /// All three axes foreshortened equally
     Isometric,
-    /// x and y in full, z by half
+    /// Two axes at full length, the third at half
     Dimetric,
-    /// Each axis shortened by a factor of its own
+    /// Each axis foreshortened by a factor of its own
     Trimetric,
-    /// The front in true shape, depth in full at 45°
+    /// Oblique: the front in true shape, depth at full length at 45°
     Cavalier,
-    /// The front in true shape, depth by half at 45°
+    /// Oblique: the front in true shape, depth at half length at 45°
     Cabinet,
-    /// The ground plan in true shape, heights straight up
+    /// Oblique: the ground plan in true shape, heights vertical
     Military,
-    /// Lines in depth meet in one point
+    /// Perspective with one vanishing point, of the depth axis
     OnePoint,
-    /// Uprights stay upright, the other lines meet in two points
+    /// Perspective with two vanishing points; verticals stay vertical
     TwoPoint,
-    /// Uprights meet too
+    /// Perspective with three vanishing points
     ThreePoint,
 }

@@ -1,7 +1,7 @@
 //! `alberti batch`: renders many models and scenes, each to a picture of its own.
 //!
 //! ```text
-//!  folders, lists, files ─► jobs ─► jobs of this shard ─► jobs not done yet ─► pictures, report, contact sheet
+//!  folders, lists, files ─► jobs ─► this shard ─► not done yet ─► pictures, report, contact sheet
 //! ```
 //! A job is done if a report has it with the same content and settings and its picture exists. A
 //! run that was stopped or killed therefore resumes where it was. A broken model is one line of the

@@ -2,7 +2,7 @@
 
 use super::CliError;
 use super::load_options::LoadArgs;
-use super::render::{open_input, thread_count};
+use super::render::thread_count;
 use super::scene_overrides::SceneOverrideArgs;
 use homog::{Point, World};
 use model::Model;
@@ -11,7 +11,6 @@ use pipeline::explain::{
     ApiConventions, Explanation, TransformChain, VertexRef, explain_node, explain_pixel,
     explain_point, explain_segment, explain_transforms, explain_triangle, explain_vertex,
 };
-use pipeline::scene::ResolveOptions;
 use pipeline::{Picture, Scene};
 use std::io::Write as _;
 use std::path::PathBuf;
@@ -93,14 +92,7 @@ struct ExplainSubjectArgs {
 
 /// Prints or writes the explanation of a subject.
 pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
-    let (origin, mut file) =
-        open_input(&args.input, &args.overrides.import_options(&args.load_options))?;
-    args.overrides.apply_to(&mut file);
-    let scene = Scene::resolve(
-        &origin,
-        &file,
-        &ResolveOptions { import: args.overrides.import_options(&args.load_options) },
-    )?;
+    let (_, _, scene) = args.overrides.open_scene(&args.input, &args.load_options)?;
     let size = (scene.image.width, scene.image.height);
     let chain = TransformChain::new(&scene.view_projection, size, args.conventions)
         .map_err(pipeline::RenderError::from)?;

@@ -73,7 +73,7 @@ fn describe_model(model: &Model) -> String {
     // Warnings about extensions are in the line of the extensions already.
     let is_about_file = |warning: &&Diagnostic| !warning.location.starts_with("/extensions");
     for warning in model.warnings.iter().filter(is_about_file) {
-        line("warning", format!("{}: {}", warning.location, warning.message));
+        line("warning", warning.sentence());
     }
     text
 }

@@ -1,5 +1,6 @@
 //! Flags about light: environment, exposure, tone mapping, shadows, ground, ambient occlusion.
 
+use super::options::option_parser;
 use clap::ValueEnum;
 use pipeline::scene::file::{
     AmbientOcclusionFile, EnvironmentFile, Finite, GroundFile, LightFile, SceneFile, ShadowsFile,
@@ -21,8 +22,8 @@ pub(crate) struct LightArgs {
     #[arg(long, value_name = "EV", allow_hyphen_values = true, value_parser = parse_exposure)]
     exposure: Option<Finite>,
     /// Tone mapping: the curve that compresses bright light into the range of a picture
-    #[arg(long, value_name = "CURVE")]
-    tone_mapping: Option<ToneArg>,
+    #[arg(long, value_name = "CURVE", value_parser = option_parser::<ToneMapping>())]
+    tone_mapping: Option<ToneMapping>,
     /// Enable or disable the shadows of all directional and spot lights
     #[arg(long, value_name = "on|off")]
     shadows: Option<SwitchArg>,
@@ -41,19 +42,6 @@ enum EnvironmentArg {
     Sky,
     None,
     File(PathBuf),
-}
-
-/// The value of `--tone-mapping`.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum ToneArg {
-    /// Clamp light above 1
-    None,
-    /// Khronos PBR Neutral: keeps base colors, compresses highlights
-    Neutral,
-    /// ACES filmic curve
-    Aces,
-    /// AgX
-    Agx,
 }
 
 /// The value of `--shadows`.
@@ -81,13 +69,8 @@ impl LightArgs {
         if let Some(exposure) = self.exposure {
             file.image.exposure_ev = Some(exposure);
         }
-        if let Some(tone) = self.tone_mapping {
-            file.image.tone_mapping = match tone {
-                ToneArg::None => ToneMapping::None,
-                ToneArg::Neutral => ToneMapping::Neutral,
-                ToneArg::Aces => ToneMapping::Aces,
-                ToneArg::Agx => ToneMapping::AgX,
-            };
+        if let Some(curve) = self.tone_mapping {
+            file.image.tone_mapping = curve;
         }
         match self.ground {
             Some(GroundArg::Shadow) => file.ground = Some(GroundFile::DEFAULT),

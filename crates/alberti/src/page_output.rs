@@ -2,14 +2,16 @@
 
 use super::CliError;
 use super::format::OutputFormat;
+use super::messages::print_warnings;
 use super::progress::Progress;
-use super::render::print_warnings;
 use super::sheet;
 use drawing::{Page, Panels};
 use pipeline::Scene;
 use std::path::Path;
 
 /// Writes the panels of a scene, then prints the warnings of its models and panels.
+///
+/// The progress line is removed before the first warning.
 pub(super) fn finish_panels(
     output: &Path,
     panels: &Panels,

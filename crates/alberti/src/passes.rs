@@ -1,8 +1,7 @@
 //! Render passes: their flags, and the files they are written to.
 
 use super::CliError;
-use clap::ValueEnum;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use super::options::option_parser;
 use pipeline::render::passes::{Pass, PassBuffer, PassEncoding};
 use pipeline::scene::file::SceneFile;
 use pipeline::{AtomicFile, OutputError};
@@ -20,20 +19,16 @@ pub(crate) struct PassArgs {
     /// position (world space); uv; barycentric coordinates; id of the triangle; index of model,
     /// node, mesh and material (from 1; 0 is the background). overdraw counts the fragments of the
     /// pixel, and coverage is the fraction of its samples that are covered.
-    #[arg(long, value_name = "PASS,…", value_delimiter = ',', value_parser = pass_parser())]
+    #[arg(long, value_name = "PASS,…", value_delimiter = ',', value_parser = option_parser::<Pass>())]
     passes: Vec<Pass>,
     /// File format of the passes
-    #[arg(long, value_name = "FORMAT", requires = "passes")]
-    pass_format: Option<EncodingArg>,
-}
-
-/// The value of `--pass-format`.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum EncodingArg {
-    /// 16-bit PNG; its text chunk Description has the scale of the values
-    Png,
-    /// NumPy array of f32, or of u32 for ids; the background is at infinity
-    Npy,
+    #[arg(
+        long,
+        value_name = "FORMAT",
+        value_parser = option_parser::<PassEncoding>(),
+        requires = "passes"
+    )]
+    pass_format: Option<PassEncoding>,
 }
 
 impl PassArgs {
@@ -43,10 +38,7 @@ impl PassArgs {
             file.passes.write.clone_from(&self.passes);
         }
         if let Some(encoding) = self.pass_format {
-            file.passes.encoding = match encoding {
-                EncodingArg::Png => PassEncoding::Png,
-                EncodingArg::Npy => PassEncoding::Npy,
-            };
+            file.passes.encoding = encoding;
         }
     }
 }
@@ -72,12 +64,4 @@ pub(super) fn sibling_path(output: &Path, what: &str, ending: &str) -> PathBuf {
     let mut name = output.file_stem().unwrap_or_default().to_owned();
     name.push(format!(".{what}.{ending}"));
     output.with_file_name(name)
-}
-
-/// Parses a pass by the name that the `pipeline` crate has for it.
-fn pass_parser() -> impl TypedValueParser<Value = Pass> {
-    PossibleValuesParser::new(Pass::ALL.map(Pass::name)).try_map(|name| {
-        let found = Pass::ALL.into_iter().find(|pass| pass.name() == name);
-        found.ok_or_else(|| format!("there is no pass `{name}`"))
-    })
 }

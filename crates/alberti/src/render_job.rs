@@ -3,19 +3,21 @@
 //! A raster image is rendered and encoded band by band, so that its size is not bounded by memory.
 //! Every file is written under a temporary name and renamed once all are complete.
 
+use super::CliError;
 use super::args::RenderArgs;
 use super::compare::PictureComparison;
 use super::format::OutputFormat;
+use super::messages::{print_note, print_stdout};
 use super::passes::create_pass_files;
 use super::progress::Progress;
 use super::render::tasks::RenderTask;
-use super::{CliError, print_stdout};
 use drawing::Warning;
 use homog::PixelRect;
 use pipeline::render::{render_passes, rows_per_band};
 use pipeline::scene::Outputs;
 use pipeline::{
-    AtomicFile, BandedRenderer, Channel, OutputError, Picture, Scene, Timings, draw_lines,
+    AtomicFile, Channel, OutputError, Picture, RenderContext, Renderer, Scene, Textures, Timings,
+    draw_lines,
 };
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -56,8 +58,7 @@ impl RenderOutput {
     pub(super) fn matches_reference(&self, silent: bool) -> bool {
         let Some(comparison) = &self.comparison else { return true };
         if !silent {
-            // A closed stream is not an error.
-            let _ = writeln!(std::io::stderr(), "{comparison}");
+            print_note(&comparison.to_string());
         }
         comparison.agrees()
     }
@@ -176,11 +177,14 @@ impl RenderJob<'_> {
 
     /// Renders and encodes the region as a PNG of `C` bits per channel, band by band.
     fn encode_picture<C: Channel>(&self, region: PixelRect) -> Result<EncodedPicture, CliError> {
-        let mut paint = BandedRenderer::new(self.scene, self.threads, self.timings)?;
+        let textures = self.timings.measure("mip chains", || Textures::for_scene(self.scene));
+        let context = RenderContext::new(self.scene, &textures, self.threads);
+        let mut renderer = Renderer::default();
+        let mut prepared = renderer.prepare(&context.with_timings(self.timings))?;
         let mut sink = self.open_sink()?;
         let mut picture = self.needs_picture().then(Picture::default);
         let rows = rows_per_band(region.width);
-        let written = paint.write_png(&mut sink, region, rows, |band: &Picture<C>| {
+        let written = prepared.write_png(&mut sink, region, rows, |band: &Picture<C>| {
             if let Some(retained) = &mut picture {
                 let bytes = |pixel: &[C; 4]| pixel.map(C::to_byte);
                 retained.pixels.extend(band.pixels.iter().map(bytes));
@@ -191,7 +195,7 @@ impl RenderJob<'_> {
             pipeline::WritePngError::Render(error) => CliError::Render(error),
             pipeline::WritePngError::Output(cause) => self.output_error(cause),
         })?;
-        Ok(EncodedPicture { sink, picture, warnings: paint.into_warnings() })
+        Ok(EncodedPicture { sink, picture, warnings: prepared.into_warnings() })
     }
 
     /// Draws the scene as lines and encodes it as SVG or PDF.

@@ -3,19 +3,24 @@
 //! They are applied to the parsed scene file before it is resolved, so that a flag and a field have
 //! the same meaning and the same errors. A bare model is a scene in which every field is default.
 
+use super::CliError;
 use super::args::{OverlayArg, ProjectionArg, StyleArg};
 use super::light::LightArgs;
 use super::load_options::LoadArgs;
 use super::model_state::ModelStateArgs;
+use super::render::open_input;
 use super::section::SectionArgs;
 use camera::NamedView;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use model::import::ImportOptions;
+use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::{
     BackgroundFile, CameraChoice, CameraFile, Color, DEFAULT_PADDING, OverlayFile, ProjectionFile,
     SceneFile, StyleFile, ViewFile,
 };
+use pipeline::{Origin, Scene};
 use projection::PrincipalView;
+use std::path::Path;
 
 /// Flags that replace fields of the scene.
 #[derive(Clone, Debug, clap::Args)]
@@ -95,6 +100,24 @@ impl SceneOverrideArgs {
         let mut options = load.import_options();
         options.allow_outside.extend(self.light.environment_file());
         options
+    }
+
+    /// Opens a scene or a model, applies the flags to it, and resolves it.
+    ///
+    /// The scene file is returned too, for commands that resolve it again or look things up in it.
+    ///
+    /// # Errors
+    /// If the input or a file it refers to cannot be read or is invalid.
+    pub(crate) fn open_scene(
+        &self,
+        input: &Path,
+        load_options: &LoadArgs,
+    ) -> Result<(Origin, SceneFile, Scene), CliError> {
+        let import = self.import_options(load_options);
+        let (origin, mut file) = open_input(input, &import)?;
+        self.apply_to(&mut file);
+        let scene = Scene::resolve(&origin, &file, &ResolveOptions { import })?;
+        Ok((origin, file, scene))
     }
 
     /// Replaces view and projection of the scene by the flags that were given.
@@ -189,7 +212,7 @@ fn parse_scale_factor(text: &str) -> Result<f64, String> {
     factor.ok_or_else(|| "expected a number greater than 0, up to 64, such as 2 or 0.5".to_owned())
 }
 
-/// Parses `transparent`, `#rgb`, `#rrggbb` or the name of a color of CSS.
+/// Parses `transparent`, or a color as in scene files: `#rgb`, `#rrggbb` or a CSS name.
 fn parse_background(text: &str) -> Result<BackgroundFile, String> {
     if text.eq_ignore_ascii_case("transparent") {
         return Ok(BackgroundFile::Transparent);

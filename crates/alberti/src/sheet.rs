@@ -3,11 +3,12 @@
 use super::CliError;
 use super::format::OutputFormat;
 use super::load_options::LoadArgs;
+use super::messages::print_warnings;
 use super::model_state::ModelStateArgs;
+use super::options::option_parser;
 use super::progress::Progress;
-use super::render::{open_input, print_warnings, thread_count};
+use super::render::{open_input, thread_count};
 use super::section::SectionArgs;
-use clap::ValueEnum;
 use drawing::HiddenLines;
 use drawing::Page;
 use pipeline::scene::ResolveOptions;
@@ -29,27 +30,27 @@ pub(crate) struct SheetArgs {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Paper size [default: a3]
-    #[arg(long, value_name = "SIZE")]
-    paper: Option<PaperArg>,
+    #[arg(long, value_name = "SIZE", value_parser = option_parser::<PaperSize>())]
+    paper: Option<PaperSize>,
     /// Page orientation [default: portrait for a4, a5 and letter, landscape for larger paper]
-    #[arg(long)]
-    orientation: Option<OrientationArg>,
+    #[arg(long, value_parser = option_parser::<PageOrientation>())]
+    orientation: Option<PageOrientation>,
     /// Arrangement of the views: first-angle or third-angle projection (ISO 5456-2)
     /// [default: first]
-    #[arg(long)]
-    projection_angle: Option<AngleArg>,
+    #[arg(long, value_parser = option_parser::<SheetAngle>())]
+    projection_angle: Option<SheetAngle>,
     /// Scale, paper to model, such as 1:50 [default: the largest standard scale that fits]
     #[arg(long, value_name = "N:M", value_parser = parse_scale)]
     scale: Option<(u32, u32)>,
     /// Length unit of the model [default: m]
-    #[arg(long)]
-    unit: Option<UnitArg>,
+    #[arg(long, value_parser = option_parser::<ModelUnit>())]
+    unit: Option<ModelUnit>,
     /// Axonometric view beside the three principal views [default: isometric]
-    #[arg(long, value_name = "VIEW")]
-    axonometric: Option<AxonometricArg>,
+    #[arg(long, value_name = "VIEW", value_parser = option_parser::<AxonometricView>())]
+    axonometric: Option<AxonometricView>,
     /// Hidden lines of the three principal views [default: dashed]
-    #[arg(long)]
-    hidden_lines: Option<HiddenArg>,
+    #[arg(long, value_parser = option_parser::<HiddenLines>())]
+    hidden_lines: Option<HiddenLines>,
     /// Omit the overall dimensions
     #[arg(long)]
     no_dimensions: bool,
@@ -74,55 +75,6 @@ pub(crate) struct SheetArgs {
     threads: Option<u16>,
     #[command(flatten)]
     load_options: LoadArgs,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum PaperArg {
-    A0,
-    A1,
-    A2,
-    A3,
-    A4,
-    A5,
-    Letter,
-    Tabloid,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum OrientationArg {
-    Portrait,
-    Landscape,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum AngleArg {
-    First,
-    Third,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum UnitArg {
-    M,
-    Cm,
-    Mm,
-    In,
-    Ft,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum AxonometricArg {
-    None,
-    Isometric,
-    Dimetric,
-    Trimetric,
-    ThreeQuarter,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum HiddenArg {
-    Removed,
-    Dashed,
-    Drawn,
 }
 
 /// Draws the sheet and writes it.
@@ -174,12 +126,12 @@ pub(super) fn rasterize_page(page: &Page) -> Result<Picture, CliError> {
 
 /// Replaces the fields of the scene's sheet by the flags that were given.
 fn apply_overrides(sheet: &mut SheetFile, args: &SheetArgs) {
-    args.paper.into_iter().for_each(|paper| sheet.paper = paper.into());
-    args.orientation.into_iter().for_each(|way| sheet.orientation = Some(way.into()));
-    args.projection_angle.into_iter().for_each(|angle| sheet.projection_angle = angle.into());
-    args.unit.into_iter().for_each(|unit| sheet.unit = unit.into());
-    args.axonometric.into_iter().for_each(|view| sheet.axonometric_view = view.into());
-    args.hidden_lines.into_iter().for_each(|hidden| sheet.hidden = hidden.into());
+    args.paper.into_iter().for_each(|paper| sheet.paper = paper);
+    args.orientation.into_iter().for_each(|orientation| sheet.orientation = Some(orientation));
+    args.projection_angle.into_iter().for_each(|angle| sheet.projection_angle = angle);
+    args.unit.into_iter().for_each(|unit| sheet.unit = unit);
+    args.axonometric.into_iter().for_each(|view| sheet.axonometric_view = view);
+    args.hidden_lines.into_iter().for_each(|hidden| sheet.hidden = hidden);
     sheet.scale = args.scale.or(sheet.scale);
     sheet.dimensions &= !args.no_dimensions;
     let texts = [
@@ -199,71 +151,4 @@ fn parse_scale(text: &str) -> Result<(u32, u32), String> {
     let (paper, model) = text.split_once(':').ok_or_else(fault)?;
     let number = |digits: &str| digits.trim().parse().ok().filter(|n| *n > 0).ok_or_else(fault);
     Ok((number(paper)?, number(model)?))
-}
-
-impl From<PaperArg> for PaperSize {
-    fn from(arg: PaperArg) -> Self {
-        match arg {
-            PaperArg::A0 => Self::A0,
-            PaperArg::A1 => Self::A1,
-            PaperArg::A2 => Self::A2,
-            PaperArg::A3 => Self::A3,
-            PaperArg::A4 => Self::A4,
-            PaperArg::A5 => Self::A5,
-            PaperArg::Letter => Self::Letter,
-            PaperArg::Tabloid => Self::Tabloid,
-        }
-    }
-}
-
-impl From<OrientationArg> for PageOrientation {
-    fn from(arg: OrientationArg) -> Self {
-        match arg {
-            OrientationArg::Portrait => Self::Portrait,
-            OrientationArg::Landscape => Self::Landscape,
-        }
-    }
-}
-
-impl From<AngleArg> for SheetAngle {
-    fn from(arg: AngleArg) -> Self {
-        match arg {
-            AngleArg::First => Self::First,
-            AngleArg::Third => Self::Third,
-        }
-    }
-}
-
-impl From<UnitArg> for ModelUnit {
-    fn from(arg: UnitArg) -> Self {
-        match arg {
-            UnitArg::M => Self::Meter,
-            UnitArg::Cm => Self::Centimeter,
-            UnitArg::Mm => Self::Millimeter,
-            UnitArg::In => Self::Inch,
-            UnitArg::Ft => Self::Foot,
-        }
-    }
-}
-
-impl From<AxonometricArg> for AxonometricView {
-    fn from(arg: AxonometricArg) -> Self {
-        match arg {
-            AxonometricArg::None => Self::None,
-            AxonometricArg::Isometric => Self::Isometric,
-            AxonometricArg::Dimetric => Self::Dimetric,
-            AxonometricArg::Trimetric => Self::Trimetric,
-            AxonometricArg::ThreeQuarter => Self::ThreeQuarter,
-        }
-    }
-}
-
-impl From<HiddenArg> for HiddenLines {
-    fn from(arg: HiddenArg) -> Self {
-        match arg {
-            HiddenArg::Removed => Self::Removed,
-            HiddenArg::Dashed => Self::Dashed,
-            HiddenArg::Drawn => Self::Drawn,
-        }
-    }
 }

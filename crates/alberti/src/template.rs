@@ -85,6 +85,10 @@ fn push_text(parts: &mut Vec<TemplatePart>, text: &str) {
 }
 
 /// Parses the inside of a pair of braces: `NAME`, or `NAME:0N` for `N` digits.
+///
+/// # Errors
+///
+/// If the field is unknown, or a text field has digits; the message shows how to write it.
 fn parse_field(
     text: &str,
     field: &str,

@@ -67,6 +67,8 @@ fn downsample(picture: &Picture, columns: u32, rows: u32) -> Vec<[u8; 3]> {
 }
 
 /// The columns and rows that fit; `cells` is the width of a column in rows (0.5 for characters).
+///
+/// At most 400 of each, and no more columns than the picture has pixels.
 fn fit_columns(picture: &Picture, columns: u32, cells: f64) -> (u32, u32) {
     let columns = columns.clamp(1, 400).min(picture.width.max(1));
     let ratio = f64::from(picture.height) / f64::from(picture.width.max(1));
@@ -74,6 +76,8 @@ fn fit_columns(picture: &Picture, columns: u32, cells: f64) -> (u32, u32) {
 }
 
 /// The picture as upper half blocks: foreground and background color are two pixels of a cell.
+///
+/// A cell of a terminal is about twice as high as wide, so the pixels are square.
 fn half_blocks(picture: &Picture, columns: u32) -> String {
     let (columns, rows) = fit_columns(picture, columns, 1.0);
     let rows = rows.next_multiple_of(2);

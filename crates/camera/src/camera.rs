@@ -178,7 +178,7 @@ impl Camera {
         self.basis.world_to_view_rotation()
     }
 
-    /// The same camera moved by `by`.
+    /// This camera, moved by `by` with its orientation unchanged.
     ///
     /// # Errors
     /// As [`Camera::new`] for the new eye.

@@ -1,4 +1,4 @@
-//! What can be wrong with a camera, each kind with the values at fault.
+//! Errors of cameras and framing, each with the values at fault.
 
 use homog::{Point, Vector, View, World};
 

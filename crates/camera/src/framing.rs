@@ -103,7 +103,7 @@ pub struct Framing {
     /// Distance of the farthest point along the gaze. Not padded: equal to `near` if the points lie
     /// in one plane.
     pub far: f64,
-    /// What the distance was decided by.
+    /// The constraint that decided the distance.
     pub constraint: FramingConstraint,
 }
 
@@ -129,7 +129,8 @@ pub struct Framing {
 /// let cube = Bounds::from_points([[-1.0; 3], [1.0; 3]].map(Point::from)).expect("a cube");
 /// let slopes = Slopes { left: -0.5, right: 0.5, bottom: -0.5, top: 0.5 };
 /// let framing = frame_perspective(cube.corners(), NamedView::Front.basis(), slopes, 0.0)?;
-/// assert_eq!(framing.camera.eye(), Point::new(0.0, 0.0, 3.0)); // its front face, 2 wide, at distance 2
+/// // Its front face, 2 wide, is at distance 2.
+/// assert_eq!(framing.camera.eye(), Point::new(0.0, 0.0, 3.0));
 /// assert_eq!((framing.near, framing.far), (2.0, 4.0));
 /// # Ok::<(), camera::FramingError>(())
 /// ```

@@ -90,3 +90,8 @@ pub use view_projection::ViewProjection;
 
 pub use view_transform::ViewTransform;
 pub use window::ViewWindow;
+
+/// The examples of the README, compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -41,7 +41,7 @@ pub struct CameraView {
     pub window: ViewWindow,
 }
 
-/// What the left and the right eye see.
+/// The views of the left and the right eye.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct StereoPair {
     /// The left eye.
@@ -63,7 +63,8 @@ impl StereoRig {
     /// use homog::Point;
     /// let middle = Camera::new(Point::ORIGIN, Basis::WORLD)?;
     /// let window = ViewWindow { left: -1.0, right: 1.0, bottom: -1.0, top: 1.0, distance: 2.0 };
-    /// let pair = StereoRig { interocular: 0.5, zero_parallax: 4.0 }.off_axis_pair(middle, window)?;
+    /// let rig = StereoRig { interocular: 0.5, zero_parallax: 4.0 };
+    /// let pair = rig.off_axis_pair(middle, window)?;
     /// assert_eq!(pair.left.camera.eye(), Point::new(-0.25, 0.0, 0.0));
     /// assert_eq!((pair.left.window.left, pair.left.window.right), (-0.875, 1.125));
     /// # Ok::<(), camera::CameraError>(())

@@ -19,9 +19,9 @@ impl<S: Space> Outline<S> {
     /// The triangles of the cut face, as seen from the side that was cut away: counter-clockwise
     /// there, with the plane's normal pointing away from the viewer.
     ///
-    /// What lies within an odd number of loops is filled, whichever way they run; loops that cross
-    /// each other, which those of a solid do not, come out covered in part. The time grows with the
-    /// square of the number of points.
+    /// Even-odd rule: areas within an odd number of loops are filled, in either direction; loops
+    /// that cross each other, which those of a solid do not, come out covered in part. The time
+    /// grows with the square of the number of points.
     ///
     /// ```
     /// use clip::Outline;

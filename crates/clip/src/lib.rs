@@ -19,17 +19,17 @@
 //!                 │        q
 //! ```
 //!
-//! What is left of a shape inside the wedge has w > 0 and divides without further care.
+//! The part of a shape inside the wedge has w > 0 and divides without further care.
 //!
 //! | what | by | gives |
 //! | --- | --- | --- |
 //! | a point | [`clip_point`], [`Volume::outcode`] | inside or not, and which planes say no |
-//! | many points | [`Volume::project_positions`], [`Volume::compute_outcodes`] | outcodes, and whether all are inside or all outside |
+//! | many points | [`Volume::project_positions`] | outcodes; all inside, or all outside? |
 //! | a segment | [`clip_segment`] | its ends, their fractions of the way, the planes that cut |
 //! | a polyline | [`clip_polyline`] | unbroken runs |
 //! | a triangle | [`clip_triangle`] | a convex polygon with weights, without allocation |
 //! | a convex polygon | [`clip_convex`] | the same for any number of corners |
-//! | a solid | [`cut_triangle`], [`Outline`] | its part behind a plane, the outline of the cut, the cap |
+//! | a solid | [`cut_triangle`], [`Outline`] | its part behind a plane, outline and cap |
 //!
 //! A [`Volume`] is a table of planes: any convention's canonical volume, with or without a far
 //! plane, with a guard band, with planes of your own. Attributes follow by fractions and weights,
@@ -50,16 +50,17 @@
 //!     [0.0, 0.0, -1.0, 0.0],
 //! ]);
 //!
-//! let tile = [Point::new(0.0, -1.5, -6.0), Point::new(-4.0, -1.5, 2.0), Point::new(4.0, -1.5, 2.0)];
-//! let left = clip_triangle(tile.map(|corner| view_to_clip.transform_point(corner)), &Volume::CHAPTER);
+//! let tile = [(0.0, -6.0), (-4.0, 2.0), (4.0, 2.0)].map(|(x, z)| Point::new(x, -1.5, z));
+//! let tile = tile.map(|corner| view_to_clip.transform_point(corner));
+//! let left = clip_triangle(tile, &Volume::CHAPTER);
 //!
-//! // The far corner stays. The floor leaves the picture through its lower border, 1.5 ahead of the eye.
+//! // The far corner stays. The floor leaves the picture through its lower border.
 //! assert_eq!(left.vertices().len(), 5);
 //! assert_eq!(left.vertices()[0].weights, [1.0, 0.0, 0.0]);
 //! let lowest = left.vertices()[2].point.divide().expect("visible");
 //! assert!((lowest.y() + 1.0).abs() < 1e-15);
 //!
-//! // Which plane did what?
+//! // The effect of each plane.
 //! assert_eq!(left.outcomes.outcome_of(PlaneIndex::BOTTOM), PlaneOutcome::Clipped);
 //! assert_eq!(left.outcomes.outcome_of(PlaneIndex::FAR), PlaneOutcome::Accepted);
 //! ```
@@ -97,3 +98,8 @@ pub use segment::{ClippedSegment, clip_segment, segment_outcomes};
 pub use triangle::{ClipVertex, ClippedPolygon, clip_triangle};
 pub use triangle_section::{CutTriangle, SectionVertex, cut_triangle};
 pub use volume::{Volume, VolumeError};
+
+/// The examples of the README, compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

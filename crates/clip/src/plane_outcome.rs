@@ -1,8 +1,8 @@
-//! What each plane did: the reasons behind a result of clipping.
+//! Plane outcomes: which planes clipped or rejected a shape.
 
 use crate::{Outcode, PlaneIndex};
 
-/// What one plane did to a shape.
+/// The effect of one plane on a shape.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum PlaneOutcome {
     /// The plane took nothing away.
@@ -13,7 +13,7 @@ pub enum PlaneOutcome {
     Rejected,
 }
 
-/// What every plane of a volume did to a shape.
+/// The effects of all planes of a volume on a shape.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub struct PlaneOutcomes {
     /// The planes that took a part away.
@@ -24,7 +24,7 @@ pub struct PlaneOutcomes {
 }
 
 impl PlaneOutcomes {
-    /// What this plane did.
+    /// The effect of this plane.
     #[must_use]
     pub fn outcome_of(self, plane: PlaneIndex) -> PlaneOutcome {
         if self.rejected.contains(plane) {

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!            ┌─────────┐
-//!   p ───────●─────────●───► q        t0 is the last of the enterings, t1 the first of the leavings;
+//!   p ───────●─────────●───► q        t0 is the last entry, t1 the first exit;
 //!        t0  │         │ t1           if t0 > t1 the segment passes by
 //!            └─────────┘
 //! ```
@@ -13,7 +13,7 @@ use core::cmp::Ordering;
 use glam::DVec4;
 use homog::{Clip, HPoint};
 
-/// What is left of a segment from p to q.
+/// The visible part of a segment from p to q.
 ///
 /// # Guarantees
 /// - 0 ≤ `t0` ≤ `t1` ≤ 1; both ends are finite, have w > 0 and lie inside the volume's box or on
@@ -81,7 +81,7 @@ pub fn clip_segment(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Option
     VisibleSpan::new(p, q, volume).ok()?.end_points(p, q, volume)
 }
 
-/// What each plane does to the segment from `p` to `q`, for people who ask why it is cut or gone.
+/// The effect of each plane on the segment from `p` to `q`: why it is clipped or rejected.
 ///
 /// A segment that passes by a corner of the volume is rejected by two planes: it leaves through the
 /// one before it has entered through the other.

@@ -39,8 +39,7 @@ impl ClipVertex {
     }
 }
 
-/// What is left of a triangle: a convex polygon with the turning direction of the triangle, or
-/// nothing.
+/// The visible part of a triangle: a convex polygon with the winding of the triangle, or nothing.
 ///
 /// # Guarantees
 /// - It has no vertices or at least three.
@@ -50,7 +49,7 @@ impl ClipVertex {
 #[derive(Clone, Copy, Debug)]
 pub struct ClippedPolygon {
     ring: PolygonVertices,
-    /// What each plane did.
+    /// The effect of each plane.
     pub outcomes: PlaneOutcomes,
 }
 
@@ -107,7 +106,7 @@ impl ClippedPolygon {
 /// ```
 /// use clip::{Volume, clip_triangle};
 /// use homog::HPoint;
-/// let corners = [HPoint::new(-0.5, 0.0, 0.0, 1.0), HPoint::new(2.0, 0.0, 0.0, 1.0), HPoint::new(-0.5, 1.0, 0.0, 1.0)];
+/// let corners = [(-0.5, 0.0), (2.0, 0.0), (-0.5, 1.0)].map(|(x, y)| HPoint::new(x, y, 0.0, 1.0));
 /// let left = clip_triangle(corners, &Volume::CHAPTER);
 /// assert_eq!(left.vertices().len(), 4);
 /// assert_eq!(left.vertices()[1].point, HPoint::new(1.0, 0.0, 0.0, 1.0));

@@ -17,7 +17,7 @@ use glam::DVec4;
 use homog::{Clip, HPoint, Plane};
 use thiserror::Error;
 
-/// What is wrong with a plane or a guard band.
+/// An error of a plane or a guard band.
 #[derive(Clone, Copy, PartialEq, Debug, Error)]
 #[non_exhaustive]
 pub enum VolumeError {
@@ -84,7 +84,7 @@ impl Volume {
         Self { planes, active_planes: Outcode::from_bits(BOX_BITS) }
     }
 
-    /// The same volume without its near plane: for what may begin anywhere before the eye. The
+    /// This volume without its near plane: for geometry that may begin anywhere before the eye. The
     /// planes of the sides keep w from going below 0; what is cut off by them has w > 0 but where
     /// it passes through the eye itself.
     #[must_use]

@@ -1,4 +1,4 @@
-//! What the sources say about clipping, and the misprints and traps that belong to it.
+//! Clipping as the sources have it, with their misprints and traps.
 //!
 //! The projection is the chapter's, in its form with w > 0 (PE-3), for n = −1, f = −9 and the
 //! window [−1, 1]²: w = −z, and near goes to depth 1, far to −1.

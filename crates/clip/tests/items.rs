@@ -4,7 +4,7 @@ use clip::{Outcode, PlaneIndex, Volume, clip_segment};
 use glam::{DMat4, DVec4};
 use homog::{Clip, HPoint, Point, Projective, View};
 
-/// What lies beyond one border only, with near at +1 as the chapter has it.
+/// Points beyond one border only, with near at +1 as the chapter has it.
 const BEYOND: [([f64; 3], PlaneIndex, &str); 6] = [
     ([-1.5, 0.0, 0.0], PlaneIndex::LEFT, "left"),
     ([1.5, 0.0, 0.0], PlaneIndex::RIGHT, "right"),

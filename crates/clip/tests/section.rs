@@ -83,7 +83,7 @@ fn area(triangles: &[Triangle], normal: DVec3) -> f64 {
     triangles.iter().map(|[a, b, c]| (*b - *a).cross(*c - *a).raw().dot(normal) / 2.0).sum()
 }
 
-/// What is left on the positive side, and the outline of the opening.
+/// The part on the positive side, and the outline of the opening.
 fn cut(solid: &[Triangle], plane: Plane<World>) -> (Vec<Triangle>, Outline<World>) {
     let pieces: Vec<_> = solid.iter().map(|&triangle| cut_triangle(triangle, plane)).collect();
     let left = pieces.iter().flat_map(CutTriangle::triangles);

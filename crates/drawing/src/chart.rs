@@ -113,8 +113,8 @@ impl Chart {
         let plot = Plot { chart: self, corner, size };
         let mut layers =
             vec![plot.grid_layer(), plot.axes_layer(), plot.marks_layer(), plot.text_layer()];
-        layers
-            .extend(self.curves.iter().enumerate().map(|(at, curve)| plot.curve_layer(at, curve)));
+        let curves = self.curves.iter().enumerate();
+        layers.extend(curves.map(|(index, curve)| plot.curve_layer(index, curve)));
         layers.retain(|layer| layer.groups.iter().any(|group| !group.strokes.is_empty()));
         layers
     }
@@ -264,7 +264,7 @@ mod tests {
     use crate::to_millimeters;
 
     #[test]
-    fn a_curve_goes_where_the_axes_say() {
+    fn curve_points_map_through_the_axes() {
         let axis = |from: f64, to: f64, spacing| Axis { title: "t".to_owned(), from, to, spacing };
         let chart = Chart {
             id: "c".to_owned(),

@@ -70,7 +70,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_end_with_the_dash_they_begin_with() {
+    fn lines_begin_and_end_with_a_dash() {
         for pattern in [&[3.0, 0.75][..], &[6.0, 0.75, 0.125, 0.75]] {
             let pen = dashed_pen(pattern);
             let period: f64 = pattern.iter().sum();
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_round_about_has_whole_periods() {
+    fn closed_lines_have_whole_periods() {
         let pen = dashed_pen(&[3.0, 0.75]);
         for length in [6.0, 12.0, 33.0, 240.0] {
             let fitted = pen.fitted_dashes(&test_polyline(length, true));
@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn short_lines_and_whole_lines_have_no_gap() {
+    fn short_lines_and_continuous_pens_have_no_gaps() {
         assert!(dashed_pen(&[3.0, 0.75]).fitted_dashes(&test_polyline(3.0, false)).is_empty());
         assert!(dashed_pen(&[]).fitted_dashes(&test_polyline(300.0, false)).is_empty());
     }

@@ -14,7 +14,7 @@
 //! ```
 //!
 //! The surface depends on models and sections only, everything below it on the viewer too. Edges
-//! keep the order of their objects, so drawings are reproducible and diffs of their files are small.
+//! keep the order of their objects, so drawings are reproducible and diffs of files are small.
 
 use super::edges::{CandidateEdge, WeldedSurface};
 use super::face_fill::{KeyLight, rasterize_flat_fill};

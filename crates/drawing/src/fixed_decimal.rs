@@ -31,7 +31,7 @@ pub(super) fn format_thousandths(number: i64) -> String {
 
 /// A length in millimeters, rounded to the micrometer, as text.
 ///
-/// Only sizes and widths that are not on the grid come this way; halves round away from zero.
+/// For sizes and line widths, which are not on the grid; halves round away from zero.
 pub(super) fn format_millimeters(millimeters: f64) -> String {
     format_thousandths(libm::round(millimeters * 1000.0) as i64)
 }

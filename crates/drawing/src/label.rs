@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn labels_stand_where_they_are_put() {
+    fn labels_align_at_their_anchor() {
         let at = DVec2::new(100.0, 50.0);
         let label = Label::new("HIM", at, 5.0);
         let [low, high] = bounds(&label);
@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn a_label_is_made_to_fit() {
+    fn a_wide_label_is_reduced_to_fit() {
         let label = Label::new("a rather long title", DVec2::ZERO, 5.0);
         assert!((label.fit_to_width(20.0).width() - 20.0).abs() < 1e-9);
         assert_eq!(label.fit_to_width(1e3), label);

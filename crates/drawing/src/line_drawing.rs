@@ -62,6 +62,6 @@ pub struct LineDrawing {
     pub segments: Vec<EdgeSegment>,
     /// The flat fill under the lines, if the options ask for it: an image that fills the drawing.
     pub face_fill: Option<Picture>,
-    /// Problems found on the way, each once.
+    /// Warnings of the drawing, each once.
     pub warnings: Vec<Warning>,
 }

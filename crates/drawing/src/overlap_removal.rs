@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_visible_covers_what_is_hidden() {
+    fn visible_segments_cover_hidden_ones() {
         let rest = remaining_on_line(&[(1, 0, 4.0, 9.0), (0, 0, 0.0, 5.0), (1, 1, 8.0, 12.0)]);
         assert_eq!(rest, [(1, 0, 5.0, 9.0), (0, 0, 0.0, 5.0), (1, 1, 9.0, 12.0)]);
         // From both sides, and from the middle; backwards too.
@@ -259,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn what_continues_itself_is_one_and_equal_lines_are_drawn_once() {
+    fn touching_segments_merge_and_duplicates_are_drawn_once() {
         assert_eq!(
             remaining_on_line(&[(0, 0, 0.0, 1.0), (0, 0, 1.0, 2.0), (0, 0, 0.5, 3.0)]),
             [(0, 0, 0.0, 3.0)]
@@ -271,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hundred_thousand_pieces_on_one_line_take_no_long_time() {
+    fn a_hundred_thousand_collinear_segments_take_little_time() {
         let count = 100_000_u32;
         let at = |k: u32| f64::from(k) * 0.25;
         let many: Vec<PageSegment> =
@@ -285,7 +285,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbors_and_crossings_are_left_alone() {
+    fn parallel_and_crossing_segments_are_retained() {
         let segments = [
             segment(0, 0, [0.0, 0.0, 10.0, 0.0]),
             segment(1, 0, [0.0, 0.01, 10.0, 0.01]),

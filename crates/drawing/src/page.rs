@@ -35,7 +35,7 @@ pub struct Page {
     pub images: Vec<PlacedImage>,
     /// Layers, each drawn over the ones before.
     pub layers: Vec<Layer>,
-    /// Problems found on the way, each once.
+    /// Warnings of the drawings on the page, each once.
     pub warnings: Vec<Warning>,
 }
 

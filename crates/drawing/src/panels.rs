@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn panels_stand_in_rows_without_touching() {
+    fn panels_form_rows_without_touching() {
         let panels = Panels::new("five", ["a", "b", "c", "d", "e"].map(panel).to_vec());
         assert_eq!(panels.columns, 3);
         let page = panels.to_page();
@@ -237,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn a_page_of_panels_needs_no_other_file_and_no_id_is_there_twice() {
+    fn html_of_panels_is_self_contained_with_unique_ids() {
         let html = Panels::new("<two>", vec![panel("a"), panel("b")]).to_html();
         assert!(html.contains("<h1>&lt;two&gt;</h1>") && html.contains("a &lt; b"));
         assert!(!html.contains("src=") && !html.contains("<two>"));

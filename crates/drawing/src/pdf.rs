@@ -321,7 +321,7 @@ mod tests {
     use glam::DVec2;
 
     #[test]
-    fn a_page_says_what_is_on_it() {
+    fn a_page_has_the_expected_content_stream() {
         let mut page = Page::new(DVec2::new(210.0, 297.0), "A (page) \\ Ä", Some([255, 128, 0]));
         let mut pen = Pen::solid(0.25, [0; 3]);
         pen.dashes = vec![3.0, 0.75];

@@ -237,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn an_open_line_grows_to_both_sides_and_straight_joints_vanish() {
+    fn an_open_chain_grows_at_both_ends_and_loses_collinear_points() {
         let line = [
             [2.0, 0.0, 3.0, 0.0],
             [1.0, 0.0, 2.0, 0.0],
@@ -248,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn at_a_crossing_the_straight_way_is_taken() {
+    fn at_a_junction_the_straightest_segment_continues() {
         let cross = [
             [0.0, 5.0, 5.0, 5.0],
             [5.0, 0.0, 5.0, 5.0],
@@ -263,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn a_piece_that_is_there_twice_or_too_short_for_the_grid_is_not_drawn_again() {
+    fn duplicates_and_segments_below_the_grid_are_dropped() {
         let twice = [[0.0, 0.0, 1.0, 2.0], [1.0, 2.0, 0.0, 0.0], [0.0, 0.0, 0.0001, 0.0]];
         assert_eq!(chains_in_millimeters(&twice), [(vec![[0, 0], [1, 2]], false)]);
     }

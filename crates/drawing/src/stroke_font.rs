@@ -146,11 +146,11 @@ mod tests {
         }
         let mut characters: Vec<char> = glyphs::GLYPHS.iter().map(|(c, ..)| *c).collect();
         characters.sort_unstable();
-        assert!(characters.windows(2).all(|pair| pair[0] != pair[1]), "a character is there twice");
+        assert!(characters.windows(2).all(|pair| pair[0] != pair[1]), "a character has two glyphs");
     }
 
     #[test]
-    fn all_of_ascii_and_latin_is_there() {
+    fn ascii_and_latin_letters_have_glyphs() {
         let tofu = parse_strokes(glyphs::MISSING_GLYPH);
         let latin =
             (0xa1..=0xff).filter(|c| ![0xa4, 0xa6, 0xa8, 0xad, 0xaf, 0xb4, 0xb8].contains(c));
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_is_as_wide_as_its_letters_and_what_is_between_them() {
+    fn a_line_is_as_wide_as_its_letters_and_their_spacing() {
         let [a, i] = ["A", "i"].map(|text| typeset_line(text).width);
         assert_eq!(typeset_line("AiA").width, 2.0 * a + i + 4.8);
         assert_eq!(typeset_line("A A").width, 2.0 * a + 6.4);

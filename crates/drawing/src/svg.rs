@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn paths_are_short_and_come_back_to_the_micrometre() {
+    fn path_data_is_short_and_exact() {
         let lines = [
             polyline(
                 &[
@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn names_cannot_break_the_file() {
+    fn names_are_escaped() {
         let nasty = "</title><script>\u{0}\u{1b}alert(\"1 & 2\")</script>\u{ffff}";
         let mut page = Page::new(DVec2::new(10.0, 10.0), nasty, Some([255; 3]));
         let mut layer = Layer::new("a\"b", nasty, Pen::solid(0.1, [1, 2, 3]));

@@ -24,7 +24,8 @@ use glam::{DMat3, DVec3};
 /// let photo = [[-3.0, 0.0], [3.0, 0.0], [1.0, 3.0], [-1.0, 3.0]];
 /// let map = Homography::from_unit_square(photo).expect("four corners of a quadrilateral");
 /// let middle = map.transform_point(HPoint2::from_xy(0.5, 0.5)).divide().expect("finite");
-/// assert!((middle[1] - 2.25).abs() < 1e-14); // the middle of the square is seen above half the height
+/// // The middle of the square is seen above half the height.
+/// assert!((middle[1] - 2.25).abs() < 1e-14);
 /// let rectify = map.inverse().expect("a quadrilateral with four corners");
 /// # for (p, q) in photo.into_iter().zip(square) {
 /// #     let back = rectify.transform_point(p.into()).divide().expect("finite");

@@ -4,7 +4,7 @@
 //! from and the space it ends in, and the compiler refuses a chain that does not fit:
 //!
 //! ```text
-//!  Model ──Affine──► World ──Affine──► View ──Projective──► Clip ──divide──► Ndc ──Affine──► Screen
+//!  Model ─Affine─► World ─Affine─► View ─Projective─► Clip ─divide─► Ndc ─Affine─► Screen
 //! ```
 //!
 //! | type | is | under a translation |
@@ -13,7 +13,8 @@
 //! | [`Vector`] | a difference of places | stays |
 //! | [`Normal`] | a direction perpendicular to a surface | stays |
 //! | [`HPoint`] | the place (x/w, y/w, z/w), or a direction if w = 0 | moves by w times as much |
-//! | [`Plane`], [`Bounds`], [`CoordinateFrame`] | a x + b y + c z + d = 0; a box; an origin with three axes | move |
+//! | [`Plane`], [`Ray`], [`Bounds`] | a x + b y + c z + d = 0; a half-line; a box | move |
+//! | [`CoordinateFrame`] | an origin with three axes | moves |
 //! | [`Affine`] | a map that keeps parallels: points to points | |
 //! | [`Projective`] | a map that keeps lines: points to homogeneous points | |
 //!
@@ -31,7 +32,8 @@
 //! ]);
 //! let model_to_clip = model_to_world.then(world_to_view).then_project(view_to_clip);
 //!
-//! let corner = model_to_clip.transform_point(Point::new(2.0, 1.0, 0.0)); // not divided yet: this is what one clips
+//! // Not divided yet: clipping comes first.
+//! let corner = model_to_clip.transform_point(Point::new(2.0, 1.0, 0.0));
 //! assert_eq!(corner.w(), 6.0);
 //! let seen = corner.divide().expect("six ahead of the eye");
 //! assert!((seen.y() - 1.0 / 3.0).abs() < 1e-15);
@@ -120,3 +122,8 @@ pub use ray::Ray;
 pub use remap::{RemapError, remap_interval};
 pub use space::{Clip, Model, Ndc, Screen, Space, View, World};
 pub use vector::Vector;
+
+/// The examples of the README, compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

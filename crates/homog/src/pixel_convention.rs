@@ -2,7 +2,7 @@
 //! VP-4).
 //!
 //! ```text
-//!   CHAPTER: centers at integers, y up        IMAGE: pixel (i, j) covers [i, i+1) × [j, j+1), y down
+//!   CHAPTER: centers at integers, y up        IMAGE: centers at halves, y down
 //!
 //!   y ▲                                            0   1   2   3 ► x
 //! 1.5 ┼───┬───┬───┐                              0 ┌───┬───┬───┐

@@ -1,6 +1,9 @@
 //! Cameras of a file: perspective and orthographic projections (glTF 2.0 §3.10).
 
 /// A camera of the file: only its projection; the node that carries it gives the view.
+///
+/// A camera looks along its node's −z with +y up. Where the file gives no aspect ratio, or another
+/// than that of the picture, the renderer decides how the two are fitted.
 #[derive(Clone, Debug)]
 pub struct ModelCamera {
     /// The name in the file, if it has one.

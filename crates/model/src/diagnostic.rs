@@ -1,13 +1,16 @@
 //! Diagnostics: one record for everything that the importer or the checker reports about a file.
 //!
 //! ```text
-//!  severity code          location                          message                  help
-//!  error[ACCESSOR_INDEX_OOB] /meshes/0/primitives/0/indices: 3 indices have no vertex; export it again
+//!  severity code        location                        message                   help
+//!  error[ACCESSOR_INDEX_OOB] /meshes/0/primitives/0/indices: 3 indices lack a vertex; export again
 //! ```
 //!
 //! The importer's warnings ([`Model::warnings`](crate::Model::warnings)), the reason that a file
 //! could not be loaded ([`ImportError`](crate::ImportError)) and the list of a check are made of
 //! these. Severities and, where it has one, codes are those of the Khronos glTF validator.
+//!
+//! Locations are JSON pointers (RFC 6901): the path of keys and indices from the root of the
+//! document, with `~1` for `/` and `~0` for `~` inside of a key.
 
 use std::fmt;
 
@@ -47,9 +50,9 @@ pub struct Diagnostic {
     /// A JSON pointer (RFC 6901) such as `/meshes/3/primitives/0/attributes/NORMAL`; empty if the
     /// file as a whole is meant.
     pub location: String,
-    /// What is wrong and, for a warning, what was done about it: a clause without a full stop.
+    /// The fault and, for a warning, its consequence: a clause without a full stop.
     pub message: String,
-    /// What the user can do about it, if anything: a clause in the imperative.
+    /// The remedy, if there is one: a clause in the imperative.
     pub help: Option<String>,
 }
 
@@ -72,7 +75,8 @@ impl Severity {
     /// All severities, the worst first.
     pub const ALL: [Self; 4] = [Self::Error, Self::Warning, Self::Info, Self::Hint];
 
-    /// The word that is printed: `error`, `warning`, `note` (as rustc prints information) or `hint`.
+    /// The word that is printed: `error`, `warning`, `note` (rustc's word for information) or
+    /// `hint`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -121,7 +125,7 @@ impl Diagnostic {
 
 impl fmt::Display for Diagnostic {
     /// `error[ACCESSOR_INDEX_OOB] /meshes/0/primitives/0/indices: 3 indices have no vertex; export
-    /// it again`
+    /// again`
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}[{}] {}", self.severity.name(), self.code, self.sentence())
     }

@@ -4,13 +4,22 @@
 //! to files below one folder only, and everything a file can declare has a [limit](Limits). A
 //! [`Diagnostic`](crate::Diagnostic) says where the file is wrong, what is wrong and what to do.
 //!
-//! What makes the shape unreadable is an error; what only spoils the look is a
-//! [warning](Model::warnings). With [`ImportOptions::lenient`] most errors become warnings as long
-//! as something is left to load. [`check_file`] lists everything that is wrong.
+//! Faults in the shape (positions, indices, the node hierarchy) are errors; faults in the look
+//! (materials, normals, images) are [warnings](Model::warnings), and the file is drawn without what
+//! is broken. With [`ImportOptions::lenient`] most errors become warnings too, as long as something
+//! is left to load. [`check_file`] lists everything that is wrong instead of stopping at the first
+//! error.
+//!
+//! | option | error by default | with `lenient` |
+//! | --- | --- | --- |
+//! | broken shape | yes | the primitive is left out |
+//! | missing buffer file | yes | what uses it is left out |
+//! | unknown required extension | yes | it is ignored |
+//! | not glTF, other version | yes | yes |
+//! | exceeded limit | yes | yes |
 //!
 //! The modules here serve every format; `gltf` reads glTF 2.0.
 
-mod check;
 mod error;
 pub(crate) mod gltf;
 pub(crate) mod image_decoder;
@@ -22,7 +31,7 @@ mod parallel_decoding;
 pub(crate) mod uri_resolver;
 mod warnings;
 
-pub use check::{CheckReport, check_bytes, check_file};
+pub use crate::check::{CheckReport, check_bytes, check_file};
 pub use error::ImportError;
 pub use gltf::{ExtensionUse, extension_use};
 pub use image_decoder::decode_bounded as decode_image;
@@ -76,7 +85,8 @@ pub enum ImageLoading {
 /// ```no_run
 /// use model::{ImportOptions, load};
 /// let model = load("chair.glb".as_ref(), &ImportOptions::default())?;
-/// let triangles: usize = model.meshes.iter().flat_map(|mesh| &mesh.primitives).map(|p| p.item_count()).sum();
+/// let primitives = model.meshes.iter().flat_map(|mesh| &mesh.primitives);
+/// println!("{} triangles", primitives.map(|primitive| primitive.item_count()).sum::<usize>());
 /// for warning in &model.warnings {
 ///     println!("{warning}");
 /// }

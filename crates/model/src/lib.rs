@@ -6,6 +6,7 @@
 
 mod animation;
 mod camera;
+mod check;
 mod diagnostic;
 pub mod import;
 mod light;
@@ -23,6 +24,7 @@ pub use animation::{
     ObjectProperty,
 };
 pub use camera::{CameraProjection, ModelCamera};
+pub use check::{CheckReport, check_bytes, check_file};
 pub use diagnostic::{Diagnostic, Severity, codes};
 pub use import::{ImportError, ImportOptions, Limits, load, load_bytes};
 pub use light::{LightKind, PunctualLight};
@@ -43,3 +45,8 @@ pub use texture::{
     Image, ImageHeader, ImageInfo, MipmapMode, Sampler, Texture, TextureFilter, WrapMode,
 };
 pub use timings::Timings;
+
+/// Compiles and runs the examples of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

@@ -6,6 +6,10 @@
 use super::{MeshInstance, Model};
 
 /// A directional, point or spot light of the file.
+///
+/// The extension attenuates point and spot lights by 1 / d² and, with a finite range, by a window
+/// that reaches 0 at it; spots fall off smoothly between the two cone angles. The crate `shade` has
+/// the formulas.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PunctualLight {
     /// The name in the file, if it has one.

@@ -25,7 +25,9 @@ pub struct Model {
     pub textures: Vec<Texture>,
     /// Decoded images, indexed as in the file; `None` for those that no visible primitive uses
     /// (they are not decoded) and for broken ones (a warning says so).
-    pub images: Vec<Option<Image>>,
+    ///
+    /// Shared: a clone of a model that is posed differently has the same images.
+    pub images: std::sync::Arc<[Option<Image>]>,
     /// Nodes of the scene graph, indexed as in the file. They form a forest: the importer refuses
     /// cycles.
     pub nodes: Vec<Node>,

@@ -76,6 +76,9 @@ pub struct SceneRoots {
 }
 
 /// A skin: the joints that deform a mesh, and the mesh's transform relative to each of them.
+///
+/// The matrix of a joint in the current pose is its inverse bind matrix followed by its global
+/// transform. In the bind pose the two cancel, and vertices stay where they were modelled.
 #[derive(Clone, Debug)]
 pub struct Skin {
     /// The nodes that are joints; joint indices of vertices point into this list.

@@ -41,7 +41,24 @@ impl Model {
     ///
     /// Without a skin the result is in the mesh's coordinates and `to_model` is the instance's
     /// transform; with one it is in model space, for the joints place it there, and `to_model` is
-    /// the identity.
+    /// the identity. A vertex whose joint weights are all zero follows the node like an unskinned
+    /// one.
+    ///
+    /// ```
+    /// # use model::{Model, SkinnedPrimitive};
+    /// fn model_positions(model: &Model) -> Vec<[f64; 3]> {
+    ///     let mut positions = Vec::new();
+    ///     for (instance, primitive) in model.scene_primitives() {
+    ///         let skinned = model.skin_primitive(instance, primitive);
+    ///         for position in skinned.positions.iter() {
+    ///             let point = skinned.to_model.point(position.map(f64::from).into());
+    ///             positions.push(point.into());
+    ///         }
+    ///     }
+    ///     positions
+    /// }
+    /// # assert!(model_positions(&Model::default()).is_empty());
+    /// ```
     #[must_use]
     pub fn skin_primitive<'a>(
         &self,
@@ -373,7 +390,8 @@ mod tests {
     fn eight_joints_of_two_sets_count_by_their_weights() {
         let mut arm = triangle();
         arm.joint_indices = vec![vec![[0, 1, 0, 1]; 3], vec![[1, 1, 1, 0]; 3]];
-        // Joint 0 has moved by 3, joint 1 (the mesh's own node) stands: in all 0.75 and 0.25 of the weight.
+        // Joint 0 has moved by 3, joint 1 (the mesh's own node) stands: in all 0.75 and 0.25 of the
+        // weight.
         arm.joint_weights =
             vec![vec![[0.25, 0.125, 0.25, 0.0]; 3], vec![[0.0625, 0.0625, 0.0, 0.25]; 3]];
         let (mut model, instance) = model_with_joint(arm, translation_by(3.0, 1.0, 0.0));

@@ -55,6 +55,10 @@ pub struct Texture {
 }
 
 /// Sampler state: wrapping outside of [0, 1], and filtering between texels and mip levels.
+///
+/// The default repeats and filters trilinearly, as glTF's does. glTF has one `minFilter` for what
+/// is two states here and in Vulkan: `LINEAR_MIPMAP_NEAREST` is a linear `min_filter` with the
+/// nearest mip level.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Sampler {
     /// Wrapping to the left and right of the image.

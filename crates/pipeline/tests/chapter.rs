@@ -17,7 +17,7 @@ fn render_scene(scene: &Scene) -> Picture {
     render(scene, 1).expect("a picture")
 }
 
-/// Where a place of the world is in the picture.
+/// The pixel position of a world point.
 fn pixel_position(scene: &Scene, place: Point<World>) -> [f64; 2] {
     let viewport = viewport::Viewport::image(scene.image.width, scene.image.height);
     let clip = scene.view_projection.world_to_clip().transform_point(place);
@@ -94,7 +94,8 @@ fn c35_a_ball_beside_the_line_of_sight_is_drawn_as_the_ellipse_that_its_cone_cut
          image: (size: (1600, 400), background: Color(\"#fff\"), samples: 16))",
     );
     let picture = render_scene(&scene);
-    // The outermost ball: 4.5 to the right and 4 ahead, radius ½; θ off the axis, its cone half as wide as α.
+    // The outermost ball: 4.5 to the right and 4 ahead, radius ½; θ off the axis, its cone half as
+    // wide as α.
     let (x, ahead): (f64, f64) = (4.5, 4.0);
     let theta = libm::atan2(x, ahead);
     let alpha = libm::asin(0.5 / (x * x + ahead * ahead).sqrt());

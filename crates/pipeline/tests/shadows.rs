@@ -5,7 +5,7 @@ use homog::PixelRect;
 use model::ModelInstance;
 use model::{AlphaMode, Material, Mesh, Model, Node, Primitive};
 use pipeline::scene::parse_scene;
-use pipeline::{BandedRenderer, Origin, Picture, Scene, Timings, render};
+use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures, render};
 use std::sync::Arc;
 
 type Position = [f32; 3];
@@ -114,7 +114,8 @@ fn render_box_on_floor(eye: &str, lights: &str) -> Picture {
     )
 }
 
-/// For each column through the middle of the box: the codes of the floor below it, from the first pixel that is not the box's.
+/// For each column through the middle of the box: the codes of the floor below it, from the first
+/// pixel that is not the box's.
 fn pixels_below_box(picture: &Picture) -> Vec<Vec<u8>> {
     let is_box =
         |x: u32, y: u32| pixel_at(picture, x, y)[2] > 250 && pixel_at(picture, x, y)[0] < 250;
@@ -220,7 +221,8 @@ fn no_light_comes_through_walls_without_thickness() {
             lights: [Directional(direction: {direction}, intensity: 3)], shadows: {shadows}, image: (size: (960, 540), samples: 1)"
         );
         let picture = render_parts(room, &rest);
-        // Where a wall without thickness meets another, light and shade meet too: single pixels on the edges may be lit.
+        // Where a wall without thickness meets another, light and shade meet too: single pixels on
+        // the edges may be lit.
         let lit = |x: u32, y: u32| u32::from(pixel_at(&picture, x, y)[0] > 0);
         let all = (0..540).flat_map(|y| (0..960).map(move |x| (x, y)));
         let (mut count, mut clump) = (0, 0);
@@ -366,7 +368,8 @@ fn occlusion_darkens_corners_and_nothing_that_is_open() {
 
 #[test]
 fn occlusion_has_no_stripes_beside_sharp_edges() {
-    // A box in 1080 lines, whose surroundings reach far over the screen; on the ground to the left of it.
+    // A box in 1080 lines, whose surroundings reach far over the screen; on the ground to the left
+    // of it.
     let parts = vec![
         (floor_quad(6.0), matte_material(0.8, 0.8, 0.8)),
         (box_sides([-0.5, 0.0, -0.5], [0.5, 1.0, 0.5], true), matte_material(0.8, 0.8, 0.8)),
@@ -376,15 +379,18 @@ fn occlusion_has_no_stripes_beside_sharp_edges() {
         "camera: (view: LookAt(eye: (2.2, 2.6, 3.6), target: (0, 0.3, 0)), projection: Perspective(fov_y_degrees: 32)),
         lights: [Ambient(intensity: 3.14159)], ambient_occlusion: (radius: 1), image: (size: (1920, 1080), samples: 1)",
     );
-    let timings = Timings::default();
-    let mut paint = BandedRenderer::new(&scene, 2, &timings).expect("a scene");
+    let (textures, mut renderer) = (Textures::for_scene(&scene), Renderer::default());
+    let context = RenderContext::new(&scene, &textures, 2);
+    let mut prepared = renderer.prepare(&context).expect("a scene");
     let region = PixelRect { x: 545, y: 570, width: 110, height: 60 };
-    let picture: Picture<u16> = paint.render_region(region).expect("a region");
+    let mut picture = Picture::<u16>::default();
+    prepared.render_region(region, &mut picture).expect("a region");
     let code =
         |x: u32, y: u32| f64::from(picture.pixels[(y * region.width + x) as usize][0]) / 257.0;
     let (mut step, mut back) = (0.0_f64, 0.0_f64);
     for (x, y) in (0..region.height).flat_map(|y| (1..region.width - 1).map(move |x| (x, y))) {
-        // How far a pixel is from the mean of its neighbours, and how much lighter than the one farther away.
+        // How far a pixel is from the mean of its neighbours, and how much lighter than the one
+        // farther away.
         step = step.max((code(x, y) - 0.5 * (code(x - 1, y) + code(x + 1, y))).abs());
         back = back.max(code(x + 1, y) - code(x, y));
     }

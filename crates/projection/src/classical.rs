@@ -50,7 +50,7 @@ impl Classical {
         }
     }
 
-    /// The same with depth kept: x and y as in the picture, larger z nearer to the viewer.
+    /// The depth-preserving variant: x and y as in the picture, larger z nearer to the viewer.
     #[must_use]
     pub fn depth_preserving(self) -> Projective<View, View> {
         match self {

@@ -64,7 +64,7 @@ impl NPoint {
     /// If d is 0 or not finite.
     pub fn from_eye(d: f64) -> Result<Self, ProjectionError> {
         if check_finite("d", d)? == 0.0 {
-            return Err(ProjectionError::CentreOnPlane);
+            return Err(ProjectionError::CenterOnPlane);
         }
         Self::new(0.0, 0.0, -1.0 / d)
     }

@@ -1,5 +1,4 @@
-//! What moves the window: lens shift, tiles of a larger picture, jitter, and the four angles of a
-//! headset's eye.
+//! Changes of the window: lens shift, sub-images, jitter, and the four angles of a headset's eye.
 //!
 //! All of them change the window and nothing else, so that they work alike for perspective and
 //! parallel projections and keep lines, depth and vanishing points where they are.
@@ -19,8 +18,8 @@ use crate::error::{check_finite, check_positive};
 use crate::{Frustum, Orthographic, Perspective, ProjectionError, Window};
 use core::f64::consts::FRAC_PI_2;
 
-/// A rectangle of a larger picture, in pixels from its top left corner, y down. It may reach beyond
-/// the picture.
+/// A sub-image of a larger picture, as three.js' view offset: a rectangle in pixels from the top
+/// left corner, y down. It may reach beyond the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ViewOffset {
     /// Width and height of the whole picture.

@@ -221,8 +221,8 @@ fn misprint_m14b_a_window_has_two_different_corners() {
 fn misprint_m15b_the_box_is_moved_by_the_mean_of_near_and_far() {
     let (near, far) = (2.0, 6.0);
     let product = |z: f64| {
-        let to_centre = Affine::<View, View>::translation(Vector::new(-1.0, 0.5, z));
-        to_centre.then(Affine::<View, View>::scale(2.0 / 4.0, 2.0 / 3.0, -2.0 / (far - near))).raw()
+        let to_center = Affine::<View, View>::translation(Vector::new(-1.0, 0.5, z));
+        to_center.then(Affine::<View, View>::scale(2.0 / 4.0, 2.0 / 3.0, -2.0 / (far - near))).raw()
     };
     let ours = Orthographic::new(-1.0, 3.0, -2.0, 1.0, near, far)
         .expect("valid")

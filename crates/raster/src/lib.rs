@@ -2,20 +2,22 @@
 //! visibility buffer and deferred shading.
 //!
 //! ```text
-//!   ScreenVertex ──► Frame ──► tile bins ──► tile: coverage, depth test ──► fragments ──► Surface ──► pixels
-//!   1/256 pixel      assembly  64 × 64       visibility buffer, layers     weights       colors
+//!   ScreenVertex ─► Frame ─► tile bins ─► tile: coverage, depth ─► fragments ─► Surface ─► pixels
+//!   1/256 pixel     assembly 64 × 64      visibility, layers       weights      colors
 //! ```
 //!
 //! | stage | file |
 //! | --- | --- |
-//! | perspective divide, viewport, fixed-point snapping | `vertex_projection.rs`, `screen_vertex.rs` |
+//! | perspective divide, viewport, snapping | `vertex_projection.rs`, `screen_vertex.rs` |
 //! | cluster culling: back faces by normal cones | `clusters.rs` |
 //! | primitive assembly, back-face culling | `frame.rs` |
 //! | tile binning | `tile_bins.rs` |
-//! | triangle setup: edge functions, depth plane | `triangle_setup.rs`, `edge_function.rs`, `triangle_batch.rs` |
+//! | triangle setup: depth plane | `triangle_setup.rs`, `triangle_batch.rs` |
+//! | edge functions, top-left rule | `edge_function.rs` |
 //! | coverage, depth test, hierarchical z | `rasterize.rs`, `sample_plane.rs` |
 //! | hidden-surface removal per tile, alpha test, layers | `tile_visibility.rs` |
-//! | shading, multisample resolve, blending | `tile_resolve.rs`, `edge_pixels.rs`, `layer_blending.rs` |
+//! | deferred shading | `tile_resolve.rs`, `fragment.rs`, `fragment_lanes.rs` |
+//! | multisample resolve, blending | `edge_pixels.rs`, `layer_blending.rs` |
 //! | SIMD dispatch, threads | `simd_level.rs`, `parallel.rs`, `tile_loop.rs` |
 //!
 //! Vertices are snapped to 1/256 pixel once; from there on coverage is a matter of integers, and a
@@ -105,3 +107,8 @@ pub use surface::{Encode, Surface};
 pub use surface_depth::SurfaceDepth;
 pub use vertex_projection::VertexProjection;
 pub use visibility_buffer::VisibilityBuffer;
+
+/// The examples of the README, compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -4,7 +4,7 @@
 //! | pixels of a row | shaded | by |
 //! | --- | --- | --- |
 //! | eight neighbors with one triangle each | as they lie | this module |
-//! | with several triangles (edges) | the first sample's as neighbors, the others gathered | [`EdgePixels`] |
+//! | with several triangles (edges) | neighbors, then the gathered rest | [`EdgePixels`] |
 //! | under translucent layers | gathered, blended sample by sample | [`LayeredPixels`] |
 //!
 //! Most pixels are of the first kind, which needs no gathering and no sums.

@@ -1,8 +1,8 @@
 //! Visibility of one tile: hidden-surface removal for its bin of triangles.
 //!
 //! ```text
-//!   bin ──► drop what is hidden ──► setup, eight at a time ──► rasterize ──► planes: depth + triangle
-//!                                                          └─► translucent ──► layers, back to front
+//!   bin ─► drop what is hidden ─► setup, eight at a time ─► rasterize ─► planes: depth, triangle
+//!                                                        └► translucent ─► layers, back to front
 //! ```
 //!
 //! The result is a visibility buffer: for each sample the index of the nearest opaque triangle, and

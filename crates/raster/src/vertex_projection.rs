@@ -2,7 +2,7 @@
 //! vertices at a time.
 //!
 //! ```text
-//!   position ──to_clip──► (x, y, z, w) ──÷ w──► NDC ──ndc_to_screen──► pixels ──round──► ScreenVertex
+//!   position ─to_clip─► (x, y, z, w) ─÷ w─► NDC ─ndc_to_screen─► pixels ─round─► ScreenVertex
 //! ```
 //!
 //! Every operation has the order of the single point's ([`ScreenVertex::snap`]), so that a vertex

@@ -221,7 +221,7 @@ fn weights_are_finite_and_whole_for_every_w() {
         frame.add_triangle(vertices, 0, Opacity::Opaque);
         let mut all = Vec::new();
         frame.for_each_fragment(|seen| {
-            all.push([seen.weights, seen.weights_dx(), seen.weights_dy()])
+            all.push([seen.weights, seen.weights_dx(), seen.weights_dy()]);
         });
         all
     };

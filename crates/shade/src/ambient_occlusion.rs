@@ -1,91 +1,106 @@
-//! Ambient occlusion in screen space: how much of the light from all around a place sees, as far as the picture shows what is in
-//! the way.
+//! Screen-space ambient occlusion: the fraction of the light from all directions that arrives at a
+//! surface, as far as the picture shows what is in its way (GTAO).
 //!
 //! ```text
 //!          v  to the viewer
-//!    h1 ╲  │  ╱ h2          in each of some planes through v, the highest
-//!        ╲ │ ╱              thing on either side within a radius; between the two
-//!   ▟█▙▖  ╲│╱  ▗▟██▙        the light comes in (Jimenez and others, *Practical
+//!    h1 ╲  │  ╱ h2          in each of some planes through v, slices, the horizon is the
+//!        ╲ │ ╱              highest surface on either side within a radius; between the
+//!   ▟█▙▖  ╲│╱  ▗▟██▙        horizons light comes in (Jimenez and others, *Practical
 //!   ███████●████████        real-time strategies for accurate indirect occlusion*, 2016)
 //! ```
 //!
-//! The planes and steps are the same at every pixel, so there is no noise to be blurred away, and depths are read as planes, so
-//! that flat surfaces do not occlude themselves.
+//! Slices and steps are the same at every pixel, so that there is no noise to be blurred away, and
+//! depths are read as planes, so that flat surfaces do not occlude themselves.
 //!
-//! The rule against stripes: what a pixel finds must move with the pixel, without a step. With fixed steps alone it does not, in four
-//! ways, and each has its answer.
-//! - A step lands somewhere below the upper border of a wall, elsewhere from pixel to pixel, and draws copies of the border on the
-//!   ground. The border is therefore sought around the highest step, by halves, until it is known to a part of a pixel.
-//! - A wall that is left at the last step leaves with all that it hides. Nothing is therefore cut off on the screen: steps go as far as
-//!   the radius does, however large that is in pixels, and at the radius nothing counts any more.
-//! - Of a wall that leads away only the near end is within the radius, and steps pass it by. What is beyond the radius or below the
-//!   surface is therefore ranked too, by how far it is from hiding something, and its border sought when nothing ranks above it.
-//! - A plane passes a wall's corner at once. Each of many planes counts little.
+//! The rule against banding: what a pixel finds must move with the pixel, without a jump. With
+//! fixed steps alone it does not, in four ways, and each has its answer.
+//! - A step lands somewhere below the upper border of a wall, elsewhere from pixel to pixel, and
+//!   draws copies of the border on the ground. The border is therefore searched around the highest
+//!   step, by bisection, until it is known to a fraction of a pixel.
+//! - A wall that is left at the last step leaves with all that it hides. Nothing is therefore cut
+//!   off on the screen: steps go as far as the radius does, however large that is in pixels, and
+//!   with the radius occlusion falls off to nothing.
+//! - Of a wall that leads away only the near end is within the radius, and steps pass it by. What
+//!   is beyond the radius or below the surface is therefore ranked too, by how far it is from
+//!   occluding something, and its border searched when nothing ranks above it.
+//! - A slice passes a wall's corner at once. Each of many slices has little weight.
 //!
-//! All directions of all planes take a step at once: plain loops over them become vector instructions.
+//! All directions of all slices take a step at once: loops over them become vector instructions.
 
-use super::fragment_lanes::{cross, dot, lane_vector};
+use super::lanes::{Lanes, Vec3Lanes};
+use super::vector::{add, cross, dot, subtract};
 use glam::DMat4;
 use raster::SurfaceDepth;
 use std::f32::consts::{FRAC_PI_2, PI};
+use std::ops::{Add, Mul};
 
-/// How many planes through the view are looked along.
+/// The planes through the view in which horizons are searched.
 const SLICE_COUNT: usize = 12;
-/// To either side.
+/// The directions on the screen: to both sides in each slice.
 const DIRECTION_COUNT: usize = 2 * SLICE_COUNT;
-/// The least and the most steps to either side, and how many pixels there are to each between.
+/// The least and the most steps in a direction.
 const STEP_COUNT_RANGE: [f32; 2] = [6.0, 20.0];
+/// The mean length of a step between these limits.
 const PIXELS_PER_STEP: f32 = 8.0;
-/// A height that nothing has.
+/// A height below all others, as a cosine: nothing was found.
 const NO_HORIZON: f32 = -2.0;
-/// How far below the surface, as a difference of cosines, something is the surface itself.
+/// The depth below the surface, as a difference of cosines, within which something is the surface
+/// itself.
 const SURFACE_TOLERANCE: f32 = 0.002;
-/// How many radii away something is too far for its border to be within one.
+/// The distance in radii from which on the border of something cannot be within the radius.
 const MAX_RADII: f32 = 2.0;
-/// How often the border of the highest thing is looked for between two steps.
+/// The bisections by which the border of the horizon is refined.
 const REFINEMENT_STEPS: usize = 6;
 
-/// What a picture shows of its scene, to tell occlusion from.
+/// The nearest surfaces of a picture, from which ambient occlusion is computed.
 #[derive(Clone, Debug)]
 pub struct AmbientOcclusion {
-    /// The nearest surface of each pixel.
+    /// The nearest surface of each pixel, rows from the top.
     pub nearest: Vec<SurfaceDepth>,
+    /// Width and height in pixels.
     size: [u32; 2],
-    /// Where places are counted from.
+    /// The position that others are relative to, for precision.
     origin: [f32; 3],
-    /// The rows of the map from places to (x·w, y·w, depth·w, w) on the screen, and of its inverse.
+    /// The rows of the matrix from relative positions to (x·w, y·w, depth·w, w) on the screen.
     world_to_screen: [[f32; 4]; 4],
+    /// The rows of its inverse.
     screen_to_world: [[f32; 4]; 4],
-    /// Across the view, as long as the radius.
+    /// A vector across the view, as long as the radius.
     radius_across_view: [f32; 3],
+    /// The distance in the world from which on nothing occludes.
     radius: f32,
     /// The diagonal of the picture in pixels: nothing is farther away.
     diagonal: f32,
-    /// The directions on the screen.
+    /// The directions on the screen: x and y.
     directions: [DirectionLanes; 2],
 }
 
-/// A number for each direction: first those to one side, then those to the other.
-type DirectionLanes = [f32; DIRECTION_COUNT];
+/// A number for each direction: first the one side of all slices, then the other.
+type DirectionLanes = Lanes<DIRECTION_COUNT>;
 
-/// A look from a place in all directions.
+/// The search for the horizons around one position.
 #[derive(Clone, Copy, Debug)]
 struct HorizonSearch {
-    /// The place, from the origin, and the unit vector to the viewer.
+    /// The position, relative to the origin.
     position: [f32; 3],
+    /// The unit vector to the viewer.
     view: [f32; 3],
-    /// The place on the screen, and the directions there.
+    /// The position on the screen, with its depth.
     screen_position: [f32; 3],
+    /// The directions on the screen: x and y.
     directions: [DirectionLanes; 2],
-    /// How far the steps of each direction are from full ones.
+    /// The fraction of a step by which each direction is ahead.
     step_offsets: DirectionLanes,
-    /// The cosines of the angles from the view to the surface itself.
+    /// The cosines of the angles from the view down to the surface itself.
     surface_cosines: DirectionLanes,
 }
 
 impl AmbientOcclusion {
-    /// By the nearest surfaces of a picture of this size, a matrix from the world to its pixels and depth, and how far away things
-    /// still count; `across` is a unit vector across the view.
+    /// Occlusion by the nearest surfaces of a picture of this size.
+    ///
+    /// `world_to_screen` maps the world to pixels and depth; `origin` is a position near the
+    /// surfaces; `across` is a unit vector across the view; within `radius` in the world surfaces
+    /// occlude.
     pub fn new(
         nearest: Vec<SurfaceDepth>,
         size: [u32; 2],
@@ -94,23 +109,24 @@ impl AmbientOcclusion {
         across: glam::DVec3,
         radius: f64,
     ) -> Self {
-        let moved = world_to_screen * DMat4::from_translation(origin.as_vec3().as_dvec3());
+        let relative_to_screen =
+            world_to_screen * DMat4::from_translation(origin.as_vec3().as_dvec3());
         let rows = |m: DMat4| [0, 1, 2, 3].map(|k| m.row(k).as_vec4().to_array());
-        let mut directions = [[0.0; DIRECTION_COUNT]; 2];
+        let mut directions = [DirectionLanes::ZERO; 2];
         for slice in 0..SLICE_COUNT {
             let angle = std::f64::consts::PI * (slice as f64 + 0.5) / SLICE_COUNT as f64;
-            let way = [libm::cos(angle) as f32, libm::sin(angle) as f32];
-            for axis in 0..2 {
-                directions[axis][slice] = way[axis];
-                directions[axis][slice + SLICE_COUNT] = -way[axis];
+            let direction = [libm::cos(angle) as f32, libm::sin(angle) as f32];
+            for (axis, component) in directions.iter_mut().zip(direction) {
+                axis[slice] = component;
+                axis[slice + SLICE_COUNT] = -component;
             }
         }
         Self {
             nearest,
             size,
             origin: origin.as_vec3().to_array(),
-            world_to_screen: rows(moved),
-            screen_to_world: rows(moved.inverse()),
+            world_to_screen: rows(relative_to_screen),
+            screen_to_world: rows(relative_to_screen.inverse()),
             radius_across_view: (across * radius).as_vec3().to_array(),
             radius: radius as f32,
             diagonal: (size[0] as f32 * size[0] as f32 + size[1] as f32 * size[1] as f32).sqrt(),
@@ -118,207 +134,210 @@ impl AmbientOcclusion {
         }
     }
 
-    /// The share of the light from all around that arrives at places with these unit normals and unit vectors to the viewer.
+    /// The ambient visibility of positions in the world, 0 to 1: the fraction of the light from all
+    /// directions that arrives there, for unit normals and unit vectors to the viewer.
     #[inline(always)]
     pub(super) fn visibility<const N: usize>(
         &self,
-        places: &[[f32; N]; 3],
-        normals: &[[f32; N]; 3],
-        views: &[[f32; N]; 3],
-    ) -> [f32; N] {
-        let mut open = [1.0; N];
-        for lane in 0..N {
-            let [p, n, v] = [places, normals, views].map(|vectors| lane_vector(vectors, lane));
-            open[lane] = self.visibility_at(p, n, v);
-        }
-        open
+        positions: Vec3Lanes<N>,
+        normals: Vec3Lanes<N>,
+        views: Vec3Lanes<N>,
+    ) -> Lanes<N> {
+        Lanes::from_fn(|lane| {
+            let [position, normal, view] =
+                [positions, normals, views].map(|vectors| vectors.lane(lane));
+            self.visibility_at(position, normal, view)
+        })
     }
 
+    /// The visibility of one position: the cosine-weighted arcs between the horizons, over all
+    /// slices.
     #[inline(always)]
-    fn visibility_at(&self, place: [f32; 3], n: [f32; 3], v: [f32; 3]) -> f32 {
-        let p = subtract(place, self.origin);
-        let (Some(here), Some(beside)) = (
-            self.project_to_screen(p),
-            self.project_to_screen(add_vectors(p, self.radius_across_view)),
-        ) else {
+    fn visibility_at(&self, position: [f32; 3], normal: [f32; 3], view: [f32; 3]) -> f32 {
+        let position = subtract(position, self.origin);
+        let beside = self.project_to_screen(add(position, self.radius_across_view));
+        let (Some(screen_position), Some(beside)) = (self.project_to_screen(position), beside)
+        else {
             return 1.0;
         };
-        let (dx, dy) = (beside[0] - here[0], beside[1] - here[1]);
-        let reach = (dx * dx + dy * dy).sqrt().min(self.diagonal);
-        if reach <= 1.0 || reach.is_nan() {
+        // The radius in pixels; below one pixel nothing could be found.
+        let (dx, dy) = (beside[0] - screen_position[0], beside[1] - screen_position[1]);
+        let screen_radius = (dx * dx + dy * dy).sqrt().min(self.diagonal);
+        if screen_radius <= 1.0 || screen_radius.is_nan() {
             return 1.0;
         }
-        let nothing = [0.0; DIRECTION_COUNT];
-        let mut look = HorizonSearch {
-            position: p,
-            view: v,
-            screen_position: here,
+        let mut search = HorizonSearch {
+            position,
+            view,
+            screen_position,
             directions: self.directions,
-            step_offsets: nothing,
-            surface_cosines: nothing,
+            step_offsets: Lanes::ZERO,
+            surface_cosines: Lanes::ZERO,
         };
-        let (mut shares, mut tilts) = ([0.0; SLICE_COUNT], [0.0; SLICE_COUNT]);
+        let (mut weights, mut tilts) = ([0.0; SLICE_COUNT], [0.0; SLICE_COUNT]);
         for slice in 0..SLICE_COUNT {
-            // Steps of one direction lie between those of the others, so that no border is seen several times side by side.
-            let shift = (0.618_034 * slice as f32) % 1.0;
-            (look.step_offsets[slice], look.step_offsets[slice + SLICE_COUNT]) =
-                (shift, 1.0 - shift);
-            (shares[slice], tilts[slice]) = self.project_normal(&look, n, slice, reach);
+            // Steps of one direction lie between those of the others, so that no border is found
+            // several times side by side.
+            let offset = (0.618_034 * slice as f32) % 1.0;
+            search.step_offsets[slice] = offset;
+            search.step_offsets[slice + SLICE_COUNT] = 1.0 - offset;
+            (weights[slice], tilts[slice]) =
+                self.project_normal(&search, normal, slice, screen_radius);
             let [up, down] = surface_horizons(tilts[slice]);
-            (look.surface_cosines[slice], look.surface_cosines[slice + SLICE_COUNT]) =
-                (libm::cosf(up), libm::cosf(down));
+            search.surface_cosines[slice] = libm::cosf(up);
+            search.surface_cosines[slice + SLICE_COUNT] = libm::cosf(down);
         }
-        let highest = self.find_horizons(&look, reach);
-        let (mut open, mut all) = (0.0, 0.0);
-        for slice in 0..SLICE_COUNT {
-            let (share, tilt) = (shares[slice], tilts[slice]);
+        // Horizon search, then the visible arc of each slice, weighted by the projected normal.
+        let horizons = self.find_horizons(&search, screen_radius);
+        let (mut visible, mut all) = (0.0, 0.0);
+        for (slice, (weight, tilt)) in weights.into_iter().zip(tilts).enumerate() {
             let mut angles = surface_horizons(tilt);
             for (angle, direction) in angles.iter_mut().zip([slice, slice + SLICE_COUNT]) {
-                if highest[direction] > look.surface_cosines[direction] {
-                    *angle = acos_clamped(highest[direction]);
+                if horizons[direction] > search.surface_cosines[direction] {
+                    *angle = acos_clamped(horizons[direction]);
                 }
             }
-            open += share * (integrate_arc(angles[0], tilt) + integrate_arc(-angles[1], tilt));
-            // The same between the two sides of the surface.
-            all += share * (libm::cosf(tilt) + tilt * libm::sinf(tilt));
+            visible += weight * (integrate_arc(angles[0], tilt) + integrate_arc(-angles[1], tilt));
+            // The arc between the two sides of the surface itself.
+            all += weight * (libm::cosf(tilt) + tilt * libm::sinf(tilt));
         }
-        if all > 0.0 { (open / all).clamp(0.0, 1.0) } else { 1.0 }
+        if all > 0.0 { (visible / all).clamp(0.0, 1.0) } else { 1.0 }
     }
 
-    /// How much of a normal lies within a plane, and its angle from the view there.
+    /// Projects a normal into the plane of a slice: its length there, and its angle from the view.
     #[inline(always)]
     fn project_normal(
         &self,
-        look: &HorizonSearch,
-        n: [f32; 3],
+        search: &HorizonSearch,
+        normal: [f32; 3],
         slice: usize,
-        reach: f32,
+        screen_radius: f32,
     ) -> (f32, f32) {
-        let HorizonSearch { position: p, view: v, screen_position: here, directions: ways, .. } =
-            look;
-        let ahead = [here[0] + ways[0][slice] * reach, here[1] + ways[1][slice] * reach, here[2]];
-        let along = subtract(self.unproject(ahead), *p);
-        let back = dot(along, *v);
-        let flat = subtract(along, v.map(|c| c * back));
-        let length = dot(flat, flat).sqrt();
+        let HorizonSearch { position, view, screen_position, directions, .. } = search;
+        let ahead = [
+            screen_position[0] + directions[0][slice] * screen_radius,
+            screen_position[1] + directions[1][slice] * screen_radius,
+            screen_position[2],
+        ];
+        // The slice's direction in the world, perpendicular to the view.
+        let along = subtract(self.unproject(ahead), *position);
+        let along_view = dot(along, *view);
+        let across = subtract(along, view.map(|c| c * along_view));
+        let length = dot(across, across).sqrt();
         if !(length > 0.0 && length.is_finite()) {
             return (0.0, 0.0);
         }
-        let flat = flat.map(|c| c / length);
-        let axis = cross(flat, *v);
-        let lean = dot(n, axis);
-        let inside = subtract(n, axis.map(|c| c * lean));
-        let share = dot(inside, inside).sqrt();
-        let tilt = acos_clamped(dot(inside, *v) / share.max(1e-6));
-        (share, if dot(inside, flat) < 0.0 { -tilt } else { tilt })
+        let across = across.map(|c| c / length);
+        let slice_normal = cross(across, *view);
+        let out_of_plane = dot(normal, slice_normal);
+        // The projected normal: its length weights the slice, its angle tilts the arc.
+        let projected = subtract(normal, slice_normal.map(|c| c * out_of_plane));
+        let weight = dot(projected, projected).sqrt();
+        let tilt = acos_clamped(dot(projected, *view) / weight.max(1e-6));
+        (weight, if dot(projected, across) < 0.0 { -tilt } else { tilt })
     }
 
-    /// The height of the highest thing in each direction.
+    /// The height of the horizon in each direction, as a cosine from the view.
     #[inline(always)]
-    fn find_horizons(&self, look: &HorizonSearch, reach: f32) -> DirectionLanes {
-        let steps =
-            (reach / PIXELS_PER_STEP).clamp(STEP_COUNT_RANGE[0], STEP_COUNT_RANGE[1]) as i32;
-        // Steps are short nearby, where they count most.
-        let far = |step: f32, shift: f32| {
-            let t = (step + shift) / steps as f32;
-            1.0 + t * t * (reach - 1.0)
+    fn find_horizons(&self, search: &HorizonSearch, screen_radius: f32) -> DirectionLanes {
+        let step_count = screen_radius / PIXELS_PER_STEP;
+        let step_count = step_count.clamp(STEP_COUNT_RANGE[0], STEP_COUNT_RANGE[1]) as i32;
+        // Steps are short nearby, where they have most weight.
+        let distance = |step: f32, offset: f32| {
+            let t = (step + offset) / step_count as f32;
+            1.0 + t * t * (screen_radius - 1.0)
         };
-        let (mut highest, mut at) = ([NO_HORIZON; DIRECTION_COUNT], [-1.0; DIRECTION_COUNT]);
-        for step in 0..steps {
-            let mut probes = [0.0; DIRECTION_COUNT];
-            for (probe, &shift) in probes.iter_mut().zip(&look.step_offsets) {
-                *probe = far(step as f32, shift);
-            }
-            let heights = self.horizon_heights(look, &probes);
+        let mut horizons = DirectionLanes::splat(NO_HORIZON);
+        let mut best_steps = DirectionLanes::splat(-1.0);
+        for step in 0..step_count {
+            let step = step as f32;
+            let probes = search.step_offsets.map(|offset| distance(step, offset));
+            let heights = self.horizon_heights(search, probes);
             for k in 0..DIRECTION_COUNT {
-                let is_higher = heights[k] > highest[k];
-                at[k] = if is_higher { step as f32 } else { at[k] };
-                highest[k] = if is_higher { heights[k] } else { highest[k] };
+                let is_higher = heights[k] > horizons[k];
+                best_steps[k] = if is_higher { step } else { best_steps[k] };
+                horizons[k] = if is_higher { heights[k] } else { horizons[k] };
             }
         }
-        // The best place, and the ends of what it is the best of.
-        let mut ends = [[0.0; DIRECTION_COUNT]; 3];
-        for (k, &shift) in look.step_offsets.iter().enumerate() {
-            let before = at[k] - 1.0;
-            ends[0][k] = far(if before > -shift { before } else { -shift }, shift);
-            ends[1][k] = far(at[k], shift);
-            ends[2][k] = far(at[k] + 1.0, shift);
-        }
-        self.refine_horizons(look, ends, &mut highest);
-        for k in 0..DIRECTION_COUNT {
-            highest[k] = if at[k] < 0.0 { NO_HORIZON } else { highest[k] };
-        }
-        highest
+        // The best step, and its neighbors on either side.
+        let offset = |k: usize| search.step_offsets[k];
+        let before = DirectionLanes::from_fn(|k| {
+            let before = best_steps[k] - 1.0;
+            distance(if before > -offset(k) { before } else { -offset(k) }, offset(k))
+        });
+        let best = DirectionLanes::from_fn(|k| distance(best_steps[k], offset(k)));
+        let after = DirectionLanes::from_fn(|k| distance(best_steps[k] + 1.0, offset(k)));
+        self.refine_horizons(search, [before, best, after], &mut horizons);
+        DirectionLanes::splat(NO_HORIZON).select(&best_steps.is_below(0.0), horizons)
     }
 
-    /// Looks for higher places between the ends, which are on both sides of the best.
+    /// Searches for higher horizons between the ends of an interval around the best distance, by
+    /// bisection of its larger half.
     #[inline(always)]
     fn refine_horizons(
         &self,
-        look: &HorizonSearch,
+        search: &HorizonSearch,
         [mut from, mut best, mut to]: [DirectionLanes; 3],
-        highest: &mut DirectionLanes,
+        horizons: &mut DirectionLanes,
     ) {
         for _ in 0..REFINEMENT_STEPS {
-            let (mut probes, mut is_before) = ([0.0; DIRECTION_COUNT], [false; DIRECTION_COUNT]);
-            for k in 0..DIRECTION_COUNT {
-                is_before[k] = best[k] - from[k] > to[k] - best[k];
-                probes[k] = 0.5 * (best[k] + if is_before[k] { from[k] } else { to[k] });
+            let (mut probes, mut is_before) = (DirectionLanes::ZERO, [false; DIRECTION_COUNT]);
+            for (k, is_before) in is_before.iter_mut().enumerate() {
+                *is_before = best[k] - from[k] > to[k] - best[k];
+                probes[k] = 0.5 * (best[k] + if *is_before { from[k] } else { to[k] });
             }
-            let heights = self.horizon_heights(look, &probes);
-            for k in 0..DIRECTION_COUNT {
-                let is_higher = heights[k] > highest[k];
-                // What is nearer on the one side of the new best is the old best, and the probe on its own side otherwise.
+            let heights = self.horizon_heights(search, probes);
+            for (k, is_before) in is_before.into_iter().enumerate() {
+                let is_higher = heights[k] > horizons[k];
+                // The end that moves: to the old best on the one side of a new best, and otherwise
+                // to the probe on its own side.
                 let near = if is_higher { best[k] } else { probes[k] };
-                let moves_from = is_higher != is_before[k];
+                let moves_from = is_higher != is_before;
                 from[k] = if moves_from { near } else { from[k] };
                 to[k] = if moves_from { to[k] } else { near };
                 best[k] = if is_higher { probes[k] } else { best[k] };
-                highest[k] = if is_higher { heights[k] } else { highest[k] };
+                horizons[k] = if is_higher { heights[k] } else { horizons[k] };
             }
         }
     }
 
-    /// The cosine of the angle from the view to what is seen so many pixels away in each direction, which is drawn to that of the
-    /// surface the farther away it is. What is below the surface or beyond the radius hides nothing, and is ranked by how far it is from
-    /// doing so: its border may, between two steps.
+    /// The heights of the surfaces at some pixels' distance in each direction, as cosines of the
+    /// angle from the view.
+    ///
+    /// A height is drawn to that of the surface itself the farther away it is: occlusion falls off
+    /// with the square of the distance. What is below the surface or beyond the radius occludes
+    /// nothing, and is ranked by how far it is from doing so: its border may, between two steps.
     #[inline(always)]
-    fn horizon_heights(&self, look: &HorizonSearch, far: &DirectionLanes) -> DirectionLanes {
-        let HorizonSearch {
-            position: p,
-            view: v,
-            screen_position: here,
-            directions: ways,
-            surface_cosines: lows,
-            ..
-        } = look;
-        let (mut x, mut y) = ([0.0; DIRECTION_COUNT], [0.0; DIRECTION_COUNT]);
-        for k in 0..DIRECTION_COUNT {
-            x[k] = here[0] + ways[0][k] * far[k];
-            y[k] = here[1] + ways[1][k] * far[k];
-        }
-        let depths = self.sample_depths(&x, &y);
-        let mut heights = [0.0; DIRECTION_COUNT];
-        for k in 0..DIRECTION_COUNT {
-            let apart = subtract(self.unproject([x[k], y[k], depths[k]]), *p);
-            let distance = dot(apart, apart).sqrt();
-            let near = distance / self.radius;
-            let above = dot(apart, *v) / distance - lows[k];
-            let is_seen = (depths[k] > 0.0) & (distance > 0.0) & (near < MAX_RADII);
-            let is_level = (-SURFACE_TOLERANCE < above) & (above <= 0.0);
-            let hiding = lows[k] + above * (1.0 - near * near);
+    fn horizon_heights(&self, search: &HorizonSearch, distances: DirectionLanes) -> DirectionLanes {
+        let HorizonSearch { position, view, screen_position, directions, .. } = search;
+        let surface = &search.surface_cosines;
+        // The surfaces there, in the world, relative to the position.
+        let x = screen_position[0] + directions[0] * distances;
+        let y = screen_position[1] + directions[1] * distances;
+        let depths = self.sample_depths(x, y);
+        let found = Vec3Lanes::from(self.unproject([x, y, depths]));
+        let offsets = found - Vec3Lanes::splat(*position);
+        let distances = offsets.dot(offsets).sqrt();
+        let radii = distances / self.radius;
+        let above = offsets.dot(Vec3Lanes::splat(*view)) / distances - *surface;
+        DirectionLanes::from_fn(|k| {
+            let (above, radii, surface) = (above[k], radii[k], surface[k]);
+            // `&` instead of `&&`: all conditions are computed, without branches.
+            let is_found = (depths[k] > 0.0) & (distances[k] > 0.0) & (radii < MAX_RADII);
+            let is_surface_itself = (-SURFACE_TOLERANCE < above) & (above <= 0.0);
+            let occluding = surface + above * (1.0 - radii * radii);
             let below = if above < 0.0 { above } else { 0.0 };
-            let beyond = if near > 1.0 { near - 1.0 } else { 0.0 };
-            let ranked = lows[k] + below - beyond;
-            let height = if (near < 1.0) & (above > 0.0) { hiding } else { ranked };
-            heights[k] = if is_seen & !is_level { height } else { NO_HORIZON };
-        }
-        heights
+            let beyond = if radii > 1.0 { radii - 1.0 } else { 0.0 };
+            let ranked = surface + below - beyond;
+            let height = if (radii < 1.0) & (above > 0.0) { occluding } else { ranked };
+            if is_found & !is_surface_itself { height } else { NO_HORIZON }
+        })
     }
 
-    /// The depths of what is seen somewhere on the screen, not above 0 where nothing is.
+    /// The depths of the nearest surfaces at positions on the screen, on the surfaces' planes; not
+    /// above 0 where there are none.
     #[inline(always)]
-    fn sample_depths(&self, x: &DirectionLanes, y: &DirectionLanes) -> DirectionLanes {
+    fn sample_depths(&self, x: DirectionLanes, y: DirectionLanes) -> DirectionLanes {
         let [width, height] = self.size.map(|side| side as f32);
         let (mut columns, mut rows) = ([0; DIRECTION_COUNT], [0; DIRECTION_COUNT]);
         let mut is_inside = [false; DIRECTION_COUNT];
@@ -327,66 +346,72 @@ impl AmbientOcclusion {
             columns[k] = if is_inside[k] { x[k] } else { 0.0 } as i32;
             rows[k] = if is_inside[k] { y[k] } else { 0.0 } as i32;
         }
-        let mut seen = [SurfaceDepth::EMPTY; DIRECTION_COUNT];
-        for k in 0..DIRECTION_COUNT {
-            let at = rows[k] as usize * self.size[0] as usize + columns[k] as usize;
-            seen[k] = self.nearest.get(at).copied().unwrap_or(SurfaceDepth::EMPTY);
+        let mut surfaces = [SurfaceDepth::EMPTY; DIRECTION_COUNT];
+        for (surface, (column, row)) in surfaces.iter_mut().zip(columns.into_iter().zip(rows)) {
+            // A gather, from a position that is on the picture in any case.
+            let index = row as usize * self.size[0] as usize + column as usize;
+            *surface = self.nearest.get(index).copied().unwrap_or(SurfaceDepth::EMPTY);
         }
-        let mut depths = [0.0; DIRECTION_COUNT];
-        for k in 0..DIRECTION_COUNT {
+        DirectionLanes::from_fn(|k| {
+            let SurfaceDepth { depth, dx, dy } = surfaces[k];
             let (right, down) = (x[k] - columns[k] as f32 - 0.5, y[k] - rows[k] as f32 - 0.5);
-            let depth = seen[k].depth + seen[k].dx * right + seen[k].dy * down;
-            depths[k] = if is_inside[k] { depth } else { 0.0 };
-        }
-        depths
+            let depth = depth + dx * right + dy * down;
+            if is_inside[k] { depth } else { 0.0 }
+        })
     }
 
-    /// A place on the screen.
+    /// A relative position on the screen, with its depth; `None` behind the eye.
     #[inline(always)]
-    fn project_to_screen(&self, p: [f32; 3]) -> Option<[f32; 3]> {
-        let w = transform_row(&self.world_to_screen[3], p);
-        let seen = [0, 1, 2].map(|k: usize| transform_row(&self.world_to_screen[k], p) / w);
-        (w > 0.0).then_some(seen)
+    fn project_to_screen(&self, position: [f32; 3]) -> Option<[f32; 3]> {
+        let w = transform_row(&self.world_to_screen[3], position);
+        let projected =
+            [0, 1, 2].map(|k: usize| transform_row(&self.world_to_screen[k], position) / w);
+        (w > 0.0).then_some(projected)
     }
 
-    /// The place in the world of one on the screen.
+    /// The relative position in the world of one on the screen with a depth.
     #[inline(always)]
-    fn unproject(&self, s: [f32; 3]) -> [f32; 3] {
-        let per = 1.0 / transform_row(&self.screen_to_world[3], s);
-        [0, 1, 2].map(|k: usize| transform_row(&self.screen_to_world[k], s) * per)
+    fn unproject<T>(&self, screen_position: [T; 3]) -> [T; 3]
+    where
+        T: Copy + Add<Output = T> + Add<f32, Output = T> + Mul<Output = T> + Mul<f32, Output = T>,
+        f32: std::ops::Div<T, Output = T>,
+    {
+        let inv_w = 1.0 / transform_row(&self.screen_to_world[3], screen_position);
+        let [x, y, z, _] = &self.screen_to_world;
+        [
+            transform_row(x, screen_position) * inv_w,
+            transform_row(y, screen_position) * inv_w,
+            transform_row(z, screen_position) * inv_w,
+        ]
     }
 }
 
-/// The angles from the view down to the surface itself, to either side, in a plane where its normal leans by an angle.
+/// The angles from the view down to the surface itself, to either side, in a slice where its normal
+/// is tilted by an angle.
 #[inline(always)]
 fn surface_horizons(tilt: f32) -> [f32; 2] {
     [(FRAC_PI_2 + tilt).min(PI), (FRAC_PI_2 - tilt).min(PI)]
 }
 
-/// The light between the view and an angle in a plane where the normal leans by another: the integral of the cosine to the normal
-/// times the sine to the view.
+/// The light between the view and an angle in a slice where the normal is tilted by another: the
+/// integral of the cosine to the normal times the sine to the view (Jimenez et al. 2016, eq. 7).
 #[inline(always)]
 fn integrate_arc(angle: f32, tilt: f32) -> f32 {
     let (sine, cosine) = (libm::sinf(tilt), libm::cosf(tilt));
     0.25 * (cosine - libm::cosf(2.0 * angle - tilt) + 2.0 * angle * sine)
 }
 
+/// The angle with a cosine that rounding may have put beyond ±1.
 #[inline(always)]
 fn acos_clamped(cosine: f32) -> f32 {
     libm::acosf(cosine.clamp(-1.0, 1.0))
 }
 
+/// A row of an affine or projective matrix times a position: of one, or of lanes.
 #[inline(always)]
-fn transform_row(row: &[f32; 4], p: [f32; 3]) -> f32 {
-    row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3]
-}
-
-#[inline(always)]
-fn subtract(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-#[inline(always)]
-fn add_vectors(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+fn transform_row<T>(row: &[f32; 4], [x, y, z]: [T; 3]) -> T
+where
+    T: Copy + Add<Output = T> + Add<f32, Output = T> + Mul<f32, Output = T>,
+{
+    x * row[0] + y * row[1] + z * row[2] + row[3]
 }

@@ -1,22 +1,28 @@
-//! Corners: what the vertices of the fragments' primitives carry, fetched once where all are of one primitive.
+//! Vertex attributes: fetched for the vertices of fragments' primitives, and interpolated.
+//!
+//! The rasterizer writes a visibility buffer: which primitive a fragment is of, and the barycentric
+//! weights of its vertices. Attributes are fetched only when a fragment is shaded, once for all
+//! lanes where these are of one primitive.
 
-/// What a vertex carries in most draws, in one line of the processor's cache.
+use super::lanes::Lanes;
+
+/// The attributes of a vertex that most draws need, in half a cache line.
 ///
-/// Its place in the world, its unit normal there, and the texture coordinates that most textures are read by:
-/// `PLACE`, `NORMAL` and `UV` are where they begin.
+/// The position in the world, the unit normal there, and the texture coordinates that most textures
+/// are sampled by; they begin at [`POSITION`], [`NORMAL`] and [`UV`].
 pub type Vertex = [f32; 8];
 
-/// Where the place begins in a [`Vertex`].
+/// The offset of the position in a [`Vertex`].
 pub const POSITION: usize = 0;
-/// Where the normal begins in a [`Vertex`].
+/// The offset of the normal in a [`Vertex`].
 pub const NORMAL: usize = 3;
-/// Where the texture coordinates begin in a [`Vertex`].
+/// The offset of the texture coordinates in a [`Vertex`].
 pub const UV: usize = 6;
 
-/// For each corner, some of what the vertices carry, in all lanes.
-pub(super) type Attributes<const N: usize, const K: usize> = [[[f32; N]; K]; 3];
+/// For each of three vertices, an attribute of `K` components in all lanes.
+pub(super) type Attributes<const N: usize, const K: usize> = [[Lanes<N>; K]; 3];
 
-/// The numbers of the vertices of some fragments' primitives.
+/// The indices of the vertices of some fragments' primitives.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum VertexIndices<const N: usize> {
     /// All fragments are of one primitive.
@@ -25,7 +31,7 @@ pub(super) enum VertexIndices<const N: usize> {
     Each([[usize; 3]; N]),
 }
 
-/// The places of some fragments' primitives among those of their draw.
+/// The indices of some fragments' primitives within their draw.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum PrimitiveIndices<const N: usize> {
     /// All fragments are of one primitive.
@@ -35,68 +41,70 @@ pub(super) enum PrimitiveIndices<const N: usize> {
 }
 
 impl<const N: usize> PrimitiveIndices<N> {
-    /// What `number` says of the corners of each.
+    /// The vertices of each primitive, by a function from its index.
     #[inline(always)]
-    pub(super) fn vertex_indices(&self, number: impl Fn(usize) -> [usize; 3]) -> VertexIndices<N> {
+    pub(super) fn vertex_indices(
+        &self,
+        vertices_of: impl Fn(usize) -> [usize; 3],
+    ) -> VertexIndices<N> {
         match self {
-            Self::One(item) => VertexIndices::One(number(*item)),
-            Self::Each(items) => {
-                let mut corners = [[0; 3]; N];
-                for lane in 0..N {
-                    corners[lane] = number(items[lane]);
+            Self::One(primitive) => VertexIndices::One(vertices_of(*primitive)),
+            Self::Each(primitives) => {
+                let mut vertices = [[0; 3]; N];
+                for (vertices, primitive) in vertices.iter_mut().zip(primitives) {
+                    *vertices = vertices_of(*primitive);
                 }
-                VertexIndices::Each(corners)
+                VertexIndices::Each(vertices)
             }
         }
     }
 }
 
 impl<const N: usize> VertexIndices<N> {
-    /// `K` numbers of each corner, from the one at `first` on.
+    /// Fetches an attribute of `K` components of each vertex, which begin at `offset`.
     #[inline(always)]
     pub(super) fn fetch_attributes<const M: usize, const K: usize>(
         &self,
         values: &[[f32; M]],
-        first: usize,
+        offset: usize,
     ) -> Attributes<N, K> {
-        let mut carried = [[[0.0; N]; K]; 3];
+        let mut attributes = [[Lanes::ZERO; K]; 3];
         match self {
-            Self::One(corners) => {
-                for corner in 0..3 {
-                    let value = &values[corners[corner]];
-                    for k in 0..K {
-                        carried[corner][k] = [value[first + k]; N];
+            Self::One(vertices) => {
+                for (attribute, &vertex) in attributes.iter_mut().zip(vertices) {
+                    let value = &values[vertex];
+                    for (k, component) in attribute.iter_mut().enumerate() {
+                        *component = Lanes::splat(value[offset + k]);
                     }
                 }
             }
-            Self::Each(corners) => {
-                for lane in 0..N {
-                    for corner in 0..3 {
-                        let value = &values[corners[lane][corner]];
-                        for k in 0..K {
-                            carried[corner][k][lane] = value[first + k];
+            Self::Each(vertices) => {
+                // A gather: lane by lane, as each vertex is in another cache line.
+                for (lane, vertices) in vertices.iter().enumerate() {
+                    for (attribute, &vertex) in attributes.iter_mut().zip(vertices) {
+                        let value = &values[vertex];
+                        for (k, component) in attribute.iter_mut().enumerate() {
+                            component[lane] = value[offset + k];
                         }
                     }
                 }
             }
         }
-        carried
+        attributes
     }
 }
 
-/// What the corners carry, each times its weight, summed.
+/// Interpolates an attribute: the sum of those of the vertices, each times its barycentric weight.
+///
+/// With the derivatives of the weights it gives the derivative of the attribute.
 #[inline(always)]
 pub(super) fn interpolate<const N: usize, const K: usize>(
     [a, b, c]: &Attributes<N, K>,
-    weights: &[[f32; N]; 3],
-) -> [[f32; N]; K] {
-    let mut blended = [[0.0; N]; K];
-    for k in 0..K {
-        for lane in 0..N {
-            blended[k][lane] = a[k][lane] * weights[0][lane]
-                + b[k][lane] * weights[1][lane]
-                + c[k][lane] * weights[2][lane];
-        }
+    weights: &[Lanes<N>; 3],
+) -> [Lanes<N>; K] {
+    let mut values = [Lanes::ZERO; K];
+    for (k, value) in values.iter_mut().enumerate() {
+        *value = a[k] * weights[0] + b[k] * weights[1] + c[k] * weights[2];
     }
-    blended
+    values
 }

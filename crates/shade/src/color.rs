@@ -1,15 +1,24 @@
-//! Colours: linear light inside, sRGB at the ends (IEC 61966-2-1).
+//! Colors: linear light inside, sRGB at the ends (IEC 61966-2-1).
 //!
-//! Both directions go by tables that are computed once with `libm`, so the bits are the same everywhere.
+//! ```text
+//!  textures, #rrggbb ──► linear light ──► shading ──► SrgbEncoder, Srgb16Encoder ──► picture
+//!                  table                              table, 8 bits and 16
+//! ```
+//!
+//! Both directions go by tables that are computed once with `libm`, so the bits are the same on
+//! every machine.
 
+mod primaries;
 mod srgb16;
 
+pub(crate) use primaries::{XYZ_TO_SRGB, multiply_matrix};
 pub use srgb16::Srgb16Encoder;
 
+use crate::lanes::{Lanes, map_to_lanes};
 use raster::{Encode, F32x8, LANES};
 use std::sync::OnceLock;
 
-/// Linear light of an sRGB value between 0 and 1.
+/// The linear light of an sRGB value, both from 0 to 1: the electro-optical transfer function.
 pub fn srgb_to_linear(srgb: f64) -> f64 {
     if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
 }
@@ -21,45 +30,55 @@ pub fn srgb_to_linear_table() -> &'static [f32; 256] {
     TABLE.get_or_init(|| std::array::from_fn(|code| srgb_to_linear(code as f64 / 255.0) as f32))
 }
 
-/// The bits of the least light that the encoder tells from 0: 2⁻¹³, which is less than half of the value 1.
+/// The bits of the least light that the encoder distinguishes from 0: 2⁻¹³, which is less than half
+/// of the linear light of code 1.
 const MIN_LIGHT_BITS: u32 = 0x3900_0000;
 
-/// Finds the nearest 8-bit sRGB value of linear light.
+/// Encodes linear light as the nearest 8-bit sRGB code, by a table of 2048 steps.
 ///
-/// A float's upper 16 bits, exponent and seven bits of the mantissa, name one of 128 steps of each octave. Values are farther
-/// apart than that, so a step holds at most one border between two values. Its entry is the value at its beginning in the
-/// upper half, and what the float's lower bits must be added to so that they carry into the upper half from the border on.
+/// ```text
+///  entry = code << 16 | carry        encode(x) = (entry of x + lower 16 bits of x) >> 16
+/// ```
+///
+/// A float's upper 16 bits, exponent and seven bits of the mantissa, are one of 128 steps of each
+/// octave. Codes are farther apart than that, so that a step holds at most one threshold between
+/// two codes. Its entry has in the upper half the code at its beginning, and in the lower half the
+/// number that carries into the upper half when the float's lower bits, from the threshold on, are
+/// added.
 #[derive(Debug)]
 pub struct SrgbEncoder {
+    /// For each step, from the least light to 1: the code, and the carry to the next.
     step_table: Box<[u32; 2048]>,
 }
 
 impl SrgbEncoder {
-    /// The encoder; made once.
+    /// The encoder, shared by the whole program; its table is computed once.
     #[must_use]
     pub fn shared() -> &'static Self {
         static ENCODER: OnceLock<SrgbEncoder> = OnceLock::new();
         ENCODER.get_or_init(Self::new)
     }
 
+    /// Builds the table.
     fn new() -> Self {
         let thresholds = code_thresholds();
         let entry = |step: usize| {
             let start = MIN_LIGHT_BITS + ((step as u32) << 16);
             let next = thresholds.partition_point(|&least| least <= f32::from_bits(start));
             let code = (next as u32 - 1) << 16;
-            let border = thresholds.get(next).map_or(u32::MAX, |least| least.to_bits()) - start;
-            code + 0x1_0000_u32.saturating_sub(border)
+            let threshold = thresholds.get(next).map_or(u32::MAX, |least| least.to_bits()) - start;
+            code + 0x1_0000_u32.saturating_sub(threshold)
         };
         Self { step_table: Box::new(std::array::from_fn(entry)) }
     }
 
-    /// The nearest 8-bit sRGB value; light beyond [0, 1] (and NaN, as 0) is cut off.
+    /// The nearest 8-bit sRGB code; light beyond \[0, 1\] is clamped, NaN to 0.
     #[must_use]
     pub fn encode(&self, light: f32) -> u8 {
         self.encode_to_code(light) as u8
     }
 
+    /// The code as a number; without branches, so that loops over it become vector instructions.
     #[inline(always)]
     fn encode_to_code(&self, light: f32) -> u32 {
         let least = f32::from_bits(MIN_LIGHT_BITS);
@@ -68,38 +87,38 @@ impl SrgbEncoder {
         (step + (bits & 0xffff)) >> 16
     }
 
-    /// Pixels for a file: sRGB with straight alpha, from linear light multiplied by alpha. Red is in the lowest byte.
+    /// Encodes pixels: sRGB with straight alpha, from linear light multiplied by alpha. Red is in
+    /// the lowest byte.
     #[inline(always)]
-    fn encode_pixels<const N: usize>(&self, [r, g, b, alpha]: &[[f32; N]; 4]) -> [u32; N] {
-        let mut is_solid = true;
-        for alpha in alpha {
-            is_solid &= *alpha >= 1.0;
+    fn encode_pixels<const N: usize>(&self, colors: &[Lanes<N>; 4]) -> [u32; N] {
+        let [r, g, b, alpha] = *colors;
+        let mut is_opaque = true;
+        for alpha in &alpha.0 {
+            is_opaque &= *alpha >= 1.0;
         }
         let mut pixels = [0; N];
+        // Divide by alpha only where some lane needs it.
         for (shift, channel) in [(0, r), (8, g), (16, b)] {
-            let mut straight = *channel;
-            if !is_solid {
-                for lane in 0..N {
-                    let divided = channel[lane] / alpha[lane];
-                    straight[lane] = if alpha[lane] < 1.0 { divided } else { channel[lane] };
-                }
+            let mut straight = channel;
+            if !is_opaque {
+                straight = (channel / alpha).select(&alpha.is_below(1.0), channel);
             }
-            for lane in 0..N {
-                pixels[lane] |= self.encode_to_code(straight[lane]) << shift;
+            for (pixel, light) in pixels.iter_mut().zip(&straight.0) {
+                *pixel |= self.encode_to_code(*light) << shift;
             }
         }
-        for lane in 0..N {
-            let solid = (alpha[lane].min(1.0) * 255.0 + 0.5) as u32;
-            let pixel = pixels[lane] | solid << 24;
-            pixels[lane] = if alpha[lane] <= 0.0 { 0 } else { pixel };
+        for (pixel, alpha) in pixels.iter_mut().zip(&alpha.0) {
+            let alpha_code = (alpha.min(1.0) * 255.0 + 0.5) as u32;
+            let opaque = *pixel | alpha_code << 24;
+            *pixel = if *alpha <= 0.0 { 0 } else { opaque };
         }
         pixels
     }
 
-    /// A pixel for a file: sRGB with straight alpha, from linear light multiplied by alpha.
+    /// Encodes a pixel: sRGB with straight alpha, from linear light multiplied by alpha.
     #[must_use]
     pub fn encode_pixel(&self, color: [f32; 4]) -> [u8; 4] {
-        let [pixel] = self.encode_pixels(&color.map(|channel| [channel]));
+        let [pixel] = self.encode_pixels(&color.map(Lanes::<1>::splat));
         pixel.to_le_bytes()
     }
 }
@@ -112,32 +131,32 @@ impl Encode<[u8; 4]> for &SrgbEncoder {
 
     #[inline(always)]
     fn encode_eight(&self, colors: &[F32x8; 4]) -> [[u8; 4]; LANES] {
-        self.encode_pixels(colors).map(u32::to_le_bytes)
+        self.encode_pixels(&map_to_lanes(colors, Lanes)).map(u32::to_le_bytes)
     }
 }
 
-/// The least linear light whose nearest value is the index; the first is never reached.
+/// The least linear light whose nearest code is the index; the first entry is below all light.
 fn code_thresholds() -> [f32; 256] {
     let threshold = |code: usize| srgb_to_linear((code as f64 - 0.5) / 255.0) as f32;
     std::array::from_fn(|code| if code == 0 { f32::MIN } else { threshold(code) })
 }
 
-/// Linear red, green and blue of a colour written `#rgb` or `#rrggbb`; `None` if it is written otherwise.
+/// The linear color of `#rgb` or `#rrggbb`; `None` for any other text.
 #[must_use]
 pub fn parse_hex_color(text: &str) -> Option<[f32; 3]> {
     Some(parse_hex_srgb(text)?.map(|code| srgb_to_linear_table()[usize::from(code)]))
 }
 
-/// The 8-bit sRGB values of a colour written `#rgb` or `#rrggbb`; `None` if it is written otherwise.
+/// The 8-bit sRGB codes of `#rgb` or `#rrggbb`; `None` for any other text.
 #[must_use]
 pub fn parse_hex_srgb(text: &str) -> Option<[u8; 3]> {
     let digits = text.strip_prefix('#').filter(|d| d.bytes().all(|b| b.is_ascii_hexdigit()))?;
-    let wide: String = match digits.len() {
+    let six_digits: String = match digits.len() {
         3 => digits.chars().flat_map(|digit| [digit, digit]).collect(),
         6 => digits.to_owned(),
         _ => return None,
     };
-    let number = u32::from_str_radix(&wide, 16).ok()?;
+    let number = u32::from_str_radix(&six_digits, 16).ok()?;
     let [_, r, g, b] = number.to_be_bytes();
     Some([r, g, b])
 }
@@ -147,7 +166,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_value_survives_the_way_to_linear_light_and_back() {
+    fn every_code_survives_decoding_and_encoding() {
         for code in 0..=255_u8 {
             let light = srgb_to_linear_table()[usize::from(code)];
             assert_eq!(SrgbEncoder::shared().encode(light), code);
@@ -155,25 +174,25 @@ mod tests {
     }
 
     #[test]
-    fn encoding_rounds_to_the_nearest_value() {
+    fn encoding_rounds_to_the_nearest_code() {
         let encoder = SrgbEncoder::shared();
         for step in 0..100_000 {
             let light = step as f32 / 99_999.0;
-            let nearest = (srgb_of(f64::from(light)) * 255.0).round();
-            let found = f64::from(encoder.encode(light));
-            let exact = srgb_of(f64::from(light)) * 255.0;
-            assert!(found == nearest || (exact - found).abs() < 0.50001, "{light}: {found}");
+            let nearest = (linear_to_srgb(f64::from(light)) * 255.0).round();
+            let actual = f64::from(encoder.encode(light));
+            let exact = linear_to_srgb(f64::from(light)) * 255.0;
+            assert!(actual == nearest || (exact - actual).abs() < 0.50001, "{light}: {actual}");
         }
         assert_eq!([f32::NAN, -1.0, 2.0].map(|light| encoder.encode(light)), [0, 0, 255]);
     }
 
     #[test]
-    fn codes_change_at_their_borders_and_nowhere_else() {
+    fn codes_change_at_their_thresholds_and_nowhere_else() {
         let (encoder, thresholds) = (SrgbEncoder::shared(), code_thresholds());
-        let right = |light: f32| thresholds.partition_point(|&least| least <= light) - 1;
+        let expected = |light: f32| thresholds.partition_point(|&least| least <= light) - 1;
         let agrees = |bits: u32| {
             let light = f32::from_bits(bits);
-            assert_eq!(usize::from(encoder.encode(light)), right(light), "{light}");
+            assert_eq!(usize::from(encoder.encode(light)), expected(light), "{light}");
         };
         for threshold in &thresholds[1..] {
             (threshold.to_bits() - 2..threshold.to_bits() + 2).for_each(agrees);
@@ -182,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn eight_pixels_at_once_are_those_of_one_by_one() {
+    fn eight_pixels_at_once_are_those_encoded_one_by_one() {
         let encoder = SrgbEncoder::shared();
         let alphas = [1.0, 0.5, 0.0, -1.0, f32::NAN, 2.0, 1e-30, 0.999];
         for light in [0.0, -0.5, 0.2, 0.499, 1.0, 7.0, f32::NAN, f32::INFINITY] {
@@ -195,7 +214,7 @@ mod tests {
         assert_eq!(encoder.encode_pixel([0.5, 0.25, 0.0, 0.5]), [255, 188, 0, 128]);
     }
 
-    fn srgb_of(light: f64) -> f64 {
+    fn linear_to_srgb(light: f64) -> f64 {
         if light <= 0.003_130_8 {
             light * 12.92
         } else {
@@ -204,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_are_read_as_on_a_web_page() {
+    fn hex_colors_are_parsed_as_on_a_web_page() {
         assert_eq!(parse_hex_color("#fff"), Some([1.0; 3]));
         assert_eq!(parse_hex_color("#ff0000"), Some([1.0, 0.0, 0.0]));
         for wrong in ["", "#", "fff", "#ff", "#ffffg0", "#+12345", "#äöü"] {

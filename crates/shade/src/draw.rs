@@ -1,60 +1,77 @@
-//! Draws: the arrays behind the names of primitives.
+//! Draw calls: the vertex and index arrays behind the primitive ids of a visibility buffer.
 //!
-//! The rasteriser knows a triangle by a number and says how much each corner counts at a pixel. A draw holds what the
-//! corners carry, for a run of such numbers: one primitive of one instance of one mesh.
+//! The rasterizer knows a triangle by an id and gives the weights of its vertices at a pixel. A
+//! draw holds what shading needs beside that, for a run of consecutive ids: one primitive (in the
+//! words of glTF: a mesh with one material) of one instance.
+//!
+//! ```text
+//!   id        0 … 11        12 … 523        524 …
+//!   draw    ┌──────────┐  ┌──────────────┐  ┌──────
+//!           │ first_id │  │ first_id     │  │          triangle `id − first_id` of the primitive
+//!           │ = 0      │  │ = 12         │  │
+//! ```
 
 use super::MaterialTextures;
 use super::attributes::{PrimitiveIndices, UV, Vertex, VertexIndices, interpolate};
 use super::fragment_lanes::FragmentLanes;
+use super::lanes::{Lanes, Vec3Lanes, map_to_lanes};
+use super::surface_geometry::TangentLanes;
+use super::texture::UvLanes;
 use model::{Material, Primitive, TextureInfo, Topology};
 use std::borrow::Cow;
 
-/// One primitive of a mesh at one place of the world.
+/// A draw call: one primitive of a mesh, in one instance.
+///
+/// Vertices are already transformed to the world, once per frame, as lights and environments are
+/// there; the rasterizer has positions on the screen of its own.
 #[derive(Clone, Debug)]
 pub struct Draw<'a> {
-    /// The name of its first point, line or triangle; the others follow.
+    /// The id of its first point, line or triangle; the others follow.
     pub first_id: u32,
-    /// Its number among the primitives of the scene, as often as they are shown.
+    /// Its index among the primitives of the scene, each counted for each of its instances.
     pub part_id: u32,
-    /// Indices, and what else the vertices carry.
+    /// The indices, and the attributes that [`vertices`](Self::vertices) does not have.
     pub primitive: &'a Primitive,
-    /// What it is made of.
+    /// The material of all its surface.
     pub material: &'a Material,
     /// The textures of the material.
     pub textures: MaterialTextures<'a>,
-    /// What its vertices carry; nothing where nothing of it counts.
+    /// The vertices in the world, by the indices of `primitive`; empty where no fragment of the
+    /// draw is shaded.
     pub vertices: Vec<Vertex>,
-    /// Which way textures of slopes lie on the surface.
+    /// The tangents for normal maps and anisotropy.
     pub tangents: Tangents,
-    /// Whether the vertices have normals that are to be seen; otherwise each triangle has one of its own.
+    /// Whether shading interpolates the vertices' normals; otherwise each triangle has its own.
     pub is_smooth: bool,
-    /// The set of the texture coordinates that the vertices carry, if they carry any.
+    /// The index of the set of texture coordinates that `vertices` has, if it has any.
     pub uv_set: Option<usize>,
-    /// The vertex colours, if there are any.
+    /// The vertex colors, linear, if there are any.
     pub colors: Option<Cow<'a, [[f32; 4]]>>,
-    /// What it stands for.
+    /// The kind of surface it is.
     pub kind: DrawKind,
-    /// Whether the way to the world mirrors, so that triangles run the other way round.
+    /// Whether the transform to the world mirrors, so that front faces are wound clockwise.
     pub flips_winding: bool,
-    /// How much longer things are in the world than in the mesh; the mean of all directions where they differ.
+    /// The scale from the mesh to the world; the mean over all directions where they differ.
     pub world_scale: f32,
 }
 
-/// What a draw stands for.
+/// The kind of surface that a draw is.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub enum DrawKind {
     /// A surface of a model.
     #[default]
     Surface,
-    /// The environment behind everything, blurred so much, from 0 to 1.
+    /// The environment as a background, blurred as a mirror of this roughness would blur it.
     Environment(f32),
-    /// What is painted behind everything; places are parts of the picture's width and height.
+    /// The backdrop, a gradient or an image; positions are fractions of the picture's width and
+    /// height.
     Backdrop,
-    /// The ground, of which only shadows are seen.
+    /// The ground as a shadow catcher: it is transparent but for the shadows on it.
     ShadowCatcher,
 }
 
-/// Which way the u of textures runs on a surface: unit vectors in the world, and in w the side of the bitangent, 1 or −1.
+/// The tangents of a draw: unit vectors in the world along growing u, and in w the handedness of
+/// the tangent frame, 1 or −1.
 #[derive(Clone, Debug, Default)]
 pub enum Tangents {
     /// Nothing asks for them.
@@ -62,21 +79,22 @@ pub enum Tangents {
     None,
     /// One for each vertex.
     PerVertex(Vec<[f32; 4]>),
-    /// One for each corner of each triangle.
+    /// One for each corner of each triangle, three after the other.
     PerCorner(Vec<[f32; 4]>),
 }
 
-/// All draws of a frame, in the order of their names.
+/// All draws of a frame, in the order of their ids.
 #[derive(Clone, Debug, Default)]
 pub struct DrawList<'a> {
-    /// The draws; the first has the name 0.
+    /// The draws; the first begins at id 0.
     pub draws: Vec<Draw<'a>>,
 }
 
 impl<'a> DrawList<'a> {
-    /// The draw that a name belongs to, and the first name that does not belong to it any more.
+    /// The draw that an id belongs to, and the first id of the next draw. A binary search.
     #[inline(always)]
     pub(crate) fn find_draw(&self, id: u32) -> (&Draw<'a>, u32) {
+        // The last draw that begins at or before the id.
         let after = self.draws.partition_point(|draw| draw.first_id <= id);
         let end = self.draws.get(after).map_or(u32::MAX, |next| next.first_id);
         (&self.draws[after - 1], end)
@@ -84,102 +102,99 @@ impl<'a> DrawList<'a> {
 }
 
 impl Draw<'_> {
-    /// The vertices of a point, line or triangle. Corners that it lacks repeat its last one; their weights are 0.
+    /// The vertices of a point, line or triangle. A point or a line repeats its last vertex, whose
+    /// weight is then 0.
     #[inline(always)]
-    fn primitive_vertices(&self, item: usize) -> [usize; 3] {
+    fn primitive_vertices(&self, primitive: usize) -> [usize; 3] {
         let indices = &self.primitive.indices;
         if self.primitive.topology == Topology::Triangles {
-            let [a, b, c] = indices.as_chunks::<3>().0[item];
+            let [a, b, c] = indices.as_chunks::<3>().0[primitive];
             return [a as usize, b as usize, c as usize];
         }
         let count = self.primitive.topology.vertices_per_item();
-        [0, 1, 2].map(|k: usize| indices[item * count + k.min(count - 1)] as usize)
+        [0, 1, 2].map(|k: usize| indices[primitive * count + k.min(count - 1)] as usize)
     }
 
-    /// The primitives with these names, all of this draw.
+    /// The indices of the primitives with these ids, all of this draw.
     #[inline(always)]
     pub(super) fn primitive_indices<const N: usize>(
         &self,
         ids: &[u32; N],
-        are_of_one: bool,
+        is_single_primitive: bool,
     ) -> PrimitiveIndices<N> {
-        if are_of_one {
-            return PrimitiveIndices::One((ids[0] - self.first_id) as usize);
+        if is_single_primitive {
+            PrimitiveIndices::One((ids[0] - self.first_id) as usize)
+        } else {
+            let mut primitives = [0; N];
+            for (primitive, id) in primitives.iter_mut().zip(ids) {
+                *primitive = (id - self.first_id) as usize;
+            }
+            PrimitiveIndices::Each(primitives)
         }
-        let mut items = [0; N];
-        for lane in 0..N {
-            items[lane] = (ids[lane] - self.first_id) as usize;
-        }
-        PrimitiveIndices::Each(items)
     }
 
-    /// The vertices of fragments of these primitives.
+    /// The indices of the vertices of these primitives.
     #[inline(always)]
     pub(super) fn vertex_indices<const N: usize>(
         &self,
-        items: &PrimitiveIndices<N>,
+        primitives: &PrimitiveIndices<N>,
     ) -> VertexIndices<N> {
-        items.vertex_indices(|item| self.primitive_vertices(item))
+        primitives.vertex_indices(|primitive| self.primitive_vertices(primitive))
     }
 
-    /// The tangents at fragments of these primitives, of any length; none where nothing is known of them.
+    /// The interpolated tangents, of any length; zero where the draw has none.
     #[inline(always)]
     pub(super) fn interpolate_tangents<const N: usize>(
         &self,
-        items: &PrimitiveIndices<N>,
-        weights: &[[f32; N]; 3],
-    ) -> [[f32; N]; 4] {
-        match &self.tangents {
-            Tangents::None => [[0.0; N]; 4],
-            Tangents::PerVertex(all) => {
-                interpolate(&self.vertex_indices(items).fetch_attributes(all, 0), weights)
+        primitives: &PrimitiveIndices<N>,
+        weights: &[Lanes<N>; 3],
+    ) -> TangentLanes<N> {
+        let attributes = match &self.tangents {
+            Tangents::None => return TangentLanes::NONE,
+            Tangents::PerVertex(tangents) => {
+                self.vertex_indices(primitives).fetch_attributes(tangents, 0)
             }
-            Tangents::PerCorner(all) => {
-                let corners = items.vertex_indices(|item| [3 * item, 3 * item + 1, 3 * item + 2]);
-                interpolate(&corners.fetch_attributes(all, 0), weights)
-            }
-        }
+            Tangents::PerCorner(tangents) => primitives
+                .vertex_indices(|triangle| [3 * triangle, 3 * triangle + 1, 3 * triangle + 2])
+                .fetch_attributes(tangents, 0),
+        };
+        let [x, y, z, w] = interpolate(&attributes, weights);
+        TangentLanes { vectors: Vec3Lanes { x, y, z }, w }
     }
 
-    /// The texture's coordinates, and their derivatives by the pixel's column and row.
+    /// The coordinates by which a texture is sampled, with their screen-space derivatives.
     #[inline(always)]
     pub(super) fn texture_coordinates<const N: usize>(
         &self,
-        corners: &VertexIndices<N>,
-        seen: &impl FragmentLanes<N>,
-        used: &TextureInfo,
-    ) -> [[[f32; N]; 2]; 3] {
-        let mut uvs = [[[0.0; N]; 2]; 3];
-        let carried = if self.uv_set == Some(used.uv_set) {
-            corners.fetch_attributes(&self.vertices, UV)
-        } else if let Some(set) = self.primitive.uvs.get(used.uv_set) {
-            corners.fetch_attributes(set, 0)
+        vertices: &VertexIndices<N>,
+        fragments: &impl FragmentLanes<N>,
+        info: &TextureInfo,
+    ) -> UvLanes<N> {
+        let attributes = if self.uv_set == Some(info.uv_set) {
+            vertices.fetch_attributes(&self.vertices, UV)
+        } else if let Some(set) = self.primitive.uvs.get(info.uv_set) {
+            vertices.fetch_attributes(set, 0)
         } else {
-            return uvs;
+            return UvLanes::ZERO;
         };
-        let [u, v] = interpolate(&carried, &seen.weights());
-        for (axis, map) in used.uv_matrix.iter().enumerate() {
-            for lane in 0..N {
-                uvs[0][axis][lane] = map[0] * u[lane] + map[1] * v[lane] + map[2];
-            }
+        // The texture's transform (KHR_texture_transform).
+        let [u, v] = interpolate(&attributes, &fragments.weights());
+        let uv = map_to_lanes(&info.uv_matrix, |[a, b, c]| a * u + b * v + c);
+        let dx = interpolate(&attributes, &fragments.weights_dx());
+        let dy = interpolate(&attributes, &fragments.weights_dy());
+        UvLanes {
+            uv,
+            dx: transform_uv_step(&info.uv_matrix, dx),
+            dy: transform_uv_step(&info.uv_matrix, dy),
         }
-        uvs[1] = transform_uv_step(&used.uv_matrix, &interpolate(&carried, &seen.weights_dx()));
-        uvs[2] = transform_uv_step(&used.uv_matrix, &interpolate(&carried, &seen.weights_dy()));
-        uvs
     }
 }
 
-/// A step of texture coordinates after their map, which moves places but not steps.
+/// Transforms a derivative of texture coordinates, to which the translation does not apply.
 #[inline(always)]
 fn transform_uv_step<const N: usize>(
-    uv_map: &[[f32; 3]; 2],
-    [u, v]: &[[f32; N]; 2],
-) -> [[f32; N]; 2] {
-    let mut turned = [[0.0; N]; 2];
-    for (axis, map) in uv_map.iter().enumerate() {
-        for lane in 0..N {
-            turned[axis][lane] = map[0] * u[lane] + map[1] * v[lane];
-        }
-    }
-    turned
+    uv_matrix: &[[f32; 3]; 2],
+    [u, v]: [Lanes<N>; 2],
+) -> [Lanes<N>; 2] {
+    map_to_lanes(uv_matrix, |[a, b, _]| a * u + b * v)
 }

@@ -1,90 +1,99 @@
-//! Environments: light from all around, as a surface needs it.
+//! Image-based lighting: an environment's irradiance and its prefiltered radiance.
 //!
-//! Scattered light is the irradiance by direction, nine numbers a channel (Ramamoorthi and Hanrahan 2001). Mirrored light is a
-//! chain of pictures of the surroundings, each blurred as a surface of some roughness would see it: the first of the two sums
-//! of Karis 2013, whose second is [`Albedo`](super::albedo::Albedo).
+//! ```text
+//!                     ┌─► irradiance    diffuse:  9 spherical harmonics per channel
+//!  radiance by        │
+//!  direction ─────────┼─► level 0       mirror    ┐
+//!  (octahedral map)   ├─► level 1       …         ├ specular: GGX-prefiltered mip levels
+//!                     └─► level 5       roughness 1
+//! ```
 //!
-//! Directions lie on a square by the octahedral map (Engelhardt and Dachsbacher 2008), with directions at the nodes of a
-//! grid: the borders fold onto themselves, and nothing has a seam.
+//! Diffuse light is the irradiance by direction (Ramamoorthi and Hanrahan 2001). Specular light is
+//! the first sum of the split-sum approximation (Karis, *Real shading in Unreal Engine 4*, 2013), a
+//! mip chain prefiltered for growing roughness; the second sum is the directional albedo of the
+//! BRDF.
+//!
+//! Directions lie on a square by the octahedral map (Engelhardt and Dachsbacher 2008), with
+//! directions at the nodes of a grid: the borders fold onto themselves, and nothing has a seam.
 
 mod irradiance;
 mod octahedral_map;
 mod prefilter;
 
-use super::fragment_lanes::dot_lanes;
+use super::lanes::{Lanes, Rgb, Vec3Lanes};
 use irradiance::IrradianceHarmonics;
-pub(crate) use octahedral_map::normalize;
 use octahedral_map::{OctahedralMap, sample_trilinear};
 use prefilter::{LEVEL_COUNT, PrefilteredLevels};
 
-/// Light from all around: radiance, linear.
+/// Nodes along a side of the octahedral map: 256 texels for all directions, about 1° each.
+const SIDE: usize = 257;
+
+/// Light from all directions: linear radiance, ready for diffuse and for specular lookups.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Environment {
     irradiance: IrradianceHarmonics,
-    /// From mirrors to the roughest.
+    /// From mirrors to the roughest surfaces.
     prefiltered: PrefilteredLevels,
 }
 
 impl Environment {
     /// The environment with this radiance in each direction, a unit vector of the world.
+    ///
+    /// The function is called once for each of some 66,000 directions. Prefiltered levels are
+    /// computed when a surface first asks for them.
     #[must_use]
     pub fn from_radiance(radiance: impl Fn([f32; 3]) -> [f32; 3]) -> Self {
-        let sharp = OctahedralMap::from_function(257, radiance);
+        let map = OctahedralMap::from_function(SIDE, radiance);
         Self {
-            irradiance: IrradianceHarmonics::project(&sharp),
-            prefiltered: PrefilteredLevels::new(sharp),
+            irradiance: IrradianceHarmonics::project(&map),
+            prefiltered: PrefilteredLevels::new(map),
         }
     }
 
-    /// The light that white matt surfaces with these unit normals scatter: irradiance over π.
+    /// The radiance of white Lambert surfaces with these unit normals: irradiance over π.
     #[inline(always)]
-    pub(super) fn irradiance_over_pi<const N: usize>(
-        &self,
-        normals: &[[f32; N]; 3],
-    ) -> [[f32; N]; 3] {
+    pub(super) fn irradiance_over_pi<const N: usize>(&self, normals: Vec3Lanes<N>) -> Rgb<N> {
         self.irradiance.irradiance_over_pi(normals)
     }
 
-    /// The mean light around the directions in which surfaces mirror the viewer, as wide as they are rough.
+    /// The prefiltered radiance in the mirror direction of the view.
     #[inline(always)]
     pub(super) fn specular_radiance<const N: usize>(
         &self,
-        normals: &[[f32; N]; 3],
-        views: &[[f32; N]; 3],
-        roughness: &[f32; N],
-    ) -> [[f32; N]; 3] {
-        let cosines = dot_lanes(normals, views);
-        let mut ways = [[0.0; N]; 3];
-        for axis in 0..3 {
-            for lane in 0..N {
-                ways[axis][lane] = 2.0 * cosines[lane] * normals[axis][lane] - views[axis][lane];
-            }
-        }
-        self.prefiltered_radiance(&ways, roughness)
+        normals: Vec3Lanes<N>,
+        views: Vec3Lanes<N>,
+        roughness: Lanes<N>,
+    ) -> Rgb<N> {
+        // r = 2 (n·v) n − v
+        let mirrored = normals * (2.0 * normals.dot(views)) - views;
+        self.prefiltered_radiance(mirrored, roughness)
     }
 
-    /// The light from around directions of any length but 0, blurred as by surfaces of these roughnesses.
+    /// The radiance around directions of any length but 0, prefiltered for a perceptual roughness:
+    /// trilinear between the two nearest levels.
     #[inline(always)]
     pub(super) fn prefiltered_radiance<const N: usize>(
         &self,
-        ways: &[[f32; N]; 3],
-        roughness: &[f32; N],
-    ) -> [[f32; N]; 3] {
-        let (mut near, mut share) = ([0; N], [0.0; N]);
-        for lane in 0..N {
-            let place = roughness[lane].clamp(0.0, 1.0) * (LEVEL_COUNT - 1) as f32;
-            let level = (place as i32).min(LEVEL_COUNT as i32 - 2);
-            near[lane] = level as usize;
-            share[lane] = place - level as f32;
+        directions: Vec3Lanes<N>,
+        roughness: Lanes<N>,
+    ) -> Rgb<N> {
+        // Levels are equal steps of the perceptual roughness.
+        let level = roughness.clamp(0.0, 1.0) * (LEVEL_COUNT - 1) as f32;
+        let mut near_levels = [0; N];
+        for (near, level) in near_levels.iter_mut().zip(&level.0) {
+            *near = (*level as i32).min(LEVEL_COUNT as i32 - 2) as usize;
         }
-        let colors = sample_trilinear(|level| self.prefiltered.level(level), &near, &share, ways);
-        let mut light = [[0.0; N]; 3];
-        for channel in 0..3 {
-            for lane in 0..N {
-                light[channel][lane] = colors[lane][channel];
-            }
-        }
-        light
+        let fractions = Lanes::from_fn(|lane| level[lane] - near_levels[lane] as f32);
+        let texels = sample_trilinear(
+            |level| self.prefiltered.level(level),
+            &near_levels,
+            fractions,
+            directions,
+        );
+        Rgb::from_fn(|lane| {
+            let [r, g, b, _] = texels[lane];
+            [r, g, b]
+        })
     }
 }
 
@@ -93,35 +102,38 @@ mod tests {
     use super::*;
 
     #[test]
-    fn white_surroundings_are_white_to_every_surface() {
+    fn a_white_environment_is_white_to_every_surface() {
         let white = Environment::from_radiance(|_| [1.0; 3]);
         for n in [[0.0_f32, 0.0, 1.0], [0.6, -0.8, 0.0], [-0.48, 0.6, 0.64]] {
-            let normals = n.map(|c| [c]);
-            let scattered = white.irradiance_over_pi(&normals);
-            assert!(scattered.iter().all(|[c]| (c - 1.0).abs() < 1e-3), "{scattered:?}");
+            let normals = Vec3Lanes::<1>::splat(n);
+            let diffuse = white.irradiance_over_pi(normals).lane(0);
+            assert!(diffuse.iter().all(|c| (c - 1.0).abs() < 1e-3), "{diffuse:?}");
             for roughness in [0.0, 0.3, 0.55, 1.0] {
-                let mirrored = white.specular_radiance(&normals, &normals, &[roughness]);
-                assert!(mirrored.iter().all(|[c]| (c - 1.0).abs() < 1e-4), "{mirrored:?}");
+                let specular = white.specular_radiance(normals, normals, Lanes([roughness]));
+                let specular = specular.lane(0);
+                assert!(specular.iter().all(|c| (c - 1.0).abs() < 1e-4), "{specular:?}");
             }
         }
     }
 
     #[test]
     fn a_bright_half_lights_the_half_that_faces_it() {
-        // The irradiance of a hemisphere of light is π for what faces it, and π (1 + cosθ) / 2 in all.
+        // The irradiance of a hemisphere of light is π for a normal at its pole, π (1 + cosθ) / 2
+        // otherwise.
         let half =
             Environment::from_radiance(|[_, y, _]| [if y > 0.0 { 1.0 } else { 0.0 }, 0.5, 0.0]);
         for cosine in [1.0_f32, 0.5, 0.0, -0.5, -1.0] {
             let normal = [(1.0 - cosine * cosine).sqrt(), cosine, 0.0];
-            let [[r], [g], [b]] = half.irradiance_over_pi(&normal.map(|c| [c]));
+            let [r, g, b] = half.irradiance_over_pi(Vec3Lanes::<1>::splat(normal)).lane(0);
             assert!((r - 0.5 * (1.0 + cosine)).abs() < 0.06, "{cosine}: {r}");
             assert!((g - 0.5).abs() < 1e-3 && b.abs() < 1e-6);
         }
-        let up = [[0.0], [1.0], [0.0]];
-        assert!((half.prefiltered_radiance(&up, &[0.5])[0][0] - 1.0).abs() < 0.06);
-        let level: Vec<f32> = [0.0, 0.4, 0.8]
-            .map(|r| half.prefiltered_radiance(&[[1.0], [0.2], [0.0]], &[r])[0][0])
-            .to_vec();
-        assert!(level[0] > level[1] && level[1] > level[2] && level[2] > 0.5, "{level:?}");
+        let red = |direction, roughness| {
+            let direction = Vec3Lanes::<1>::splat(direction);
+            half.prefiltered_radiance(direction, Lanes([roughness])).r[0]
+        };
+        assert!((red([0.0, 1.0, 0.0], 0.5) - 1.0).abs() < 0.06);
+        let levels = [0.0, 0.4, 0.8].map(|roughness| red([1.0, 0.2, 0.0], roughness));
+        assert!(levels[0] > levels[1] && levels[1] > levels[2] && levels[2] > 0.5, "{levels:?}");
     }
 }

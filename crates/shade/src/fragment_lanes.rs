@@ -1,108 +1,76 @@
-//! What shading asks of fragments, of one as of eight: it is written once, for any number of lanes.
+//! Fragment lanes: the barycentric weights of fragments that are shaded together, of one or of
+//! eight.
 //!
-//! Everything on this way is a plain loop over the lanes and is made part of the function that calls it, which is compiled
-//! for the processor's vector instructions. The bits do not depend on the number of lanes.
+//! Shading is generic over the number of lanes and asks for nothing but the weights of a fragment's
+//! vertices and their screen-space derivatives. The derivatives (`dFdx` and `dFdy` of GLSL) are
+//! exact, from the triangle's plane equations, not differences between neighboring fragments.
 
-use raster::{F32x8, Fragment, Fragments, LANES};
+use super::lanes::{Lanes, map_to_lanes};
+use raster::{Fragment, Fragments, LANES};
 
-/// Some fragments that are shaded at once.
+/// The weights of the vertices of some fragments' primitives.
+///
+/// Implemented for a single fragment, for packets of eight, and by shading styles for a fragment at
+/// a vertex. Weights and derivatives are those of the whole triangle, also where it was clipped.
 pub(super) trait FragmentLanes<const N: usize> {
-    /// The corners' shares at the fragments.
-    fn weights(&self) -> [[f32; N]; 3];
+    /// The perspective-correct barycentric weights of the three vertices.
+    fn weights(&self) -> [Lanes<N>; 3];
     /// Their derivatives by the pixel's column.
-    fn weights_dx(&self) -> [[f32; N]; 3];
+    fn weights_dx(&self) -> [Lanes<N>; 3];
     /// Their derivatives by the pixel's row, downwards.
-    fn weights_dy(&self) -> [[f32; N]; 3];
+    fn weights_dy(&self) -> [Lanes<N>; 3];
 }
 
 impl FragmentLanes<1> for Fragment<'_> {
-    fn weights(&self) -> [[f32; 1]; 3] {
-        self.weights.map(|weight| [weight])
+    fn weights(&self) -> [Lanes<1>; 3] {
+        self.weights.map(Lanes::splat)
     }
 
-    fn weights_dx(&self) -> [[f32; 1]; 3] {
-        self.weights_dx().map(|weight| [weight])
+    fn weights_dx(&self) -> [Lanes<1>; 3] {
+        self.weights_dx().map(Lanes::splat)
     }
 
-    fn weights_dy(&self) -> [[f32; 1]; 3] {
-        self.weights_dy().map(|weight| [weight])
+    fn weights_dy(&self) -> [Lanes<1>; 3] {
+        self.weights_dy().map(Lanes::splat)
     }
 }
 
-/// Eight fragments with their weights. Textures and normals alike ask for the derivatives, which are worked out once.
+/// Eight fragments with their weights. Both textures and normals need the derivatives, which are
+/// computed once.
 #[derive(Debug)]
 pub(super) struct FragmentPacket {
-    weights: [F32x8; 3],
-    dx: [F32x8; 3],
-    dy: [F32x8; 3],
+    weights: [Lanes<LANES>; 3],
+    weights_dx: [Lanes<LANES>; 3],
+    weights_dy: [Lanes<LANES>; 3],
 }
 
 impl FragmentPacket {
+    /// The weights of eight fragments of the rasterizer.
     #[inline(always)]
     pub(super) fn new(fragments: &Fragments<'_>) -> Self {
+        // One set of barycentrics, clipped triangles included; derivatives by the quotient rule.
         let weights = fragments.weights();
-        Self { weights: weights.values, dx: weights.dx(), dy: weights.dy() }
+        Self {
+            weights: map_to_lanes(&weights.values, Lanes),
+            weights_dx: map_to_lanes(&weights.dx(), Lanes),
+            weights_dy: map_to_lanes(&weights.dy(), Lanes),
+        }
     }
 }
 
 impl FragmentLanes<LANES> for FragmentPacket {
     #[inline(always)]
-    fn weights(&self) -> [F32x8; 3] {
+    fn weights(&self) -> [Lanes<LANES>; 3] {
         self.weights
     }
 
     #[inline(always)]
-    fn weights_dx(&self) -> [F32x8; 3] {
-        self.dx
+    fn weights_dx(&self) -> [Lanes<LANES>; 3] {
+        self.weights_dx
     }
 
     #[inline(always)]
-    fn weights_dy(&self) -> [F32x8; 3] {
-        self.dy
+    fn weights_dy(&self) -> [Lanes<LANES>; 3] {
+        self.weights_dy
     }
-}
-
-/// The same numbers in all lanes.
-#[inline(always)]
-pub(super) fn splat<const N: usize, const K: usize>(values: [f32; K]) -> [[f32; N]; K] {
-    let mut lanes = [[0.0; N]; K];
-    for k in 0..K {
-        lanes[k] = [values[k]; N];
-    }
-    lanes
-}
-
-/// Multiplies each of the first channels by a factor of its own.
-#[inline(always)]
-pub(super) fn scale_channels<const N: usize>(channels: &mut [[f32; N]], factors: &[[f32; N]]) {
-    for (channel, factor) in channels.iter_mut().zip(factors) {
-        for lane in 0..N {
-            channel[lane] *= factor[lane];
-        }
-    }
-}
-
-#[inline(always)]
-pub(super) fn dot_lanes<const N: usize>(a: &[[f32; N]; 3], b: &[[f32; N]; 3]) -> [f32; N] {
-    let mut dots = [0.0; N];
-    for lane in 0..N {
-        dots[lane] = a[0][lane] * b[0][lane] + a[1][lane] * b[1][lane] + a[2][lane] * b[2][lane];
-    }
-    dots
-}
-
-/// The vector of one lane.
-#[inline(always)]
-pub(super) fn lane_vector<const N: usize>(vectors: &[[f32; N]; 3], lane: usize) -> [f32; 3] {
-    [vectors[0][lane], vectors[1][lane], vectors[2][lane]]
-}
-
-#[inline(always)]
-pub(super) fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-#[inline(always)]
-pub(super) fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

@@ -1,13 +1,19 @@
-//! Lights, resolved: in the world, in the units of photometry.
+//! Punctual lights in photometric units, resolved to the world (KHR_lights_punctual).
+//!
+//! ```text
+//!   Sun    E = lux                                            parallel light
+//!   Point  E = candela · window(d / range) / d²               inverse-square falloff
+//!   Spot   E = Point · (angle attenuation)²                   between the cosines of two angles
+//! ```
 
-use super::fragment_lanes::{dot, lane_vector, splat};
+use super::lanes::{Lanes, Rgb, Vec3Lanes};
 use super::shadow_map::{Shadow, ShadowMap};
 use super::shadow_receiver::ShadowReceiver;
 
-/// A light of the resolved scene. Colours are linear and already multiplied by the light's strength.
+/// A light of the resolved scene. Colors are linear and already multiplied by the light's strength.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Light {
-    /// Parallel light from very far away.
+    /// A directional light: parallel light from very far away.
     Sun {
         /// The unit direction towards the light.
         to_light: [f32; 3],
@@ -16,48 +22,52 @@ pub enum Light {
         /// Its shadows, if it casts any.
         shadow: Option<Shadow>,
     },
-    /// Light from a point.
+    /// Light from a point, alike in all directions.
     Point {
-        /// Where it is.
+        /// The position in the world.
         position: [f32; 3],
         /// The luminous intensity in candela: lux at distance 1.
         candela: [f32; 3],
-        /// The distance at which nothing arrives any more; infinite if the light goes on for ever.
+        /// The distance from which on nothing arrives; infinite for a light without a limit.
         range: f32,
     },
     /// Light from a point into a cone.
     Spot {
-        /// Where it is.
+        /// The position in the world.
         position: [f32; 3],
         /// The unit direction of the cone's axis, away from the light.
         axis: [f32; 3],
         /// The luminous intensity along the axis in candela.
         candela: [f32; 3],
-        /// As for a point.
+        /// The distance from which on nothing arrives; infinite for a light without a limit.
         range: f32,
-        /// The cosines of the angles from the axis up to which the light is full, and at which it ends.
+        /// The cosines of the inner cone's angle, within which the light is full, and of the outer
+        /// cone's, at which it ends.
         cosines: [f32; 2],
         /// Its shadows, if it casts any.
         shadow: Option<Shadow>,
     },
-    /// The same light from everywhere. It scatters and makes no highlights.
+    /// Ambient light: alike from all directions, reflected diffusely and without highlights.
     Ambient {
         /// The illuminance of every surface, in lux.
         lux: [f32; 3],
     },
 }
 
-/// Light that arrives at some fragments.
+/// The light of one source at some fragments.
+///
+/// It is what the BRDF sees of a light: no kind, no position, only a direction and an illuminance.
+/// Shadows reduce it, and so does sheen for the layers below.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct IncidentLight<const N: usize> {
-    /// The unit vectors to where it comes from.
-    pub(super) to_light: [[f32; N]; 3],
+    /// The unit vectors towards the light.
+    pub(super) to_light: Vec3Lanes<N>,
     /// The illuminance of surfaces that face it, in lux.
-    pub(super) lux: [[f32; N]; 3],
+    pub(super) lux: Rgb<N>,
 }
 
 impl Light {
-    /// The illuminance that it gives every surface alike.
+    /// The illuminance of every surface, of an ambient light.
     pub(crate) const fn ambient_lux(&self) -> Option<[f32; 3]> {
         match self {
             Self::Ambient { lux } => Some(*lux),
@@ -65,7 +75,7 @@ impl Light {
         }
     }
 
-    /// The shadows that it casts.
+    /// The shadows that the light casts, if it casts any.
     #[must_use]
     pub const fn shadow(&self) -> Option<Shadow> {
         match self {
@@ -74,99 +84,92 @@ impl Light {
         }
     }
 
-    /// What of a light with a direction arrives at places in the world.
+    /// The light that arrives at positions in the world, shadows not counted; none of ambient
+    /// light, which has no direction.
     #[inline(always)]
-    pub(super) fn incident_at<const N: usize>(&self, places: &[[f32; N]; 3]) -> IncidentLight<N> {
+    pub(super) fn incident_at<const N: usize>(&self, positions: Vec3Lanes<N>) -> IncidentLight<N> {
         match *self {
-            Self::Sun { to_light: towards, lux, .. } => {
-                IncidentLight { to_light: splat(towards), lux: splat(lux) }
+            Self::Sun { to_light, lux, .. } => {
+                IncidentLight { to_light: Vec3Lanes::splat(to_light), lux: Rgb::splat(lux) }
             }
             Self::Point { position, candela, range } => {
-                light_from_point(position, places, candela, range, |_| 1.0)
+                light_from_point(position, positions, candela, range, |_| Lanes::ONE)
             }
-            Self::Spot { position, axis, candela, range, cosines: [full, end], .. } => {
-                // The share between the two angles is the square of a line over the cosine (KHR_lights_punctual).
-                let per = 1.0 / (full - end).max(0.001);
-                light_from_point(position, places, candela, range, |towards| {
-                    let share = ((-dot(axis, towards) - end) * per).clamp(0.0, 1.0);
-                    share * share
+            Self::Spot { position, axis, candela, range, cosines: [inner, outer], .. } => {
+                // Angular attenuation: the square of a linear ramp over the cosine.
+                let slope = 1.0 / (inner - outer).max(0.001);
+                light_from_point(position, positions, candela, range, |to_light| {
+                    let cosine = -Vec3Lanes::splat(axis).dot(to_light);
+                    let ramp = ((cosine - outer) * slope).clamp(0.0, 1.0);
+                    ramp * ramp
                 })
             }
-            Self::Ambient { .. } => {
-                IncidentLight { to_light: splat([0.0; 3]), lux: splat([0.0; 3]) }
-            }
+            Self::Ambient { .. } => IncidentLight { to_light: Vec3Lanes::ZERO, lux: Rgb::ZERO },
         }
     }
 }
 
 impl<const N: usize> IncidentLight<N> {
-    /// Takes away what does not arrive because something is in the way.
+    /// Multiplies the light by its visibility in a shadow map.
     #[inline(always)]
-    pub(super) fn apply_shadow(&mut self, map: &ShadowMap, receivers: &ShadowReceiver<N>) {
-        for lane in 0..N {
-            let normal = lane_vector(&receivers.normals, lane);
-            // From behind nothing arrives that a shadow could take away, but where slopes pretend otherwise.
-            let faces = dot(normal, lane_vector(&self.to_light, lane)) > 0.0;
-            let lit = if faces {
-                map.visibility(lane_vector(&receivers.positions, lane), normal)
+    pub(super) fn apply_shadow(&mut self, map: &ShadowMap, receiver: &ShadowReceiver<N>) {
+        let n_dot_l = receiver.normals.dot(self.to_light);
+        let visibility = Lanes::from_fn(|lane| {
+            // No light arrives from behind, but where a normal map pretends so: no need for a
+            // lookup.
+            if n_dot_l[lane] > 0.0 {
+                map.visibility(receiver.positions.lane(lane), receiver.normals.lane(lane))
             } else {
                 0.0
-            };
-            for channel in &mut self.lux {
-                channel[lane] *= lit;
             }
-        }
+        });
+        self.lux = self.lux * visibility;
     }
 }
 
-/// What arrives from a point: less with the square of the distance, and nothing from the range on, to which it falls off smoothly
-/// (KHR_lights_punctual). `share` is how much goes this way.
+/// The light of a point: inverse-square falloff with a smooth window to its range, 1 − (d / range)⁴
+/// (KHR_lights_punctual). `attenuation` is the part that goes in a direction.
 #[inline(always)]
 fn light_from_point<const N: usize>(
     position: [f32; 3],
-    places: &[[f32; N]; 3],
+    positions: Vec3Lanes<N>,
     candela: [f32; 3],
     range: f32,
-    share: impl Fn([f32; 3]) -> f32,
+    attenuation: impl Fn(Vec3Lanes<N>) -> Lanes<N>,
 ) -> IncidentLight<N> {
-    let mut arriving = IncidentLight { to_light: splat([0.0; 3]), lux: splat([0.0; 3]) };
-    let per_range = 1.0 / range;
-    for lane in 0..N {
-        let place = lane_vector(places, lane);
-        let way = [position[0] - place[0], position[1] - place[1], position[2] - place[2]];
-        let square = dot(way, way);
-        let per = if square > 0.0 { 1.0 / square.sqrt() } else { 0.0 };
-        let towards = [way[0] * per, way[1] * per, way[2] * per];
-        let reach = square * per_range * per_range;
-        let window = (1.0 - reach * reach).clamp(0.0, 1.0);
-        let strength = window * per * per * share(towards);
-        for axis in 0..3 {
-            arriving.to_light[axis][lane] = towards[axis];
-            arriving.lux[axis][lane] = candela[axis] * strength;
-        }
-    }
-    arriving
+    // 0 for a light without a limit, whose window is then 1 everywhere.
+    let inv_range = 1.0 / range;
+    let to_light = Vec3Lanes::splat(position) - positions;
+    let square = to_light.dot(to_light);
+    // At the light itself there is no direction, and no light.
+    let inv_distance = square.map(|square| if square > 0.0 { 1.0 / square.sqrt() } else { 0.0 });
+    let to_light = to_light * inv_distance;
+    // Windowing function of the range, then the inverse-square law.
+    let relative = square * inv_range * inv_range;
+    let window = (1.0 - relative * relative).clamp(0.0, 1.0);
+    let strength = window * inv_distance * inv_distance * attenuation(to_light);
+    IncidentLight { to_light, lux: Rgb::splat(candela) * strength }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn at(light: &Light, place: [f32; 3]) -> f32 {
-        light.incident_at(&place.map(|c| [c])).lux[0][0]
+    fn lux_at(light: &Light, position: [f32; 3]) -> f32 {
+        light.incident_at(Vec3Lanes::<1>::splat(position)).lux.r[0]
     }
 
     #[test]
     fn points_weaken_with_the_square_of_the_distance_and_end_at_their_range() {
         let light =
             |range| Light::Point { position: [0.0, 2.0, 0.0], candela: [8.0, 0.0, 0.0], range };
-        assert_eq!(at(&light(f32::INFINITY), [0.0; 3]), 2.0);
-        assert_eq!(at(&light(f32::INFINITY), [0.0, 2.0, 4.0]), 0.5);
+        assert_eq!(lux_at(&light(f32::INFINITY), [0.0; 3]), 2.0);
+        assert_eq!(lux_at(&light(f32::INFINITY), [0.0, 2.0, 4.0]), 0.5);
         // 1 − (d / range)⁴ times 1 / d².
-        assert_eq!(at(&light(4.0), [0.0; 3]), 2.0 * (1.0 - 1.0 / 16.0));
-        assert_eq!(at(&light(2.0), [0.0; 3]), 0.0);
-        assert_eq!(at(&light(1.0), [0.0; 3]), 0.0);
-        assert_eq!(at(&light(4.0), [0.0, 2.0, 0.0]), 0.0, "nothing is lit at the light itself");
+        assert_eq!(lux_at(&light(4.0), [0.0; 3]), 2.0 * (1.0 - 1.0 / 16.0));
+        assert_eq!(lux_at(&light(2.0), [0.0; 3]), 0.0);
+        assert_eq!(lux_at(&light(1.0), [0.0; 3]), 0.0);
+        assert_eq!(lux_at(&light(4.0), [0.0, 2.0, 0.0]), 0.0, "at the light itself");
     }
 
     #[test]
@@ -176,9 +179,10 @@ mod tests {
         let axis = [0.0, 0.0, -1.0];
         let light =
             Light::Spot { position, axis, candela, range: f32::INFINITY, cosines, shadow: None };
-        let along = |cosine: f32| at(&light, [(1.0 - cosine * cosine).sqrt(), 0.0, -cosine]);
-        for (cosine, due) in [(1.0, 1.0), (0.8, 1.0), (0.7, 0.25), (0.6, 0.0), (-1.0, 0.0)] {
-            assert!((along(cosine) - due).abs() < 1e-5, "{cosine}: {}", along(cosine));
+        let along = |cosine: f32| lux_at(&light, [(1.0 - cosine * cosine).sqrt(), 0.0, -cosine]);
+        for (cosine, expected) in [(1.0, 1.0), (0.8, 1.0), (0.7, 0.25), (0.6, 0.0), (-1.0, 0.0)] {
+            let actual = along(cosine);
+            assert!((actual - expected).abs() < 1e-5, "{cosine}: {actual}");
         }
     }
 }

@@ -1,219 +1,233 @@
-//! Inputs: what a material says of a surface at some fragments, its factors times its textures.
+//! Material inputs: the parameters of a material at some fragments, its factors times its textures
+//! and vertex colors (glTF 2.0 §3.9).
+//!
+//! ```text
+//!  base color = factor × vertex color × texture.rgb     roughness = factor × texture.g
+//!  alpha      = factor × vertex color × texture.a       metalness = factor × texture.b
+//!  emitted    = factor × texture.rgb                    occlusion = lerp(1, texture.r, strength)
+//!  normal     = (2 texture.rgb − 1) × (scale, scale, 1), in tangent space
+//! ```
+//!
+//! The BRDF sees nothing of factors, slots and channels: only these parameters.
 
 use super::Draw;
 use super::attributes::{VertexIndices, interpolate};
-use super::fragment_lanes::{FragmentLanes, scale_channels, splat};
+use super::fragment_lanes::FragmentLanes;
+use super::lanes::{Lanes, Rgb, Vec3Lanes};
+use super::texture::TexelLanes;
 use model::{MaterialExtensions, TextureSlot};
 
-/// What a material says of a surface at some fragments. All numbers are linear.
+/// The core parameters of a material. All numbers are linear.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MaterialInputs<const N: usize> {
-    /// Red, green, blue and alpha of the surface.
-    pub(super) base: [[f32; N]; 4],
+    /// The base color; in specular-glossiness the diffuse color.
+    pub(super) base_color: Rgb<N>,
+    /// Alpha of the base color.
+    pub(super) alpha: Lanes<N>,
     /// 0 for dielectrics, 1 for metals.
-    pub(super) metallic: [f32; N],
-    /// Perceptual roughness.
-    pub(super) roughness: [f32; N],
-    /// The normal in the tangent space of the surface, of any length.
-    pub(super) tangent_normal: [[f32; N]; 3],
-    /// How much of the ambient light arrives.
-    pub(super) occlusion: [f32; N],
-    /// Light that the surface gives off.
-    pub(super) emitted: [[f32; N]; 3],
-    /// What extensions say.
+    pub(super) metallic: Lanes<N>,
+    /// The perceptual roughness.
+    pub(super) roughness: Lanes<N>,
+    /// The normal of the normal map in tangent space, of any length.
+    pub(super) tangent_normal: Vec3Lanes<N>,
+    /// Ambient occlusion: the fraction of light from all directions that arrives.
+    pub(super) occlusion: Lanes<N>,
+    /// The emitted radiance.
+    pub(super) emitted: Rgb<N>,
+    /// The parameters of the extensions.
     pub(super) layers: LayerInputs<N>,
 }
 
-/// What the extensions of a material say; without them nothing here is read.
+/// The parameters of a material's extensions; nothing reads those of an extension that the material
+/// does not have.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LayerInputs<const N: usize> {
-    /// The strength of highlights of dielectrics.
-    pub(super) specular: [f32; N],
-    /// The reflected share of dielectrics from straight ahead: the colour of highlights. In the older model, of all surfaces.
-    pub(super) specular_color: [[f32; N]; 3],
-    /// The share of the clear layer.
-    pub(super) clearcoat: [f32; N],
-    /// The clear layer's perceptual roughness.
-    pub(super) clearcoat_roughness: [f32; N],
-    /// The clear layer's normal in tangent space.
-    pub(super) clearcoat_normal: [[f32; N]; 3],
-    /// The colour of fibres.
-    pub(super) sheen_color: [[f32; N]; 3],
-    /// The perceptual roughness of fibres.
-    pub(super) sheen_roughness: [f32; N],
-    /// The share of light that passes.
-    pub(super) transmission: [f32; N],
-    /// The way through the body, in the mesh's units.
-    pub(super) thickness: [f32; N],
-    /// The share of the thin film.
-    pub(super) iridescence: [f32; N],
-    /// Its thickness in nanometres.
-    pub(super) iridescence_thickness: [f32; N],
-    /// The direction of long highlights in tangent space, and how long they are.
-    pub(super) anisotropy: [[f32; N]; 3],
+    /// The strength of the specular reflection of dielectrics.
+    pub(super) specular: Lanes<N>,
+    /// The color of F0 of dielectrics; in specular-glossiness F0 of all surfaces.
+    pub(super) specular_color: Rgb<N>,
+    /// The strength of the clearcoat.
+    pub(super) clearcoat: Lanes<N>,
+    /// The perceptual roughness of the clearcoat.
+    pub(super) clearcoat_roughness: Lanes<N>,
+    /// The normal of the clearcoat in tangent space, of any length.
+    pub(super) clearcoat_normal: Vec3Lanes<N>,
+    /// The color of sheen.
+    pub(super) sheen_color: Rgb<N>,
+    /// The perceptual roughness of sheen.
+    pub(super) sheen_roughness: Lanes<N>,
+    /// The fraction of light that is not reflected diffusely but transmitted.
+    pub(super) transmission: Lanes<N>,
+    /// The thickness of the volume, in units of the mesh.
+    pub(super) thickness: Lanes<N>,
+    /// The strength of the thin film.
+    pub(super) iridescence: Lanes<N>,
+    /// The thickness of the thin film in nanometers.
+    pub(super) iridescence_thickness: Lanes<N>,
+    /// In x and y the direction of anisotropy in tangent space, in z its strength.
+    pub(super) anisotropy: Vec3Lanes<N>,
 }
 
 impl<const N: usize> MaterialInputs<N> {
-    /// The inputs at fragments of a draw. Texels have an alpha only where materials blend; of an unlit draw only the base colour
-    /// is there.
+    /// Evaluates the inputs at fragments of a draw: vertex colors are interpolated, textures
+    /// filtered.
+    ///
+    /// Alpha is read from textures only where the material blends. Of an unlit draw only the base
+    /// color is evaluated.
     #[inline(always)]
     pub(super) fn evaluate(
         draw: &Draw<'_>,
-        corners: &VertexIndices<N>,
-        seen: &impl FragmentLanes<N>,
+        vertices: &VertexIndices<N>,
+        fragments: &impl FragmentLanes<N>,
     ) -> Self {
         let mut inputs = Self::from_factors(draw);
-        let weights = seen.weights();
         if let Some(colors) = &draw.colors {
-            scale_channels(
-                &mut inputs.base,
-                &interpolate::<N, 4>(&corners.fetch_attributes(colors, 0), &weights),
-            );
+            let [r, g, b, alpha] =
+                interpolate(&vertices.fetch_attributes(colors, 0), &fragments.weights());
+            inputs.base_color = inputs.base_color * Rgb { r, g, b };
+            inputs.alpha *= alpha;
         }
-        for maps in draw.textures.groups() {
-            let uvs = draw.texture_coordinates(corners, seen, &maps[0].usage);
-            for (map, texels) in maps.iter().zip(&draw.textures.sample_group(maps, &uvs)) {
-                inputs.apply_texture(draw, map.slot, texels);
+        // Textures with one footprint are sampled together.
+        for group in draw.textures.groups() {
+            let uvs = draw.texture_coordinates(vertices, fragments, &group[0].info);
+            let texels = draw.textures.sample_group(group, &uvs);
+            for (texture, texel) in group.iter().zip(texels) {
+                inputs.apply_texture(draw, texture.slot, texel);
             }
         }
         inputs
     }
 
-    /// What the material says without textures.
+    /// The factors of the material, without textures.
     #[inline(always)]
     fn from_factors(draw: &Draw<'_>) -> Self {
         let material = draw.material;
+        let [r, g, b, alpha] = material.base_color;
         Self {
-            base: splat(material.base_color),
-            metallic: [material.metallic; N],
-            roughness: [material.roughness; N],
-            tangent_normal: splat([0.0, 0.0, 1.0]),
-            occlusion: [1.0; N],
-            emitted: splat(if material.unlit { [0.0; 3] } else { material.emissive }),
+            base_color: Rgb::splat([r, g, b]),
+            alpha: Lanes::splat(alpha),
+            metallic: Lanes::splat(material.metallic),
+            roughness: Lanes::splat(material.roughness),
+            tangent_normal: Vec3Lanes::splat([0.0, 0.0, 1.0]),
+            occlusion: Lanes::ONE,
+            emitted: Rgb::splat(if material.unlit { [0.0; 3] } else { material.emissive }),
             layers: LayerInputs::from_factors(&material.extensions),
         }
     }
 
-    /// Multiplies what a texture belongs to by its texels.
+    /// Multiplies the parameter that a texture belongs to by its texels.
     #[inline(always)]
-    fn apply_texture(&mut self, draw: &Draw<'_>, slot: TextureSlot, texels: &[[f32; N]; 4]) {
+    fn apply_texture(&mut self, draw: &Draw<'_>, slot: TextureSlot, texel: TexelLanes<N>) {
         let material = draw.material;
-        let [red, green, blue, alpha] = texels;
         match slot {
-            TextureSlot::BaseColor | TextureSlot::Diffuse => scale_channels(&mut self.base, texels),
+            TextureSlot::BaseColor | TextureSlot::Diffuse => {
+                self.base_color = self.base_color * texel.color;
+                self.alpha *= texel.alpha;
+            }
+            // glTF packs occlusion, roughness and metalness into red, green and blue, so that one
+            // image can hold all three.
             TextureSlot::MetallicRoughness => {
-                multiply_lanes(&mut self.roughness, green);
-                multiply_lanes(&mut self.metallic, blue);
+                self.roughness *= texel.color.g;
+                self.metallic *= texel.color.b;
             }
             TextureSlot::Normal => {
-                let size = material.normal_texture.map_or(1.0, |normal| normal.scale);
-                self.tangent_normal = decode_tangent_normal(texels, size);
+                let scale = material.normal_texture.map_or(1.0, |normal| normal.scale);
+                self.tangent_normal = decode_tangent_normal(texel.color, scale);
             }
             TextureSlot::Occlusion => {
+                // lerp(1, red, strength), in the order of the specification.
                 let strength = material.occlusion_texture.map_or(1.0, |used| used.strength);
-                for lane in 0..N {
-                    self.occlusion[lane] = 1.0 + strength * (red[lane] - 1.0);
-                }
+                self.occlusion = 1.0 + strength * (texel.color.r - 1.0);
             }
-            TextureSlot::Emissive => scale_channels(&mut self.emitted, texels),
+            TextureSlot::Emissive => self.emitted = self.emitted * texel.color,
             TextureSlot::SpecularGlossiness => {
-                let older = material.extensions.specular_glossiness.as_deref();
-                let glossiness = older.map_or(1.0, |older| older.glossiness);
-                for lane in 0..N {
-                    self.roughness[lane] = 1.0 - glossiness * alpha[lane];
-                }
-                scale_channels(&mut self.layers.specular_color, texels);
+                // Glossiness is in alpha, and the opposite of roughness.
+                let workflow = material.extensions.specular_glossiness.as_deref();
+                let glossiness = workflow.map_or(1.0, |workflow| workflow.glossiness);
+                self.roughness = 1.0 - glossiness * texel.alpha;
+                self.layers.specular_color = self.layers.specular_color * texel.color;
             }
-            slot => self.layers.apply_texture(&material.extensions, slot, texels),
+            slot => self.layers.apply_texture(&material.extensions, slot, texel),
         }
     }
 }
 
 impl<const N: usize> LayerInputs<N> {
-    /// What the extensions say without textures.
+    /// The factors of the extensions, without textures; those of absent extensions are any.
     #[inline(always)]
-    fn from_factors(more: &MaterialExtensions) -> Self {
-        let coat = more.clearcoat.as_deref().copied().unwrap_or_default();
-        let sheen = more.sheen.as_deref().copied().unwrap_or_default();
-        let film = more.iridescence.as_deref().copied().unwrap_or_default();
-        let specular = more.specular.as_deref().copied().unwrap_or_default();
-        let older = more.specular_glossiness.as_deref();
+    fn from_factors(extensions: &MaterialExtensions) -> Self {
+        let clearcoat = extensions.clearcoat.as_deref().copied().unwrap_or_default();
+        let sheen = extensions.sheen.as_deref().copied().unwrap_or_default();
+        let film = extensions.iridescence.as_deref().copied().unwrap_or_default();
+        let specular = extensions.specular.as_deref().copied().unwrap_or_default();
+        let glossiness = extensions.specular_glossiness.as_deref();
+        let transmission = extensions.transmission.as_deref().map_or(0.0, |t| t.factor);
+        let thickness = extensions.volume.as_deref().map_or(0.0, |volume| volume.thickness);
+        let anisotropy = extensions.anisotropy.as_deref().map_or(0.0, |a| a.strength);
         Self {
-            specular: [specular.factor; N],
-            specular_color: splat(older.map_or(specular.color, |older| older.specular)),
-            clearcoat: [coat.factor; N],
-            clearcoat_roughness: [coat.roughness; N],
-            clearcoat_normal: splat([0.0, 0.0, 1.0]),
-            sheen_color: splat(sheen.color),
-            sheen_roughness: [sheen.roughness; N],
-            transmission: [more.transmission.as_deref().map_or(0.0, |t| t.factor); N],
-            thickness: [more.volume.as_deref().map_or(0.0, |volume| volume.thickness); N],
-            iridescence: [film.factor; N],
-            iridescence_thickness: [film.thickness_maximum; N],
-            anisotropy: splat([1.0, 0.0, more.anisotropy.as_deref().map_or(0.0, |a| a.strength)]),
+            specular: Lanes::splat(specular.factor),
+            specular_color: Rgb::splat(glossiness.map_or(specular.color, |g| g.specular)),
+            clearcoat: Lanes::splat(clearcoat.factor),
+            clearcoat_roughness: Lanes::splat(clearcoat.roughness),
+            clearcoat_normal: Vec3Lanes::splat([0.0, 0.0, 1.0]),
+            sheen_color: Rgb::splat(sheen.color),
+            sheen_roughness: Lanes::splat(sheen.roughness),
+            transmission: Lanes::splat(transmission),
+            thickness: Lanes::splat(thickness),
+            iridescence: Lanes::splat(film.factor),
+            iridescence_thickness: Lanes::splat(film.thickness_maximum),
+            anisotropy: Vec3Lanes::splat([1.0, 0.0, anisotropy]),
         }
     }
 
+    /// Multiplies the parameter that an extension's texture belongs to by its texels.
     #[inline(always)]
     fn apply_texture(
         &mut self,
-        more: &MaterialExtensions,
+        extensions: &MaterialExtensions,
         slot: TextureSlot,
-        texels: &[[f32; N]; 4],
+        texel: TexelLanes<N>,
     ) {
-        let [red, green, blue, alpha] = texels;
+        let Rgb { r, g, b } = texel.color;
         match slot {
-            TextureSlot::Specular => multiply_lanes(&mut self.specular, alpha),
-            TextureSlot::SpecularColor => scale_channels(&mut self.specular_color, texels),
-            TextureSlot::Clearcoat => multiply_lanes(&mut self.clearcoat, red),
-            TextureSlot::ClearcoatRoughness => multiply_lanes(&mut self.clearcoat_roughness, green),
+            TextureSlot::Specular => self.specular *= texel.alpha,
+            TextureSlot::SpecularColor => self.specular_color = self.specular_color * texel.color,
+            TextureSlot::Clearcoat => self.clearcoat *= r,
+            TextureSlot::ClearcoatRoughness => self.clearcoat_roughness *= g,
             TextureSlot::ClearcoatNormal => {
-                let normal = more.clearcoat.as_deref().and_then(|coat| coat.normal_texture);
-                self.clearcoat_normal =
-                    decode_tangent_normal(texels, normal.map_or(1.0, |normal| normal.scale));
+                let clearcoat = extensions.clearcoat.as_deref();
+                let normal = clearcoat.and_then(|clearcoat| clearcoat.normal_texture);
+                let scale = normal.map_or(1.0, |normal| normal.scale);
+                self.clearcoat_normal = decode_tangent_normal(texel.color, scale);
             }
-            TextureSlot::SheenColor => scale_channels(&mut self.sheen_color, texels),
-            TextureSlot::SheenRoughness => multiply_lanes(&mut self.sheen_roughness, alpha),
-            TextureSlot::Transmission => multiply_lanes(&mut self.transmission, red),
-            TextureSlot::Thickness => multiply_lanes(&mut self.thickness, green),
-            TextureSlot::Iridescence => multiply_lanes(&mut self.iridescence, red),
+            TextureSlot::SheenColor => self.sheen_color = self.sheen_color * texel.color,
+            TextureSlot::SheenRoughness => self.sheen_roughness *= texel.alpha,
+            TextureSlot::Transmission => self.transmission *= r,
+            TextureSlot::Thickness => self.thickness *= g,
+            TextureSlot::Iridescence => self.iridescence *= r,
             TextureSlot::IridescenceThickness => {
-                let film = more.iridescence.as_deref().copied().unwrap_or_default();
-                let span = film.thickness_maximum - film.thickness_minimum;
-                for lane in 0..N {
-                    self.iridescence_thickness[lane] = film.thickness_minimum + span * green[lane];
-                }
+                // Green chooses between the least and the greatest thickness.
+                let film = extensions.iridescence.as_deref().copied().unwrap_or_default();
+                let range = film.thickness_maximum - film.thickness_minimum;
+                self.iridescence_thickness = film.thickness_minimum + range * g;
             }
             TextureSlot::Anisotropy => {
-                for lane in 0..N {
-                    self.anisotropy[0][lane] = 2.0 * red[lane] - 1.0;
-                    self.anisotropy[1][lane] = 2.0 * green[lane] - 1.0;
-                }
-                multiply_lanes(&mut self.anisotropy[2], blue);
+                // A direction in red and green, −1 to 1, and a strength in blue.
+                self.anisotropy.x = 2.0 * r - 1.0;
+                self.anisotropy.y = 2.0 * g - 1.0;
+                self.anisotropy.z *= b;
             }
             _ => {}
         }
     }
 }
 
+/// The tangent-space normal that a normal map stores, with x and y scaled (glTF 2.0 §3.9.3).
 #[inline(always)]
-fn multiply_lanes<const N: usize>(numbers: &mut [f32; N], factors: &[f32; N]) {
-    for lane in 0..N {
-        numbers[lane] *= factors[lane];
+fn decode_tangent_normal<const N: usize>(texel: Rgb<N>, scale: f32) -> Vec3Lanes<N> {
+    Vec3Lanes {
+        x: (2.0 * texel.r - 1.0) * scale,
+        y: (2.0 * texel.g - 1.0) * scale,
+        z: 2.0 * texel.b - 1.0,
     }
-}
-
-/// A normal of tangent space from a texture's red, green and blue.
-#[inline(always)]
-fn decode_tangent_normal<const N: usize>(
-    [red, green, blue, _]: &[[f32; N]; 4],
-    size: f32,
-) -> [[f32; N]; 3] {
-    let mut slope = [[0.0; N]; 3];
-    for lane in 0..N {
-        slope[0][lane] = (2.0 * red[lane] - 1.0) * size;
-        slope[1][lane] = (2.0 * green[lane] - 1.0) * size;
-        slope[2][lane] = 2.0 * blue[lane] - 1.0;
-    }
-    slope
 }

@@ -1,73 +1,80 @@
-//! Maps: the textures of a draw's material, each with the place where it counts.
+//! The textures of a material, grouped by footprint.
+//!
+//! Textures of one size, with one sampler and the same coordinates are read at the same texels.
+//! They are sampled as a group: footprint, mip levels and texel indices are computed once for all
+//! of them. glTF's packed textures, such as occlusion, roughness and metalness in one image, are
+//! also fetched once.
 
 use super::MipChain;
+use super::texture::{TexelLanes, UvLanes};
 use model::{AlphaMode, Material, TextureInfo, TextureSlot};
 
-/// How many maps are read at once, at most.
+/// The most textures that are sampled as one group.
 const MAX_GROUP: usize = 4;
 
 /// A texture of a material.
 #[derive(Clone, Copy, Debug)]
 pub struct MaterialTexture<'a> {
-    /// What it changes.
+    /// The parameter that it multiplies.
     pub slot: TextureSlot,
-    /// By which coordinates it is read.
-    pub usage: TextureInfo,
+    /// The coordinates that it is sampled by.
+    pub info: TextureInfo,
     /// Its texels.
     pub mip_chain: &'a MipChain<'a>,
-    /// Whether their alpha counts where surfaces are shaded.
+    /// Whether shading reads its alpha.
     needs_alpha: bool,
-    /// Whether it is read together with the map before it, at the same places.
+    /// Whether it is in one group with the texture before it.
     joins_previous: bool,
-    /// Whether it has the same texels as the map before it, too.
+    /// Whether it also has the same texels as the texture before it.
     repeats_previous: bool,
 }
 
 /// The textures of a material.
 #[derive(Clone, Debug, Default)]
 pub struct MaterialTextures<'a> {
-    /// All of them; those that are read alike stand side by side, so that places are found, and texels fetched, once for all.
+    /// Group after group.
     textures: Vec<MaterialTexture<'a>>,
-    /// How many places along a pixel's longer side textures are read at, at most.
+    /// The most taps along the longer axis of a footprint.
     pub(super) anisotropy: u32,
 }
 
 impl<'a> MaterialTextures<'a> {
-    /// Those textures of a material for which `chain` has texels. An unlit material shows nothing but its base colour.
+    /// Those textures of a material for which `mip_chain` returns texels. Of an unlit material only
+    /// the base color is used.
+    ///
+    /// `anisotropy` is the most texels that are read along the longer axis of a pixel's footprint.
     pub fn new(
         material: &Material,
         anisotropy: u32,
-        chain: impl Fn(TextureSlot, TextureInfo) -> Option<&'a MipChain<'a>>,
+        mip_chain: impl Fn(TextureSlot, TextureInfo) -> Option<&'a MipChain<'a>>,
     ) -> Self {
         let is_blended = material.alpha_mode == AlphaMode::Blend;
-        let map = |(slot, used)| {
-            let chain = chain(slot, used)?;
-            let alpha_counts = slot_reads_alpha(slot) || (is_blended && is_base_color_slot(slot));
+        let texture = |(slot, info)| {
             Some(MaterialTexture {
                 slot,
-                usage: used,
-                mip_chain: chain,
-                needs_alpha: alpha_counts,
+                info,
+                mip_chain: mip_chain(slot, info)?,
+                needs_alpha: slot_reads_alpha(slot) || (is_blended && is_base_color_slot(slot)),
                 joins_previous: false,
                 repeats_previous: false,
             })
         };
-        let mut rest: Vec<MaterialTexture<'a>> =
-            material.visible_textures().filter_map(map).collect();
-        rest.sort_by_key(|map| (map.usage.texture, map.slot));
+        let mut rest: Vec<_> = material.visible_textures().filter_map(texture).collect();
+        // Slots of one image side by side, so that a repeat directly follows what it repeats.
+        rest.sort_by_key(|texture| (texture.info.texture, texture.slot));
         let mut textures: Vec<MaterialTexture<'a>> = Vec::with_capacity(rest.len());
         while let Some(&first) = rest.first() {
             let start = textures.len();
-            rest.retain(|map| {
-                let is_taken = first.has_same_footprint(map) && textures.len() < start + MAX_GROUP;
+            // Moves the textures with the first one's footprint over, as one group.
+            rest.retain(|texture| {
+                let is_taken =
+                    first.has_same_footprint(texture) && textures.len() < start + MAX_GROUP;
                 if is_taken {
-                    let before = textures[start..].last();
-                    let repeats = before.is_some_and(|before| before.covers_texels_of(map));
-                    textures.push(MaterialTexture {
-                        joins_previous: before.is_some(),
-                        repeats_previous: repeats,
-                        ..*map
-                    });
+                    let previous = textures[start..].last();
+                    let repeats_previous =
+                        previous.is_some_and(|previous| previous.covers_texels_of(texture));
+                    let joins_previous = previous.is_some();
+                    textures.push(MaterialTexture { joins_previous, repeats_previous, ..*texture });
                 }
                 !is_taken
             });
@@ -75,63 +82,67 @@ impl<'a> MaterialTextures<'a> {
         Self { textures, anisotropy }
     }
 
-    /// All maps, those together that are read at the same places.
+    /// The groups of textures that are read at the same texels, none of them empty.
     #[inline(always)]
     pub(super) fn groups(&self) -> impl Iterator<Item = &[MaterialTexture<'a>]> {
         self.textures.chunk_by(|_, next| next.joins_previous)
     }
 
-    /// The texels of maps that are read together, at the same coordinates: see [`MipChain::sample`].
+    /// Samples the textures of one group at its coordinates: see [`MipChain::sample`].
+    ///
+    /// The result has one entry for each texture of the group, in its order; further ones are zero.
     #[inline(always)]
     pub(super) fn sample_group<const N: usize>(
         &self,
-        maps: &[MaterialTexture<'a>],
-        uvs: &[[[f32; N]; 2]; 3],
-    ) -> [[[f32; N]; 4]; MAX_GROUP] {
-        let mut texels = [[[0.0; N]; 4]; MAX_GROUP];
-        let layout = maps[0].mip_chain.addressing();
-        let footprint = layout.footprint(uvs, self.anisotropy);
-        for number in 0..footprint.max_tap_count() {
-            let tap = footprint.tap(layout, number);
-            for (map, texels) in maps.iter().zip(&mut texels) {
-                if !map.repeats_previous {
-                    map.mip_chain.accumulate_tap(&tap, map.needs_alpha, texels);
+        group: &[MaterialTexture<'a>],
+        uvs: &UvLanes<N>,
+    ) -> [TexelLanes<N>; MAX_GROUP] {
+        let mut texels = [TexelLanes::ZERO; MAX_GROUP];
+        // One footprint for the group, and its texel indices for each tap.
+        let addressing = group[0].mip_chain.addressing();
+        let footprint = addressing.footprint(uvs, self.anisotropy);
+        for index in 0..footprint.max_tap_count() {
+            let tap = footprint.tap(addressing, index);
+            for (texture, texel) in group.iter().zip(&mut texels) {
+                if !texture.repeats_previous {
+                    texture.mip_chain.accumulate_tap(&tap, texture.needs_alpha, texel);
                 }
             }
         }
-        for (number, map) in maps.iter().enumerate() {
-            if map.repeats_previous {
-                texels[number] = texels[number - 1];
+        for (index, texture) in group.iter().enumerate() {
+            if texture.repeats_previous {
+                texels[index] = texels[index - 1];
             }
         }
         texels
     }
 
-    /// The map that alpha is read from.
+    /// The texture that the alpha of the surface is read from.
     pub(super) fn base_color(&self) -> Option<&MaterialTexture<'a>> {
-        self.textures.iter().find(|map| is_base_color_slot(map.slot))
+        self.textures.iter().find(|texture| is_base_color_slot(texture.slot))
     }
 }
 
 impl MaterialTexture<'_> {
-    /// Whether the texels of this map are all that another one needs, where both are read at the same places.
+    /// Whether the sampled texels of this texture are all that another one needs, in one group.
     fn covers_texels_of(&self, other: &Self) -> bool {
         std::ptr::eq(self.mip_chain, other.mip_chain) && (self.needs_alpha || !other.needs_alpha)
     }
 
-    /// Whether two maps are read at the same places wherever they are.
+    /// Whether two textures are read at the same texels by every fragment.
     fn has_same_footprint(&self, other: &Self) -> bool {
-        let (used, others) = (&self.usage, &other.usage);
-        let layouts = self.mip_chain.addressing() == other.mip_chain.addressing();
-        layouts && used.uv_set == others.uv_set && used.uv_matrix == others.uv_matrix
+        let (info, others) = (&self.info, &other.info);
+        let is_same_addressing = self.mip_chain.addressing() == other.mip_chain.addressing();
+        is_same_addressing && info.uv_set == others.uv_set && info.uv_matrix == others.uv_matrix
     }
 }
 
+/// Whether a slot holds the base color, of either workflow.
 const fn is_base_color_slot(slot: TextureSlot) -> bool {
     matches!(slot, TextureSlot::BaseColor | TextureSlot::Diffuse)
 }
 
-/// Whether the alpha of a texture counts that is no base colour.
+/// Whether the alpha of a texture is a parameter of its own, beside that of the base color.
 const fn slot_reads_alpha(slot: TextureSlot) -> bool {
     matches!(
         slot,
@@ -143,41 +154,44 @@ const fn slot_reads_alpha(slot: TextureSlot) -> bool {
 mod tests {
     use super::*;
     use crate::TexelEncoding;
+    use crate::lanes::Lanes;
     use model::{Image, NormalTexture, OcclusionTexture, Sampler};
 
     #[test]
-    fn maps_read_together_have_the_bits_of_maps_read_alone() {
-        let used =
+    fn a_group_has_the_bits_of_textures_sampled_alone() {
+        let info =
             |texture| TextureInfo { texture, uv_set: 0, uv_matrix: TextureInfo::IDENTITY_UV };
         let material = Material {
-            base_color_texture: Some(used(0)),
-            metallic_roughness_texture: Some(used(1)),
-            normal_texture: Some(NormalTexture { texture: used(2), scale: 1.0 }),
-            occlusion_texture: Some(OcclusionTexture { texture: used(1), strength: 1.0 }),
-            emissive_texture: Some(used(3)),
+            base_color_texture: Some(info(0)),
+            metallic_roughness_texture: Some(info(1)),
+            normal_texture: Some(NormalTexture { texture: info(2), scale: 1.0 }),
+            occlusion_texture: Some(OcclusionTexture { texture: info(1), strength: 1.0 }),
+            emissive_texture: Some(info(3)),
             ..Material::default()
         };
-        // The last is of another size, and stands alone.
+        // The last is of another size, and a group of its own.
         let image = |side: u32, factor: u32| {
             let texel = |n: u32| [n * factor, n * 31, n * 101, n * 59].map(|code| code as u8);
             Image { width: side, height: side, rgba: (0..side * side).map(texel).collect() }
         };
         let images = [image(16, 7), image(16, 11), image(16, 13), image(8, 17)];
-        let kinds = [
+        let encodings = [
             TexelEncoding::Srgb,
             TexelEncoding::Linear,
             TexelEncoding::Linear,
             TexelEncoding::Srgb,
         ];
-        let chain = |n: usize| MipChain::new(&images[n], Sampler::default(), kinds[n]);
-        let chains = [0, 1, 2, 3].map(chain);
-        let maps = MaterialTextures::new(&material, 4, |_, used| chains.get(used.texture));
-        let counts: Vec<usize> = maps.groups().map(<[MaterialTexture<'_>]>::len).collect();
+        let mip_chain = |n: usize| MipChain::new(&images[n], Sampler::default(), encodings[n]);
+        let mip_chains = [0, 1, 2, 3].map(mip_chain);
+        let textures = MaterialTextures::new(&material, 4, |_, info| mip_chains.get(info.texture));
+        let counts: Vec<usize> = textures.groups().map(<[MaterialTexture<'_>]>::len).collect();
         assert_eq!(counts, [4, 1]);
-        let uvs = [[[0.3], [0.7]], [[0.4], [0.1]], [[0.05], [0.02]]];
-        for together in maps.groups() {
-            for (map, texels) in together.iter().zip(maps.sample_group(together, &uvs)) {
-                assert_eq!(texels, map.mip_chain.sample(&uvs, false, 4), "{:?}", map.slot);
+        let [uv, dx, dy] = [[0.3, 0.7], [0.4, 0.1], [0.05, 0.02]].map(|uv| uv.map(Lanes::splat));
+        let uvs = UvLanes::<1> { uv, dx, dy };
+        for group in textures.groups() {
+            for (texture, texel) in group.iter().zip(textures.sample_group(group, &uvs)) {
+                let alone = texture.mip_chain.sample(&uvs, false, 4);
+                assert_eq!(texel, alone, "{:?}", texture.slot);
             }
         }
     }

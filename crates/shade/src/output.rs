@@ -1,4 +1,6 @@
-//! Output files: written beside their place and renamed into it, so that a failed run leaves the old file as it was.
+//! Output files, written atomically: to a temporary file beside the target, which is then renamed.
+//!
+//! A run that fails leaves the old file as it was, and no reader ever sees half a file.
 
 mod png_rows;
 
@@ -9,18 +11,19 @@ use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// An output file that could not be written.
+/// The error of an output file that could not be written.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot write {}: {cause}", path.display())]
 pub struct OutputError {
-    /// The file that was to be written.
+    /// The target file.
     pub path: PathBuf,
-    /// Why it could not be.
+    /// The error of the operating system.
     pub cause: std::io::Error,
 }
 
 impl<C: Channel> Picture<C> {
-    /// The picture as a PNG file: RGB if it is opaque, RGBA with straight alpha otherwise, of as many bits as the picture has.
+    /// Encodes the picture as a PNG file with as many bits a channel as it has: RGB if it is
+    /// opaque, RGBA with straight alpha otherwise.
     #[must_use]
     pub fn to_png(&self) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(self.pixels.len());
@@ -31,59 +34,65 @@ impl<C: Channel> Picture<C> {
         bytes
     }
 
-    /// Writes the picture as a PNG file.
+    /// Writes the picture as a PNG file, atomically.
     ///
     /// # Errors
-    /// If the file cannot be written; a file that was there before is then as it was.
+    /// If the file cannot be written; an older file is then unchanged.
     pub fn write_png(&self, path: &Path) -> Result<(), OutputError> {
         write_file(path, &self.to_png())
     }
 }
 
-/// Writes a file whole or not at all: beside its place first, then by renaming.
+/// Writes a file atomically: whole or not at all.
 ///
 /// # Errors
-/// If the file cannot be written; a file that was there before is then as it was.
+/// If the file cannot be written; an older file is then unchanged.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
-    let mut draft = AtomicFile::create(path)?;
-    draft.write_all(bytes).map_err(|cause| OutputError { path: path.to_owned(), cause })?;
-    draft.finish()
+    let mut file = AtomicFile::create(path)?;
+    file.write_all(bytes).map_err(|cause| OutputError { path: path.to_owned(), cause })?;
+    file.finish()
 }
 
-/// A file that is being written beside its place. It is gone if it is dropped before it is finished.
+/// A temporary file beside its target, which it replaces when it is finished. It is removed if it
+/// is dropped before that.
 #[derive(Debug)]
 pub struct AtomicFile {
     target_path: PathBuf,
+    /// The temporary file: the target's name with the process id and `.part`.
     partial_path: PathBuf,
     file: File,
+    /// Whether it was renamed, and must not be removed any more.
     is_finished: bool,
 }
 
 impl AtomicFile {
-    /// Begins to write what is to be the file at `place`.
+    /// Creates the temporary file for a target.
     ///
     /// # Errors
-    /// If no file can be made there.
-    pub fn create(place: &Path) -> Result<Self, OutputError> {
-        let mut name = place.file_name().unwrap_or_default().to_owned();
+    /// If no file can be created in the target's folder.
+    pub fn create(target: &Path) -> Result<Self, OutputError> {
+        let mut name = target.file_name().unwrap_or_default().to_owned();
         name.push(format!(".{}.part", std::process::id()));
-        let beside = place.with_file_name(name);
-        let file =
-            File::create(&beside).map_err(|cause| OutputError { path: place.to_owned(), cause })?;
-        Ok(Self { target_path: place.to_owned(), partial_path: beside, file, is_finished: false })
+        let partial_path = target.with_file_name(name);
+        let target_path = target.to_owned();
+        match File::create(&partial_path) {
+            Ok(file) => Ok(Self { target_path, partial_path, file, is_finished: false }),
+            Err(cause) => Err(OutputError { path: target_path, cause }),
+        }
     }
 
-    /// Puts the file in its place, whole.
+    /// Flushes the file to the disk and renames it to the target.
     ///
     /// # Errors
-    /// If it cannot be put there; a file that was there before is then as it was.
+    /// If it cannot be renamed; an older file is then unchanged.
     pub fn finish(mut self) -> Result<(), OutputError> {
-        let put = self
+        // On the disk before the name: a crash leaves the old file or the new one, whole.
+        let renamed = self
             .file
             .sync_all()
             .and_then(|()| std::fs::rename(&self.partial_path, &self.target_path));
-        self.is_finished = put.is_ok();
-        put.map_err(|cause| OutputError { path: self.target_path.clone(), cause })
+        self.is_finished = renamed.is_ok();
+        renamed.map_err(|cause| OutputError { path: self.target_path.clone(), cause })
     }
 }
 
@@ -100,7 +109,7 @@ impl Write for AtomicFile {
 impl Drop for AtomicFile {
     fn drop(&mut self) {
         if !self.is_finished {
-            // Whether there is anything to remove does not matter here.
+            // Best effort: nobody is left to report an error to.
             let _ = std::fs::remove_file(&self.partial_path);
         }
     }

@@ -1,10 +1,11 @@
-//! Pictures: what a render returns and a file holds.
+//! Pictures: sRGB pixels with straight alpha, as a render returns them and a PNG file holds them.
 
 mod channel;
 
 pub use channel::Channel;
 
-/// A picture of sRGB pixels with straight alpha, rows from the top: of 8 bits for each channel (`u8`) or of 16 (`u16`).
+/// A picture of sRGB pixels with straight alpha, rows from the top, with 8 bits a channel (`u8`) or
+/// 16 (`u16`).
 #[derive(Clone, PartialEq, Eq, Default)]
 pub struct Picture<C = u8> {
     /// Width in pixels.
@@ -19,16 +20,16 @@ impl<C: Channel> Picture<C> {
     /// The pixel in column `x` and row `y`, from the upper left corner; `None` outside.
     #[must_use]
     pub fn pixel(&self, x: u32, y: u32) -> Option<[C; 4]> {
-        let inside = x < self.width && y < self.height;
-        inside.then(|| self.pixels[y as usize * self.width as usize + x as usize])
+        let is_inside = x < self.width && y < self.height;
+        is_inside.then(|| self.pixels[y as usize * self.width as usize + x as usize])
     }
 
-    /// Gives it another size; the pixels are any.
+    /// Resizes the picture for a new one: the pixels are unspecified. Memory is reused.
     pub fn resize(&mut self, width: u32, height: u32) {
         (self.width, self.height) = (width, height);
         let area = width as usize * height as usize;
         if self.pixels.capacity() < area {
-            // Fresh memory is zero already.
+            // Zeroed pages of the system are cheaper than writing zeros.
             self.pixels = vec![[C::default(); 4]; area];
         } else {
             self.pixels.resize(area, [C::default(); 4]);

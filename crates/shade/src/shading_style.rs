@@ -1,88 +1,95 @@
-//! Styles: what surfaces look like when their material is not the point.
+//! Shading styles: clay, matcap, toon and x-ray surfaces, and false colors for normals, depth,
+//! texture coordinates and part ids.
 //!
-//! They go through the stages of shaded pictures and take the same normals, weights and lights; only the last step, from these to
-//! a colour, is another. Colours that stand for numbers (normals, depth, parts, texture coordinates) are written so that the
-//! code in the picture is the number, before samples are put together.
+//! Styles take the same normals, weights and lights as shaded pictures; only the last step, from
+//! these to a color, is another one. False colors are decoded so that the sRGB code in the picture
+//! is the number, as long as a pixel has one sample's color.
 
-use super::fragment_lanes::{FragmentLanes, cross, dot, lane_vector};
+use super::fragment_lanes::FragmentLanes;
+use super::lanes::{Lanes, Rgb};
 use super::material_inputs::MaterialInputs;
 use super::surface_geometry::SurfaceGeometry;
+use super::transmission::luminance;
+use super::vector::{cross, dot, normalize_or_zero, subtract};
 use super::{Draw, DrawKind, Shading};
 use crate::color::srgb_to_linear;
 use model::TextureInfo;
 use raster::{Fragment, Surface};
 use std::f32::consts::PI;
 
-/// What surfaces look like.
+/// The look of surfaces that are not shaded by their material.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum ShadingStyle {
-    /// Light at the corners of each triangle, blended over it, times the colour of the material (Gouraud, 1971).
+    /// Gouraud shading: diffuse light at the vertices of each triangle, interpolated, times the
+    /// base color (Gouraud 1971).
     Gouraud,
-    /// Matt clay in the light of the scene.
+    /// Matte clay in the light of the scene.
     Clay,
-    /// The colour of a ball of glazed clay that faces the viewer as the surface does.
+    /// Matcap: the color of a ball of glazed clay that faces the viewer as the surface does.
     Matcap,
     /// The normal in the world: red, green and blue are (n + 1) / 2.
     Normals,
-    /// The nearer, the brighter: from 1 at `near` to 0.1 at `far`, both along the view axis.
+    /// Depth along the view axis: 1 at `near`, falling linearly to 0.1 at `far`.
     Depth {
-        /// Where it is white.
+        /// The depth of white.
         near: f32,
-        /// Where it is darkest.
+        /// The depth of the darkest gray.
         far: f32,
     },
-    /// A checkerboard of 8 × 8 squares for each unit of texture coordinates; red grows with u, green with v.
+    /// A checkerboard of 8 × 8 squares for each unit of texture coordinates; red grows with u,
+    /// green with v.
     UvChecker,
-    /// A colour for each part.
+    /// A color for each part.
     Ids,
-    /// The colour of the material in three steps of light.
+    /// Toon (cel) shading: the base color in three steps of light.
     Toon,
-    /// As if of glass: the denser the more a surface lies along the line of sight.
+    /// Translucent, the denser the more a surface lies along the line of sight.
     XRay,
 }
 
-/// Surfaces of a style.
+/// Surfaces in a style, for the rasterizer.
 #[derive(Debug)]
 pub struct StyledShading<'a> {
-    /// What shaded surfaces would be drawn with.
+    /// The shading whose draws, lights and environment are used.
     pub shading: &'a Shading<'a>,
-    /// What they look like.
+    /// The look of the surfaces.
     pub style: ShadingStyle,
-    /// The rows of the turn from the world to view space: right, up, backwards.
+    /// The rows of the rotation from the world to view space: right, up, backwards.
     pub world_to_view: [[f32; 3]; 3],
-    /// The place of the eye.
+    /// The position of the eye in the world.
     pub eye_position: [f32; 3],
 }
 
-/// The albedo of clay.
+/// The diffuse albedo of clay.
 const CLAY_ALBEDO: [f32; 3] = [0.58, 0.52, 0.46];
 /// The squares of a checkerboard in a unit of texture coordinates.
 const CHECKER_SQUARES: f32 = 8.0;
-/// The light of toon surfaces, up to which share of white.
+/// The steps of toon light: the luminance up to which each reaches, and its brightness.
 const TOON_TONES: [(f32, f32); 3] = [(0.18, 0.3), (0.55, 0.62), (f32::INFINITY, 1.0)];
-/// The colour that is left of surfaces of glass.
+/// The color of x-ray surfaces where they are densest.
 const XRAY_COLOR: [f32; 3] = [0.03, 0.22, 0.5];
 
-/// One corner of a triangle, seen as if it filled a pixel.
-struct VertexLanes([[f32; 1]; 3]);
+/// A fragment at one vertex of a triangle, for shading per vertex.
+struct VertexFragment([Lanes<1>; 3]);
 
-impl VertexLanes {
-    fn at_vertex(number: usize) -> Self {
-        let mut weights = [[0.0]; 3];
-        weights[number] = [1.0];
+impl VertexFragment {
+    /// The fragment at one of the three vertices.
+    fn at_vertex(vertex: usize) -> Self {
+        let mut weights = [Lanes::ZERO; 3];
+        weights[vertex] = Lanes::ONE;
         Self(weights)
     }
 }
 
-impl FragmentLanes<1> for VertexLanes {
-    fn weights(&self) -> [[f32; 1]; 3] {
+impl FragmentLanes<1> for VertexFragment {
+    fn weights(&self) -> [Lanes<1>; 3] {
         self.0
     }
-    fn weights_dx(&self) -> [[f32; 1]; 3] {
-        [[0.0]; 3]
+    fn weights_dx(&self) -> [Lanes<1>; 3] {
+        [Lanes::ZERO; 3]
     }
-    fn weights_dy(&self) -> [[f32; 1]; 3] {
-        [[0.0]; 3]
+    fn weights_dy(&self) -> [Lanes<1>; 3] {
+        [Lanes::ZERO; 3]
     }
 }
 
@@ -94,184 +101,186 @@ impl Surface for StyledShading<'_> {
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
         let (draw, _) = self.shading.draws.find_draw(fragment.id);
         let is_surface = draw.primitive.topology == model::Topology::Triangles;
-        let is_of_numbers = matches!(self.style, ShadingStyle::Depth { .. } | ShadingStyle::Ids);
-        if draw.kind != DrawKind::Surface || !(is_surface || is_of_numbers) {
+        let is_false_color = matches!(self.style, ShadingStyle::Depth { .. } | ShadingStyle::Ids);
+        if draw.kind != DrawKind::Surface || !(is_surface || is_false_color) {
             return self.shading.shade(fragment);
         }
-        let facing = self.shading.surface_geometry(
-            draw,
-            &draw.primitive_indices(&[fragment.id], true),
-            fragment,
-        );
+        let primitive = draw.primitive_indices(&[fragment.id], true);
+        let geometry = self.shading.surface_geometry(draw, &primitive, fragment);
         match self.style {
             ShadingStyle::Gouraud => self.shade_gouraud(draw, fragment),
-            ShadingStyle::Clay => {
-                let light = self.diffuse_light(&facing);
-                self.tone_mapped([0, 1, 2].map(|k: usize| CLAY_ALBEDO[k] * light[k]))
-            }
-            ShadingStyle::Matcap => opaque_color(self.matcap_color(&facing)),
-            ShadingStyle::Normals => {
-                decode_codes(lane_vector(&facing.normals, 0).map(|c| 0.5 * c + 0.5))
-            }
+            ShadingStyle::Clay => self.shade_clay(&geometry),
+            ShadingStyle::Matcap => opaque_color(self.matcap_color(&geometry)),
+            ShadingStyle::Normals => decode_codes(geometry.normals.lane(0).map(|c| 0.5 * c + 0.5)),
             ShadingStyle::Depth { near, far } => {
-                let depth = self.view_depth(&facing);
-                let share = if far > near { (far - depth) / (far - near) } else { 1.0 };
-                decode_codes([0.1 + 0.9 * share.clamp(0.0, 1.0); 3])
+                let depth = self.view_depth(&geometry);
+                let nearness = if far > near { (far - depth) / (far - near) } else { 1.0 };
+                decode_codes([0.1 + 0.9 * nearness.clamp(0.0, 1.0); 3])
             }
-            ShadingStyle::UvChecker => checker_color(draw, fragment, facing.n_dot_v[0]),
+            ShadingStyle::UvChecker => checker_color(draw, fragment, geometry.n_dot_v[0]),
             ShadingStyle::Ids => decode_codes(part_color(draw.part_id)),
-            ShadingStyle::Toon => self.shade_toon(draw, fragment, &facing),
-            ShadingStyle::XRay => self.shade_xray(fragment, &facing),
+            ShadingStyle::Toon => self.shade_toon(draw, fragment, &geometry),
+            ShadingStyle::XRay => self.shade_xray(fragment, &geometry),
         }
     }
 }
 
 impl StyledShading<'_> {
-    /// What a white matt surface sends to the viewer.
-    fn diffuse_light(&self, facing: &SurfaceGeometry<1>) -> [f32; 3] {
-        let normal = lane_vector(&facing.normals, 0);
+    /// The radiance of a white Lambert surface, by lights without their shadows and environment.
+    fn diffuse_light(&self, geometry: &SurfaceGeometry<1>) -> [f32; 3] {
+        let normal = geometry.normals.lane(0);
         let mut sum = [0.0; 3];
         for light in self.shading.lights {
-            let arriving = light.incident_at(&facing.positions);
-            let cosine = dot(normal, lane_vector(&arriving.to_light, 0)).max(0.0);
-            let lux = lane_vector(&arriving.lux, 0);
+            let incident = light.incident_at(geometry.positions);
+            let n_dot_l = dot(normal, incident.to_light.lane(0)).max(0.0);
+            let lux = incident.lux.lane(0);
             let ambient = light.ambient_lux().unwrap_or_default();
-            sum = [0, 1, 2].map(|k: usize| sum[k] + (lux[k] * cosine + ambient[k]) / PI);
+            sum = [0, 1, 2].map(|k: usize| sum[k] + (lux[k] * n_dot_l + ambient[k]) / PI);
         }
         if let Some(environment) = self.shading.environment {
-            let scattered = lane_vector(&environment.irradiance_over_pi(&facing.normals), 0);
-            sum = [0, 1, 2].map(|k: usize| sum[k] + scattered[k]);
+            let diffuse = environment.irradiance_over_pi(geometry.normals).lane(0);
+            sum = [0, 1, 2].map(|k: usize| sum[k] + diffuse[k]);
         }
         sum
     }
 
-    fn tone_mapped(&self, color: [f32; 3]) -> [f32; 4] {
-        let mut lanes = color.map(|channel| [channel]);
-        self.shading.tone_mapper.map_colors(&mut lanes);
-        opaque_color(lane_vector(&lanes, 0))
+    /// An opaque color from light, exposed and tone mapped.
+    fn tone_mapped(&self, light: [f32; 3]) -> [f32; 4] {
+        let color = self.shading.tone_mapper.map_colors(Rgb::<1>::splat(light));
+        opaque_color(color.lane(0))
     }
 
+    /// Clay: Lambert with one albedo.
+    fn shade_clay(&self, geometry: &SurfaceGeometry<1>) -> [f32; 4] {
+        let light = self.diffuse_light(geometry);
+        self.tone_mapped([0, 1, 2].map(|k: usize| CLAY_ALBEDO[k] * light[k]))
+    }
+
+    /// Light per vertex, interpolated; the base color per fragment.
     fn shade_gouraud(&self, draw: &Draw<'_>, fragment: &Fragment<'_>) -> [f32; 4] {
-        let items = draw.primitive_indices(&[fragment.id], true);
+        let primitive = draw.primitive_indices(&[fragment.id], true);
         let mut light = [0.0; 3];
-        for corner in 0..3 {
-            let facing =
-                self.shading.surface_geometry(draw, &items, &VertexLanes::at_vertex(corner));
-            let at_corner = self.diffuse_light(&facing);
-            for (sum, light) in light.iter_mut().zip(at_corner) {
-                *sum += light * fragment.weights[corner];
+        for vertex in 0..3 {
+            let at_vertex = VertexFragment::at_vertex(vertex);
+            let geometry = self.shading.surface_geometry(draw, &primitive, &at_vertex);
+            let vertex_light = self.diffuse_light(&geometry);
+            for (sum, light) in light.iter_mut().zip(vertex_light) {
+                *sum += light * fragment.weights[vertex];
             }
         }
         let (base, emitted) = base_and_emitted(draw, fragment);
         self.tone_mapped([0, 1, 2].map(|k: usize| base[k] * light[k] + emitted[k]))
     }
 
+    /// The base color in steps of light by its luminance.
     fn shade_toon(
         &self,
         draw: &Draw<'_>,
         fragment: &Fragment<'_>,
-        facing: &SurfaceGeometry<1>,
+        geometry: &SurfaceGeometry<1>,
     ) -> [f32; 4] {
-        let [r, g, b] = self.diffuse_light(facing);
-        // Luminance of linear sRGB.
-        let light = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-        let tone =
-            TOON_TONES.iter().find(|(up_to, _)| light < *up_to).map_or(1.0, |(_, tone)| *tone);
+        // The darkest tone whose limit is above the luminance.
+        let light = luminance(Rgb::<1>::splat(self.diffuse_light(geometry)))[0];
+        let tone = TOON_TONES.iter().find(|(up_to, _)| light < *up_to);
+        let brightness = tone.map_or(1.0, |(_, brightness)| *brightness);
         let (base, emitted) = base_and_emitted(draw, fragment);
-        self.tone_mapped([0, 1, 2].map(|k: usize| base[k] * tone + emitted[k]))
+        self.tone_mapped([0, 1, 2].map(|k: usize| base[k] * brightness + emitted[k]))
     }
 
-    /// A light from the upper left, a highlight and a rim, by the normal in a frame whose z points to the viewer of this pixel.
-    fn matcap_color(&self, facing: &SurfaceGeometry<1>) -> [f32; 3] {
-        let (normal, view) = (lane_vector(&facing.normals, 0), lane_vector(&facing.views, 0));
-        let right = unit_or_zero(cross(self.world_to_view[1], view));
+    /// The matcap at the normal in a frame whose z points to the viewer of this pixel: in
+    /// perspective a sphere looks alike wherever it is in the picture.
+    fn matcap_color(&self, geometry: &SurfaceGeometry<1>) -> [f32; 3] {
+        let (normal, view) = (geometry.normals.lane(0), geometry.views.lane(0));
+        let right = normalize_or_zero(cross(self.world_to_view[1], view));
         let up = cross(view, right);
         matcap_ball_color([dot(normal, right), dot(normal, up), dot(normal, view)])
     }
 
-    fn view_depth(&self, facing: &SurfaceGeometry<1>) -> f32 {
-        let place = lane_vector(&facing.positions, 0);
-        -dot(self.world_to_view[2], [0, 1, 2].map(|k: usize| place[k] - self.eye_position[k]))
+    /// The distance from the eye along the view axis.
+    fn view_depth(&self, geometry: &SurfaceGeometry<1>) -> f32 {
+        -dot(self.world_to_view[2], subtract(geometry.positions.lane(0), self.eye_position))
     }
 
-    fn shade_xray(&self, fragment: &Fragment<'_>, facing: &SurfaceGeometry<1>) -> [f32; 4] {
+    /// A translucent surface, whose alpha grows with the cube of 1 − |n·v|.
+    fn shade_xray(&self, fragment: &Fragment<'_>, geometry: &SurfaceGeometry<1>) -> [f32; 4] {
         if !self.passes_alpha_test(fragment) {
             return [0.0; 4];
         }
-        // Backs of surfaces with one side are seen here too, and their normals point away.
-        let cosine = dot(lane_vector(&facing.normals, 0), lane_vector(&facing.views, 0)).abs();
-        let along = 1.0 - cosine.min(1.0);
+        // Backs of single-sided surfaces are drawn here too, and their normals point away.
+        let n_dot_v = dot(geometry.normals.lane(0), geometry.views.lane(0)).abs();
+        let along = 1.0 - n_dot_v.min(1.0);
         let alpha = 0.07 + 0.73 * along * along * along;
         let [r, g, b] = XRAY_COLOR.map(|channel| channel * alpha);
         [r, g, b, alpha]
     }
 }
 
-/// The colour of a ball of glazed clay where its normal is this, z towards the viewer.
+/// The color of a ball of glazed clay at a normal, z towards the viewer: light from the upper left,
+/// a highlight and a rim.
 fn matcap_ball_color([x, y, z]: [f32; 3]) -> [f32; 3] {
     let light = [-0.4, 0.64, 0.656];
-    let half = unit_or_zero([light[0], light[1], light[2] + 1.0]);
+    // Wrapped diffuse.
     let wrapped = 0.5 + 0.5 * dot([x, y, z], light);
+    let diffuse = 0.06 + 0.94 * wrapped * wrapped;
+    // Blinn-Phong highlight.
+    let half = normalize_or_zero([light[0], light[1], light[2] + 1.0]);
     let fourth = |c: f32| c * c * c * c;
     let gloss = 0.4 * fourth(fourth(dot([x, y, z], half).max(0.0)));
+    // Rim light.
     let away = 1.0 - z.clamp(0.0, 1.0);
     let rim = 0.25 * away * away * away;
-    let diffuse = 0.06 + 0.94 * wrapped * wrapped;
     let color = |base: f32, rim_color: f32| base * diffuse + gloss + rim * rim_color;
     [color(0.5, 0.5), color(0.24, 0.7), color(0.16, 1.0)]
 }
 
-/// The colour of the material and the light that it gives off.
+/// The base color of a material and the light that it emits.
 fn base_and_emitted(draw: &Draw<'_>, fragment: &Fragment<'_>) -> ([f32; 3], [f32; 3]) {
-    let corners = draw.vertex_indices(&draw.primitive_indices(&[fragment.id], true));
-    let MaterialInputs { base: [r, g, b, _], emitted, .. } =
-        MaterialInputs::<1>::evaluate(draw, &corners, fragment);
-    (lane_vector(&[r, g, b], 0), lane_vector(&emitted, 0))
+    let vertices = draw.vertex_indices(&draw.primitive_indices(&[fragment.id], true));
+    let inputs = MaterialInputs::<1>::evaluate(draw, &vertices, fragment);
+    (inputs.base_color.lane(0), inputs.emitted.lane(0))
 }
 
-/// A checkerboard, whose squares fade where they are smaller than pixels; grey without texture coordinates.
-fn checker_color(draw: &Draw<'_>, fragment: &Fragment<'_>, cosine: f32) -> [f32; 4] {
-    let light = 0.4 + 0.6 * cosine;
+/// A checkerboard, whose squares fade where they are smaller than pixels; gray without texture
+/// coordinates.
+fn checker_color(draw: &Draw<'_>, fragment: &Fragment<'_>, n_dot_v: f32) -> [f32; 4] {
+    let light = 0.4 + 0.6 * n_dot_v;
     if draw.primitive.uvs.is_empty() {
         return decode_codes([0.35 * light; 3]);
     }
-    let uv_map = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-    let used = TextureInfo { texture: 0, uv_set: 0, uv_matrix: uv_map };
-    let corners = draw.vertex_indices(&draw.primitive_indices(&[fragment.id], true));
-    let [[[u], [v]], [[ux], [vx]], [[uy], [vy]]] =
-        draw.texture_coordinates(&corners, fragment, &used);
-    let odd =
+    let info = TextureInfo { texture: 0, uv_set: 0, uv_matrix: TextureInfo::IDENTITY_UV };
+    let vertices = draw.vertex_indices(&draw.primitive_indices(&[fragment.id], true));
+    let uvs = draw.texture_coordinates(&vertices, fragment, &info);
+    let [[u, v], dx, dy] = [uvs.uv, uvs.dx, uvs.dy].map(|uv| uv.map(|lanes| lanes[0]));
+    let is_odd =
         ((u * CHECKER_SQUARES).floor() + (v * CHECKER_SQUARES).floor()).rem_euclid(2.0) >= 1.0;
-    let step = ux.abs().max(uy.abs()).max(vx.abs()).max(vy.abs()) * CHECKER_SQUARES;
+    // Squares per pixel, by which the contrast fades.
+    let step = dx[0].abs().max(dy[0].abs()).max(dx[1].abs()).max(dy[1].abs()) * CHECKER_SQUARES;
     let contrast = 0.35 * (1.5 - step).clamp(0.0, 1.0);
-    let shade = light * if odd { 1.0 - contrast } else { 1.0 };
-    let grown = |place: f32| 0.35 + 0.65 * (place - place.floor());
-    decode_codes([grown(u) * shade, grown(v) * shade, 0.55 * shade])
+    let shade = light * if is_odd { 1.0 - contrast } else { 1.0 };
+    let ramp = |coordinate: f32| 0.35 + 0.65 * (coordinate - coordinate.floor());
+    decode_codes([ramp(u) * shade, ramp(v) * shade, 0.55 * shade])
 }
 
-/// Colours far apart for parts that follow each other: hues by the golden section.
+/// Colors far apart for consecutive parts: hues by multiples of the golden section.
 fn part_color(part: u32) -> [f32; 3] {
     // 2³² over the golden ratio: the fraction of a product is what is left of it in 32 bits.
     let hue = (part.wrapping_add(1).wrapping_mul(2_654_435_769) >> 8) as f32 / 16_777_216.0;
     let [low, high] = if part.is_multiple_of(2) { [0.35, 0.95] } else { [0.2, 0.75] };
+    // HSV to RGB.
     [0.0, 2.0, 4.0].map(|shift| {
-        let place = (hue * 6.0 + shift) % 6.0;
-        low + (high - low) * ((place - 3.0).abs() - 1.0).clamp(0.0, 1.0)
+        let sextant = (hue * 6.0 + shift) % 6.0;
+        low + (high - low) * ((sextant - 3.0).abs() - 1.0).clamp(0.0, 1.0)
     })
 }
 
-/// The linear colour whose codes are these, of 1.
+/// The opaque linear color with these sRGB codes, from 0 to 1.
 fn decode_codes(codes: [f32; 3]) -> [f32; 4] {
     opaque_color(codes.map(|code| srgb_to_linear(f64::from(code)) as f32))
 }
 
+/// A color with alpha 1.
 fn opaque_color([r, g, b]: [f32; 3]) -> [f32; 4] {
     [r, g, b, 1.0]
-}
-
-fn unit_or_zero(vector: [f32; 3]) -> [f32; 3] {
-    let length = dot(vector, vector).sqrt();
-    if length > 0.0 { vector.map(|c| c / length) } else { [0.0; 3] }
 }
 
 #[cfg(test)]
@@ -279,18 +288,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_in_a_row_have_colours_far_apart() {
+    fn consecutive_parts_have_colors_far_apart() {
         for part in 0..200 {
             for next in 1..5 {
                 let [a, b] = [part_color(part), part_color(part + next)];
-                let far = (0..3).map(|k| (a[k] - b[k]).abs()).fold(0.0, f32::max);
-                assert!(far > 0.06, "{part} and {next} on: {a:?} {b:?}");
+                let difference = (0..3).map(|k| (a[k] - b[k]).abs()).fold(0.0, f32::max);
+                assert!(difference > 0.06, "{part} and {next} on: {a:?} {b:?}");
             }
         }
     }
 
     #[test]
-    fn a_matcap_is_bright_towards_its_light_and_never_beyond_white_by_much() {
+    fn a_matcap_is_bright_towards_its_light_and_never_beyond_white() {
         let bright = matcap_ball_color([-0.4, 0.64, 0.656]);
         let dark = matcap_ball_color([0.4, -0.64, 0.656]);
         for k in 0..3 {

@@ -1,74 +1,79 @@
-//! The ground: how much of its light shadows take away.
+//! The shadow catcher: a ground plane that is transparent but for the shadows and the ambient
+//! occlusion on it.
+//!
+//! ```text
+//!   alpha = 1 − E with shadows / E without        E: illuminance of the ground, all lights summed
+//! ```
+//!
+//! Composited over a picture of white ground, black with this alpha gives the ground as dark as the
+//! lights would leave it. Colored lights are summed over their channels: a shadow has no color.
 
-use super::attributes::{PrimitiveIndices, interpolate};
-use super::fragment_lanes::{FragmentLanes, dot, lane_vector, splat};
+use super::attributes::PrimitiveIndices;
+use super::fragment_lanes::FragmentLanes;
+use super::lanes::{Lanes, Rgb, Vec3Lanes};
 use super::light::Light;
 use super::shadow_receiver::ShadowReceiver;
 use super::surface_geometry::view_directions;
 use super::{Draw, Shading};
 use std::f32::consts::PI;
 
-/// Straight up.
+/// The normal of the ground.
 const UP: [f32; 3] = [0.0, 1.0, 0.0];
 
 impl Shading<'_> {
-    /// Black with the alpha that makes a white matt ground below it as dark as its shadows do: the share that they take of all the
-    /// light that would fall on it, sums of the three channels.
+    /// Black, with the alpha that makes a white matte ground below it as dark as its shadows do.
     #[inline(always)]
     pub(super) fn shade_shadow_catcher<const N: usize>(
         &self,
         draw: &Draw<'_>,
-        items: &PrimitiveIndices<N>,
-        seen: &impl FragmentLanes<N>,
-    ) -> [[f32; N]; 4] {
-        let places =
-            interpolate(&draw.vertex_positions(&draw.vertex_indices(items)), &seen.weights());
-        let receivers = ShadowReceiver { positions: places, normals: splat(UP) };
-        let (mut all, mut left) = ([0.0; N], [0.0; N]);
-        let everywhere = self.total_ambient_lux();
-        let mut open = [1.0; N];
+        primitives: &PrimitiveIndices<N>,
+        fragments: &impl FragmentLanes<N>,
+    ) -> [Lanes<N>; 4] {
+        let vertices = draw.vertex_indices(primitives);
+        let positions = draw.interpolate_positions(&vertices, fragments);
+        let normals = Vec3Lanes::splat(UP);
+        let receiver = ShadowReceiver { positions, normals };
+        let mut visibility = Lanes::ONE;
         if let Some(occlusion) = self.occlusion {
-            let views = view_directions(&places, <[f64; 4]>::from(self.viewer).map(|c| c as f32));
-            open = occlusion.visibility(&places, &receivers.normals, &views);
+            let views = view_directions(positions, self.viewer_position());
+            visibility = occlusion.visibility(positions, normals, views);
         }
-        for lane in 0..N {
-            (all[lane], left[lane]) = (everywhere, everywhere * open[lane]);
-        }
-        for (number, light) in self.lights.iter().enumerate() {
-            let mut arriving = light.incident_at(&places);
-            let mut cosines = [0.0; N];
-            for lane in 0..N {
-                cosines[lane] = dot(UP, lane_vector(&arriving.to_light, lane)).max(0.0);
-                let [r, g, b] = lane_vector(&arriving.lux, lane);
-                all[lane] += (r + g + b) * cosines[lane];
+        // The illuminance with and without shadows, sums of the three channels. Ambient occlusion
+        // takes only light from all directions.
+        let mut unshadowed = Lanes::splat(self.total_ambient_lux());
+        let mut shadowed = unshadowed * visibility;
+        for (index, light) in self.lights.iter().enumerate() {
+            let mut incident = light.incident_at(positions);
+            let n_dot_l = normals.dot(incident.to_light).max(0.0);
+            unshadowed += channel_sum(incident.lux) * n_dot_l;
+            // Percentage-closer filtered visibility of the light.
+            if let Some(Some(map)) = self.shadows.get(index) {
+                incident.apply_shadow(map, &receiver);
             }
-            if let Some(Some(map)) = self.shadows.get(number) {
-                arriving.apply_shadow(map, &receivers);
-            }
-            for lane in 0..N {
-                let [r, g, b] = lane_vector(&arriving.lux, lane);
-                left[lane] += (r + g + b) * cosines[lane];
-            }
+            shadowed += channel_sum(incident.lux) * n_dot_l;
         }
-        let mut alpha = [0.0; N];
-        for lane in 0..N {
-            let share = 1.0 - left[lane] / all[lane];
-            // Without any light there is no shadow either.
-            alpha[lane] = if share > 0.0 { share.min(1.0) } else { 0.0 };
-        }
-        [[0.0; N], [0.0; N], [0.0; N], alpha]
+        // Without any light, where this is NaN, there is no shadow either.
+        let alpha = (1.0 - shadowed / unshadowed)
+            .map(|alpha| if alpha > 0.0 { alpha.min(1.0) } else { 0.0 });
+        [Lanes::ZERO, Lanes::ZERO, Lanes::ZERO, alpha]
     }
 
-    /// The illuminance from all around, by light and environment.
+    /// The illuminance of the ground by ambient lights and environment, summed over the channels.
     fn total_ambient_lux(&self) -> f32 {
         let mut lux = 0.0;
         for [r, g, b] in self.lights.iter().filter_map(Light::ambient_lux) {
             lux += r + g + b;
         }
         if let Some(environment) = self.environment {
-            let [[r], [g], [b]] = environment.irradiance_over_pi(&UP.map(|c| [c]));
+            let [r, g, b] = environment.irradiance_over_pi(Vec3Lanes::<1>::splat(UP)).lane(0);
             lux += PI * (r + g + b);
         }
         lux
     }
+}
+
+/// Red, green and blue added up.
+#[inline(always)]
+fn channel_sum<const N: usize>(color: Rgb<N>) -> Lanes<N> {
+    color.r + color.g + color.b
 }

@@ -1,4 +1,4 @@
-//! Shadow maps: the picture that a light has of the scene, and whether a place in the world is in it.
+//! Shadow maps with percentage-closer soft shadows (PCSS), receiver planes and exact depth planes.
 //!
 //! ```text
 //!      light ── depth ──►   texel: depth and slope of the nearest triangle's plane
@@ -7,215 +7,252 @@
 //!   ───────●────▟▛──── receiver: its own plane, by the normal
 //! ```
 //!
-//! A texel holds the plane of what is nearest and not only its depth, and the receiver is a plane too. Both are compared at the
-//! texel's centre and at the receiver's own place, and shade only if they do so at both: a surface then never shades itself
-//! however flatly light falls on it, with a bias of a hundredth of a texel and no gap where a thing stands on another.
+//! A texel holds the plane of the nearest surface and not only its depth, and the receiver is a
+//! plane too. They are compared both at the texel's center and at the receiver's own position, and
+//! shade only if they do at both: a surface then never shadows itself (no acne), however flatly
+//! light falls on it, with a bias of a hundredth of a texel and no gap where a thing stands on
+//! another (no peter-panning).
 //!
-//! The penumbra grows with the distance of what casts the shadow (Fernando, *Percentage-closer soft shadows*, 2005), by a fixed
-//! pattern of places, so that pictures have no noise and always the same bytes.
+//! The penumbra grows with the distance of the caster (Fernando, *Percentage-closer soft shadows*,
+//! 2005): a search for blockers gives its radius, a percentage-closer filter of that radius the
+//! shadow. Both use a fixed pattern of positions, so that pictures have no noise and always the
+//! same bytes.
 
+use super::vector::{dot, subtract};
 use glam::{DMat4, DVec3, DVec4};
 use raster::SurfaceDepth;
 use std::sync::LazyLock;
 
-/// What a light's shadows are like.
+/// The shadows of a light.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Shadow {
     /// The texels of the longer side of the shadow map.
     pub resolution: u32,
-    /// How large the light looks from where its light falls, in radians across; 0 for sharp borders.
+    /// The angular diameter of the light, seen from where its light falls, in radians; 0 for sharp
+    /// borders.
     pub softness: f32,
 }
 
-/// The greatest radius in texels within which shadows are looked for and blurred.
+/// The greatest radius in texels of blocker search and filter.
 const MAX_FILTER_RADIUS: f32 = 64.0;
-/// What of a step of depth per texel is put down to the places of vertices, which lie on a grid of 1/256 texel.
+/// The bias for a step of depth per texel: vertices are snapped to a grid of 1/256 texel.
 const SLOPE_BIAS: f32 = 1.0 / 96.0;
-/// What of the depth of the whole scene is put down to rounding.
+/// The bias for rounding, relative to the depth of the whole scene.
 const DEPTH_BIAS: f32 = 2e-6;
-/// A receiver's plane no steeper than this in depth per texel: light that falls so flatly does not count.
+/// The steepest receiver plane in depth per texel: light that falls more flatly has no weight.
 const MAX_PLANE_SLOPE: f32 = 4.0;
 
-/// Places in a disc of radius 1, as even as seeds in a sunflower's head (Vogel 1979).
+/// Positions in a disc of radius 1, evenly spread: Vogel's spiral (1979), with the golden angle.
 static VOGEL_DISC: LazyLock<[[f32; 2]; 48]> = LazyLock::new(|| {
-    std::array::from_fn(|at| {
-        let (radius, angle) =
-            (((at as f64 + 0.5) / 48.0).sqrt(), at as f64 * 2.399_963_229_728_653);
+    std::array::from_fn(|index| {
+        let radius = ((index as f64 + 0.5) / 48.0).sqrt();
+        let angle = index as f64 * 2.399_963_229_728_653;
         [(radius * libm::cos(angle)) as f32, (radius * libm::sin(angle)) as f32]
     })
 });
 
-/// The way from the world to the texels of a shadow map.
+/// The transform from the world to the texels of a shadow map.
 #[derive(Clone, Copy, Debug, Default)]
 struct WorldToShadowMap {
-    /// Where places are counted from: the middle of the scene.
+    /// The position that others are relative to, for precision: the middle of the scene.
     origin: [f32; 3],
-    /// The rows of the map from places to (x·w, y·w, depth·w, w), with x and y in texels.
+    /// The rows of the matrix from positions to (x·w, y·w, depth·w, w), with x and y in texels.
     rows: [[f32; 4]; 4],
-    /// The rows of the map from planes to the first three numbers of their images.
+    /// The first three rows of the matrix of planes, the inverse transpose.
     plane_rows: [[f32; 4]; 3],
 }
 
-/// What a light sees of the scene.
+/// The depths of a scene from a light.
 #[derive(Clone, Debug, Default)]
 pub struct ShadowMap {
     /// Texels of a row, and rows.
     size: [u32; 2],
     world_to_map: WorldToShadowMap,
-    /// What depth is at infinite distance, in perspective: 1/w is a multiple of the depth without it. `None` in parallel light.
+    /// In perspective the depth at infinite distance, relative to which depth is a multiple of 1/w;
+    /// `None` in parallel light.
     depth_at_infinity: Option<f32>,
-    /// The radius of the penumbra in texels, per difference of depth in parallel light, else per difference of distances over the nearer.
+    /// The radius of the penumbra in texels: per difference of depth in parallel light, otherwise
+    /// per difference of distances over the nearer distance.
     penumbra_scale: f32,
-    /// The nearest surface of each texel.
+    /// The nearest surface of each texel, rows from the top.
     pub texels: Vec<SurfaceDepth>,
 }
 
-/// Where a surface meets a shadow map: texels, depth, and what depth grows by per texel on the surface's plane.
+/// A surface on a shadow map: its position in texels and depth, and its plane.
 #[derive(Clone, Copy, Debug)]
 struct ReceiverPlane {
     x: f32,
     y: f32,
     depth: f32,
+    /// The growth of depth per texel, by column and row.
     slope: [f32; 2],
+    /// The difference of depth from which on something is a blocker.
     bias: f32,
 }
 
+impl ReceiverPlane {
+    /// The depth of the plane at a position of the map.
+    #[inline(always)]
+    fn depth_at(&self, x: f32, y: f32) -> f32 {
+        self.depth + self.slope[0] * (x - self.x) + self.slope[1] * (y - self.y)
+    }
+}
+
 impl ShadowMap {
-    /// Makes it the map of a light that sees the world by this matrix, to texels and depth, with what it casts shadows by. There is
-    /// nothing in it yet.
+    /// Empties the map for a light, and takes over its transform.
+    ///
+    /// `world_to_map` goes to texels and depth, 1 at the near plane; `origin` is a position near
+    /// the scene.
     pub fn reset(&mut self, world_to_map: DMat4, size: [u32; 2], origin: DVec3) {
-        let moved = world_to_map * DMat4::from_translation(origin.as_vec3().as_dvec3());
+        let relative_to_map = world_to_map * DMat4::from_translation(origin.as_vec3().as_dvec3());
         let to_f32 = |row: DVec4| row.as_vec4().to_array();
-        // Planes go by the inverse transposed.
-        let back = moved.inverse().transpose();
+        let planes = relative_to_map.inverse().transpose();
         self.world_to_map = WorldToShadowMap {
             origin: origin.as_vec3().to_array(),
-            rows: [0, 1, 2, 3].map(|k| to_f32(moved.row(k))),
-            plane_rows: [0, 1, 2].map(|k| to_f32(back.row(k))),
+            rows: [0, 1, 2, 3].map(|k| to_f32(relative_to_map.row(k))),
+            plane_rows: [0, 1, 2].map(|k| to_f32(planes.row(k))),
         };
         self.size = size;
         self.texels.clear();
         self.texels.resize(size[0] as usize * size[1] as usize, SurfaceDepth::EMPTY);
     }
 
-    /// How soft its shadows are: see the fields.
-    pub fn set_penumbra(&mut self, spread: f64, at_infinity: Option<f64>) {
-        self.penumbra_scale = spread as f32;
-        self.depth_at_infinity = at_infinity.map(|depth| depth as f32);
+    /// Sets the softness of the shadows.
+    ///
+    /// `scale` is the radius of the penumbra in texels: in parallel light per difference of depth,
+    /// in perspective per difference of distances over the nearer. `depth_at_infinity` is `None` in
+    /// parallel light.
+    pub fn set_penumbra(&mut self, scale: f64, depth_at_infinity: Option<f64>) {
+        self.penumbra_scale = scale as f32;
+        self.depth_at_infinity = depth_at_infinity.map(|depth| depth as f32);
     }
 
-    /// The share of light, from 0 to 1, that arrives at a place in the world with this unit normal.
+    /// The visibility of the light, 0 to 1, from a position in the world with this unit normal.
+    ///
+    /// Without softness four texels are compared, with softness 24, and within a penumbra 48 more.
+    /// Beside the map and behind the light nothing is in shadow.
     #[inline(never)]
-    pub(super) fn visibility(&self, place: [f32; 3], normal: [f32; 3]) -> f32 {
-        let Some(receiver) = self.project_receiver(place, normal) else { return 1.0 };
+    pub(super) fn visibility(&self, position: [f32; 3], normal: [f32; 3]) -> f32 {
+        let Some(receiver) = self.project_receiver(position, normal) else { return 1.0 };
         if self.penumbra_scale <= 0.0 {
             return self.filter_bilinear(&receiver);
         }
-        let reach = self.penumbra_radius(receiver.depth, 1.0).clamp(1.5, MAX_FILTER_RADIUS);
-        let (mut sum, mut blockers) = (0.0, 0.0);
+        // Blocker search: the mean depth of what is before the receiver, within the penumbra that
+        // the nearest possible caster would have.
+        let search_radius = self.penumbra_radius(receiver.depth, 1.0).clamp(1.5, MAX_FILTER_RADIUS);
+        let (mut depth_sum, mut blockers) = (0.0, 0.0);
         for [dx, dy] in VOGEL_DISC.iter().step_by(2) {
-            let at = [receiver.x + dx * reach, receiver.y + dy * reach];
-            if let Some(depth) = self.find_blocker(&receiver, at) {
-                sum += depth;
+            let position = [receiver.x + dx * search_radius, receiver.y + dy * search_radius];
+            if let Some(depth) = self.find_blocker(&receiver, position) {
+                depth_sum += depth;
                 blockers += 1.0;
             }
         }
         if blockers == 0.0 {
             return self.filter_bilinear(&receiver);
         }
-        let radius = self.penumbra_radius(receiver.depth, sum / blockers).min(MAX_FILTER_RADIUS);
+        let radius =
+            self.penumbra_radius(receiver.depth, depth_sum / blockers).min(MAX_FILTER_RADIUS);
         if radius <= 1.0 {
             return self.filter_bilinear(&receiver);
         }
-        let mut lit = 0.0;
+        // Percentage-closer filtering over the penumbra.
+        let mut visible = 0.0;
         for [dx, dy] in VOGEL_DISC.iter() {
-            let at = [receiver.x + dx * radius, receiver.y + dy * radius];
-            lit += if self.find_blocker(&receiver, at).is_none() { 1.0 } else { 0.0 };
+            let position = [receiver.x + dx * radius, receiver.y + dy * radius];
+            visible += if self.find_blocker(&receiver, position).is_none() { 1.0 } else { 0.0 };
         }
-        lit / VOGEL_DISC.len() as f32
+        visible / VOGEL_DISC.len() as f32
     }
 
-    /// Where a place is on the map; `None` where it is beside the map or behind the light.
+    /// Projects a surface onto the map, with its plane; `None` beside the map or behind the light.
     #[inline(always)]
-    fn project_receiver(&self, place: [f32; 3], n: [f32; 3]) -> Option<ReceiverPlane> {
+    fn project_receiver(&self, position: [f32; 3], normal: [f32; 3]) -> Option<ReceiverPlane> {
         let WorldToShadowMap { origin, rows, plane_rows } = &self.world_to_map;
-        let p = [place[0] - origin[0], place[1] - origin[1], place[2] - origin[2]];
-        let image = |row: &[f32; 4]| row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3];
-        let w = image(&rows[3]);
-        let [x, y, depth] = [image(&rows[0]) / w, image(&rows[1]) / w, image(&rows[2]) / w];
-        let inside = |at: f32, side: u32| at > 0.0 && at < side as f32;
-        if !(w > 0.0 && inside(x, self.size[0]) && inside(y, self.size[1]) && depth.is_finite()) {
+        let p = subtract(position, *origin);
+        let transform = |row: &[f32; 4]| row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3];
+        let w = transform(&rows[3]);
+        let [x, y, depth] = [0, 1, 2].map(|k: usize| transform(&rows[k]) / w);
+        let is_inside = |at: f32, side: u32| at > 0.0 && at < side as f32;
+        let is_on_map = is_inside(x, self.size[0]) && is_inside(y, self.size[1]);
+        if !(w > 0.0 && is_on_map && depth.is_finite()) {
             return None;
         }
-        let offset = -(n[0] * p[0] + n[1] * p[1] + n[2] * p[2]);
-        let plane =
+        // The plane (n, −n·p) on the map; its slopes are ratios of the components.
+        let n = normal;
+        let offset = -dot(n, p);
+        let transform_plane =
             |row: &[f32; 4]| row[0] * n[0] + row[1] * n[1] + row[2] * n[2] + row[3] * offset;
-        let along = plane(&plane_rows[2]);
+        let along_depth = transform_plane(&plane_rows[2]);
         let slope = [0, 1].map(|axis: usize| {
-            let slope = -plane(&plane_rows[axis]) / along;
+            let slope = -transform_plane(&plane_rows[axis]) / along_depth;
             if slope.is_finite() { slope.clamp(-MAX_PLANE_SLOPE, MAX_PLANE_SLOPE) } else { 0.0 }
         });
-        // Rounding moves places by a share of the scene's size; near a spot that is more of its depth.
-        let near = self.depth_at_infinity.map_or(1.0, |none| (depth - none).max(0.0));
-        let bias = DEPTH_BIAS * near.max(0.1) + SLOPE_BIAS * (slope[0].abs() + slope[1].abs());
+        // Rounding moves positions by a fraction of the scene's size; near a spot light that is a
+        // larger fraction of its range of depth.
+        let nearness = self.depth_at_infinity.map_or(1.0, |infinity| (depth - infinity).max(0.0));
+        let bias = DEPTH_BIAS * nearness.max(0.1) + SLOPE_BIAS * (slope[0].abs() + slope[1].abs());
         Some(ReceiverPlane { x, y, depth, slope, bias })
     }
 
-    /// The radius in texels of the penumbra at one depth that something at another casts.
+    /// The radius in texels of the penumbra at one depth of a caster at another.
     #[inline(always)]
     fn penumbra_radius(&self, receiver: f32, caster: f32) -> f32 {
-        let apart = match self.depth_at_infinity {
+        let distance = match self.depth_at_infinity {
             None => caster - receiver,
-            Some(none) => (caster - none) / (receiver - none).max(1e-12) - 1.0,
+            Some(infinity) => (caster - infinity) / (receiver - infinity).max(1e-12) - 1.0,
         };
-        self.penumbra_scale * apart
+        self.penumbra_scale * distance
     }
 
-    /// The depth of what shades the receiver's plane at a place on the map.
+    /// The depth of the surface that blocks the light of the receiver's plane at a position of the
+    /// map.
+    ///
+    /// The planes of texel and receiver are compared twice: at the center of the texel, where the
+    /// depth was sampled, and at the position itself. The caster must be above the receiver at
+    /// both. Two facets of one surface that meet within the texel cross there, and one comparison
+    /// fails.
     #[inline(always)]
     fn find_blocker(&self, receiver: &ReceiverPlane, [x, y]: [f32; 2]) -> Option<f32> {
         let (column, row) = (x.floor(), y.floor());
         let texel = self.texel_at(column as i32, row as i32)?;
-        let plane = |x: f32, y: f32| {
-            receiver.depth
-                + receiver.slope[0] * (x - receiver.x)
-                + receiver.slope[1] * (y - receiver.y)
-        };
         let (dx, dy) = (x - column - 0.5, y - row - 0.5);
         let bias = receiver.bias + SLOPE_BIAS * (texel.dx.abs() + texel.dy.abs());
-        let at_center = texel.depth - plane(column + 0.5, row + 0.5);
-        let here = texel.depth + texel.dx * dx + texel.dy * dy - plane(x, y);
+        let at_center = texel.depth - receiver.depth_at(column + 0.5, row + 0.5);
+        let here = texel.depth + texel.dx * dx + texel.dy * dy - receiver.depth_at(x, y);
         (at_center > bias && here > bias).then_some(texel.depth)
     }
 
-    /// The share of light by the four nearest texels, each with its plane carried on to the receiver.
+    /// Percentage-closer filtering over the four nearest texels, with bilinear weights; the plane
+    /// of each is continued to the receiver.
     #[inline(always)]
     fn filter_bilinear(&self, receiver: &ReceiverPlane) -> f32 {
         let (left, top) = ((receiver.x - 0.5).floor(), (receiver.y - 0.5).floor());
         let (fx, fy) = (receiver.x - 0.5 - left, receiver.y - 0.5 - top);
-        let mut lit = 0.0;
-        for (column, across) in [(0.0, 1.0 - fx), (1.0, fx)] {
-            for (row, down) in [(0.0, 1.0 - fy), (1.0, fy)] {
+        let mut visible = 0.0;
+        for (column, column_weight) in [(0.0, 1.0 - fx), (1.0, fx)] {
+            for (row, row_weight) in [(0.0, 1.0 - fy), (1.0, fy)] {
                 let texel = self.texel_at((left + column) as i32, (top + row) as i32);
                 let (dx, dy) = (fx - column, fy - row);
-                let shades = texel.is_some_and(|texel| {
+                let is_blocked = texel.is_some_and(|texel| {
                     let bias = receiver.bias + SLOPE_BIAS * (texel.dx.abs() + texel.dy.abs());
                     let above = texel.depth - receiver.depth;
                     let at_center = above + receiver.slope[0] * dx + receiver.slope[1] * dy;
                     at_center > bias && above + texel.dx * dx + texel.dy * dy > bias
                 });
-                lit += if shades { 0.0 } else { across * down };
+                visible += if is_blocked { 0.0 } else { column_weight * row_weight };
             }
         }
-        lit
+        visible
     }
 
+    /// The texel in a column and a row; `None` outside of the map.
     #[inline(always)]
     fn texel_at(&self, column: i32, row: i32) -> Option<&SurfaceDepth> {
         let [width, height] = self.size;
         let (column, row) = (u32::try_from(column).ok()?, u32::try_from(row).ok()?);
-        let inside = column < width && row < height;
-        self.texels.get(row as usize * width as usize + column as usize).filter(|_| inside)
+        let is_inside = column < width && row < height;
+        self.texels.get(row as usize * width as usize + column as usize).filter(|_| is_inside)
     }
 }
 
@@ -223,8 +260,8 @@ impl ShadowMap {
 mod tests {
     use super::*;
 
-    /// A map of 100 × 100 texels of side 0.01 seen from above: x to the right, y is depth, z downwards. Left of x = 0.6 there is
-    /// something at a height.
+    /// A map of 100 × 100 texels of side 0.01 seen from above: x to the right, y is depth, z
+    /// downwards. Left of x = 0.6 there is a caster at a height.
     fn map(height: f32, spread: f64) -> ShadowMap {
         let mut map = ShadowMap::default();
         let world_to_map = DMat4::from_cols(
@@ -248,24 +285,26 @@ mod tests {
     #[test]
     fn what_is_above_shades_and_what_is_below_does_not() {
         let map = map(0.5, 0.0);
-        for (x, y, due) in [(0.2, 0.1, 0.0), (0.2, 0.499, 0.0), (0.2, 0.501, 1.0), (0.7, 0.1, 1.0)]
+        for (x, y, expected) in
+            [(0.2, 0.1, 0.0), (0.2, 0.499, 0.0), (0.2, 0.501, 1.0), (0.7, 0.1, 1.0)]
         {
-            assert_eq!(map.visibility([x, y, 0.5], UP), due, "{x} {y}");
+            assert_eq!(map.visibility([x, y, 0.5], UP), expected, "{x} {y}");
         }
-        assert_eq!(map.visibility([-0.1, 0.1, 0.5], UP), 1.0, "beside the map there is light");
+        assert_eq!(map.visibility([-0.1, 0.1, 0.5], UP), 1.0, "no shadow beside the map");
         assert!((map.visibility([0.6, 0.1, 0.5], UP) - 0.5).abs() < 0.01, "half at the border");
     }
 
     #[test]
     fn penumbras_grow_with_the_distance_of_the_caster() {
-        // 40 texels per unit of depth: at 0.5 below the caster the penumbra is 40 texels wide, at 0.05 it is 4.
+        // 40 texels per unit of depth: at 0.5 below the caster the penumbra is 40 texels wide, at
+        // 0.05 it is 4.
         let map = map(0.5, 40.0);
         for y in [0.0_f32, 0.25, 0.45] {
             let radius = (0.5 - y) * 0.4;
-            let at = |share: f32| map.visibility([0.6 + share * radius, y, 0.5], UP);
+            let at = |part: f32| map.visibility([0.6 + part * radius, y, 0.5], UP);
             assert!((at(0.0) - 0.5).abs() < 0.06, "{y} {}", at(0.0));
             assert_eq!((at(-1.3), at(1.3)), (0.0, 1.0), "{y}");
-            // The share of a disc that a straight border leaves, at half of its radius: 0.8045.
+            // The fraction of a disc beyond a straight border at half of its radius: 0.8045.
             assert!((at(0.5) - 0.8045).abs() < 0.06, "{y} {}", at(0.5));
         }
     }
@@ -283,8 +322,8 @@ mod tests {
             let normal = [-100.0 * slope / length, 1.0 / length, 0.0];
             for step in 0..500 {
                 let x = 0.25 + step as f32 * 0.001;
-                let place = [x, 100.0 * slope * (x - 0.5), 0.5];
-                assert_eq!(map.visibility(place, normal), 1.0, "{slope} {x}");
+                let position = [x, 100.0 * slope * (x - 0.5), 0.5];
+                assert_eq!(map.visibility(position, normal), 1.0, "{slope} {x}");
             }
         }
     }

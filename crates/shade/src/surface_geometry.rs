@@ -1,263 +1,225 @@
-//! Normals: which way a surface faces at a fragment.
+//! Surface geometry at fragments: positions, view directions and shading normals.
+//!
+//! ```text
+//!        v   n           v  unit vector to the viewer
+//!         ╲ │            n  shading normal on the visible side: interpolated from the
+//!          ╲│               vertices (Phong 1975), or that of the triangle
+//!   ────────●──────      ●  position in the world
+//! ```
+//!
+//! Normals of the file may be missing (then triangles are flat), cancel out between vertices (then
+//! the face normal stands in), or point to the side away from the viewer.
+//!
+//! A face is back-facing by the normal of its triangle. The interpolated normal may lean away from
+//! the viewer near the silhouette of a body, and is right to do so.
+
+mod normal_mapping;
+
+pub(crate) use normal_mapping::TangentLanes;
 
 use super::Draw;
 use super::attributes::{Attributes, NORMAL, POSITION, VertexIndices, interpolate};
-use super::fragment_lanes::{FragmentLanes, cross, dot, dot_lanes, lane_vector};
+use super::fragment_lanes::FragmentLanes;
+use super::lanes::{Lanes, Mask, Vec3Lanes};
+use super::vector::try_normalize;
+use normal_mapping::apply_normal_map;
 
-/// Some vectors, or places, in lanes.
-type VectorLanes<const N: usize> = [[f32; N]; 3];
-
-/// How surfaces lie to the viewer at some fragments.
+/// The surfaces at some fragments, relative to the viewer.
+///
+/// All vectors are in the world. The geometry with smooth normals serves shadows, ambient occlusion
+/// and a clearcoat without a normal map; the one with mapped normals the rest of the BRDF.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SurfaceGeometry<const N: usize> {
-    /// Where they are, in the world.
-    pub(super) positions: VectorLanes<N>,
+    /// The positions in the world.
+    pub(super) positions: Vec3Lanes<N>,
     /// The unit vectors to the viewer.
-    pub(super) views: VectorLanes<N>,
-    /// The unit normals on the side that is seen.
-    pub(super) normals: VectorLanes<N>,
-    /// Whether that is the back.
-    is_back_facing: [bool; N],
-    /// The cosines between the two, not below 0.
-    pub(super) n_dot_v: [f32; N],
-    /// How far the surface's own normals turn from one pixel to the next, in radians, at most 1.
-    pub(super) normal_variation: [f32; N],
+    pub(super) views: Vec3Lanes<N>,
+    /// The unit shading normals on the visible side.
+    pub(super) normals: Vec3Lanes<N>,
+    /// Whether the visible side is the back.
+    is_back_facing: Mask<N>,
+    /// n·v, not below 0.
+    pub(super) n_dot_v: Lanes<N>,
+    /// The angle between the interpolated normals of neighboring pixels in radians, at most 1.
+    pub(super) normal_variation: Lanes<N>,
 }
 
 impl<const N: usize> SurfaceGeometry<N> {
+    /// Surfaces with unit normals that are already on the visible side.
     #[inline(always)]
     pub(super) fn new(
-        positions: VectorLanes<N>,
-        views: VectorLanes<N>,
-        normals: VectorLanes<N>,
-        is_back_facing: [bool; N],
-        normal_variation: [f32; N],
+        positions: Vec3Lanes<N>,
+        views: Vec3Lanes<N>,
+        normals: Vec3Lanes<N>,
+        is_back_facing: Mask<N>,
+        normal_variation: Lanes<N>,
     ) -> Self {
-        let mut n_dot_v = dot_lanes(&normals, &views);
-        for cosine in &mut n_dot_v {
-            *cosine = cosine.clamp(0.0, 1.0);
-        }
+        let n_dot_v = normals.dot(views).clamp(0.0, 1.0);
         Self { positions, views, normals, is_back_facing, n_dot_v, normal_variation }
     }
 
-    /// The same surfaces bent by slopes. Seen from behind, the whole frame of tangent, bitangent and normal is turned round.
+    /// The surfaces with the normals of a normal map. On a back face the whole frame of tangent,
+    /// bitangent and normal is flipped.
     #[inline(always)]
     pub(super) fn with_tangent_normal(
         &self,
-        tangents: &[[f32; N]; 4],
-        slope: &VectorLanes<N>,
+        tangents: &TangentLanes<N>,
+        tangent_normal: Vec3Lanes<N>,
     ) -> Self {
-        let mut fronts = self.normals;
-        flip_vectors(&mut fronts, &self.is_back_facing);
-        let mut normals = apply_normal_map(&fronts, tangents, slope);
-        flip_vectors(&mut normals, &self.is_back_facing);
-        Self::new(self.positions, self.views, normals, self.is_back_facing, self.normal_variation)
+        let front_normals = flip_vectors(self.normals, &self.is_back_facing);
+        let mapped = apply_normal_map(front_normals, tangents, tangent_normal);
+        let normals = flip_vectors(mapped, &self.is_back_facing);
+        let Self { positions, views, is_back_facing, normal_variation, .. } = *self;
+        Self::new(positions, views, normals, is_back_facing, normal_variation)
     }
 }
 
 impl Draw<'_> {
-    /// What the corners carry of places in the world.
+    /// The positions of each fragment's vertices in the world.
     #[inline(always)]
     pub(super) fn vertex_positions<const N: usize>(
         &self,
-        corners: &VertexIndices<N>,
+        vertices: &VertexIndices<N>,
     ) -> Attributes<N, 3> {
-        corners.fetch_attributes(&self.vertices, POSITION)
+        vertices.fetch_attributes(&self.vertices, POSITION)
     }
 
-    /// The unit normals on the front side, and how far they turn from pixel to pixel; `faces` are those of the triangles, which count where there are no others.
+    /// The positions of fragments in the world.
+    #[inline(always)]
+    pub(super) fn interpolate_positions<const N: usize>(
+        &self,
+        vertices: &VertexIndices<N>,
+        fragments: &impl FragmentLanes<N>,
+    ) -> Vec3Lanes<N> {
+        interpolate(&self.vertex_positions(vertices), &fragments.weights()).into()
+    }
+
+    /// The unit normals on the front side, and how much they vary from pixel to pixel; of a flat
+    /// draw those of the triangles, which vary nowhere.
     #[inline(always)]
     pub(super) fn interpolate_normals<const N: usize>(
         &self,
-        corners: &VertexIndices<N>,
-        seen: &impl FragmentLanes<N>,
-        faces: &VectorLanes<N>,
-    ) -> (VectorLanes<N>, [f32; N]) {
-        let mut normals = *faces;
-        let mut turned = [0.0; N];
-        let squares;
+        vertices: &VertexIndices<N>,
+        fragments: &impl FragmentLanes<N>,
+        face_normals: Vec3Lanes<N>,
+    ) -> (Vec3Lanes<N>, Lanes<N>) {
+        let mut normals = face_normals;
+        let mut variation = Lanes::ZERO;
         if self.is_smooth {
-            let carried = corners.fetch_attributes(&self.vertices, NORMAL);
-            normals = interpolate(&carried, &seen.weights());
-            squares = dot_lanes(&normals, &normals);
+            let attributes = vertices.fetch_attributes::<_, 3>(&self.vertices, NORMAL);
+            normals = interpolate(&attributes, &fragments.weights()).into();
+            // The lengths shrink where normals diverge; derivatives are of the unnormalized
+            // vectors.
+            let squares = normals.dot(normals);
             let steps = [
-                interpolate(&carried, &seen.weights_dx()),
-                interpolate(&carried, &seen.weights_dy()),
+                interpolate(&attributes, &fragments.weights_dx()).into(),
+                interpolate(&attributes, &fragments.weights_dy()).into(),
             ];
-            if !normalize_vectors(&mut normals, &squares) {
-                self.replace_degenerate_normals(corners, &squares, &mut normals);
+            if !normalize_vectors(&mut normals, squares) {
+                self.replace_degenerate_normals(vertices, squares, &mut normals);
             }
-            turned = normal_variation(&normals, &squares, &steps);
+            variation = normal_variation(normals, squares, steps);
         } else {
-            squares = dot_lanes(&normals, &normals);
-            if !normalize_vectors(&mut normals, &squares) {
-                self.replace_degenerate_normals(corners, &squares, &mut normals);
+            let squares = normals.dot(normals);
+            if !normalize_vectors(&mut normals, squares) {
+                self.replace_degenerate_normals(vertices, squares, &mut normals);
             }
         }
-        (normals, turned)
+        (normals, variation)
     }
 
-    /// Where the normal is too short or too long to have a direction, that of the face, or any.
+    /// Puts the face normal, or any unit vector, where a normal is too short or too long to have a
+    /// direction: where opposite normals of vertices cancel out.
     #[cold]
     fn replace_degenerate_normals<const N: usize>(
         &self,
-        corners: &VertexIndices<N>,
-        squares: &[f32; N],
-        normals: &mut VectorLanes<N>,
+        vertices: &VertexIndices<N>,
+        squares: Lanes<N>,
+        normals: &mut Vec3Lanes<N>,
     ) {
-        let faces = self.face_normals(&self.vertex_positions(corners));
+        let face_normals = self.face_normals(&self.vertex_positions(vertices));
         for lane in 0..N {
             if !(squares[lane] > 0.0 && squares[lane].is_finite()) {
-                let face = [0, 1, 2].map(|axis: usize| faces[axis][lane]);
-                let unit = try_normalize(face).unwrap_or([0.0, 0.0, 1.0]);
-                for (axis, value) in normals.iter_mut().zip(unit) {
-                    axis[lane] = value;
-                }
+                let unit = try_normalize(face_normals.lane(lane)).unwrap_or([0.0, 0.0, 1.0]);
+                [normals.x[lane], normals.y[lane], normals.z[lane]] = unit;
             }
         }
     }
 
-    /// Perpendicular to the triangles with corners at these places, on their front side; the lengths are twice their areas.
+    /// The normals of triangles with these vertices, on their front side; as long as twice the
+    /// area.
     #[inline(always)]
     pub(super) fn face_normals<const N: usize>(
         &self,
-        [a, b, c]: &Attributes<N, 3>,
-    ) -> VectorLanes<N> {
-        let mut normals = [[0.0; N]; 3];
+        positions: &Attributes<N, 3>,
+    ) -> Vec3Lanes<N> {
+        // Cross product of two edges, right-handed for counterclockwise front faces.
+        let [a, b, c] = *positions;
+        let (a, b, c) = (Vec3Lanes::from(a), Vec3Lanes::from(b), Vec3Lanes::from(c));
         let sign = if self.flips_winding { -1.0 } else { 1.0 };
-        for lane in 0..N {
-            let [ux, uy, uz] =
-                [b[0][lane] - a[0][lane], b[1][lane] - a[1][lane], b[2][lane] - a[2][lane]];
-            let [vx, vy, vz] =
-                [c[0][lane] - a[0][lane], c[1][lane] - a[1][lane], c[2][lane] - a[2][lane]];
-            normals[0][lane] = sign * (uy * vz - uz * vy);
-            normals[1][lane] = sign * (uz * vx - ux * vz);
-            normals[2][lane] = sign * (ux * vy - uy * vx);
-        }
-        normals
+        (b - a).cross(c - a) * sign
     }
 }
 
-/// Brings vectors to length 1, given the squares of their lengths, and tells whether all could be: none was too short or too long.
+/// Brings vectors to length 1, given the squares of their lengths; returns whether all have a
+/// direction: none is too short or too long.
 #[inline(always)]
-pub(super) fn normalize_vectors<const N: usize>(
-    vectors: &mut VectorLanes<N>,
-    squares: &[f32; N],
-) -> bool {
-    let mut all_could = true;
-    for lane in 0..N {
-        let length = squares[lane].sqrt();
-        all_could &= length > 0.0 && length < f32::INFINITY;
-        let per = 1.0 / length;
-        for axis in &mut *vectors {
-            axis[lane] *= per;
-        }
+fn normalize_vectors<const N: usize>(vectors: &mut Vec3Lanes<N>, squares: Lanes<N>) -> bool {
+    let lengths = squares.sqrt();
+    *vectors = *vectors * (1.0 / lengths);
+    let mut have_directions = true;
+    // Not `all`, which would branch at each lane.
+    for length in lengths.0 {
+        have_directions &= length > 0.0 && length < f32::INFINITY;
     }
-    all_could
+    have_directions
 }
 
-/// How far normals that were `blended` to these squares of lengths turn from one pixel to the next, at most: what smooth
-/// normals are of unit length turns by the part of the step that is square to it.
+/// The angle in radians between unit normals and those of the next pixels, at most 1.
+///
+/// `squares` are the squared lengths of the interpolated normals, `steps` their derivatives by
+/// column and row: a unit vector turns by the part of a step that is perpendicular to it.
 #[inline(always)]
-pub(super) fn normal_variation<const N: usize>(
-    normals: &VectorLanes<N>,
-    squares: &[f32; N],
-    steps: &[VectorLanes<N>; 2],
-) -> [f32; N] {
-    let mut most = [0.0; N];
-    for lane in 0..N {
-        let n = lane_vector(normals, lane);
-        let mut square: f32 = 0.0;
-        for step in steps {
-            let step = lane_vector(step, lane);
-            let along = dot(n, step);
-            square = square.max(dot(step, step) - along * along);
-        }
-        let turn = (square / squares[lane]).sqrt();
-        most[lane] = if turn < 1.0 { turn } else { 1.0 };
+fn normal_variation<const N: usize>(
+    normals: Vec3Lanes<N>,
+    squares: Lanes<N>,
+    steps: [Vec3Lanes<N>; 2],
+) -> Lanes<N> {
+    let mut perpendicular = Lanes::ZERO;
+    for step in steps {
+        let along = normals.dot(step);
+        perpendicular = perpendicular.max_lanes(step.dot(step) - along * along);
     }
-    most
+    let angles = (perpendicular / squares).sqrt();
+    // NaN, of a normal without direction, is 1 too.
+    angles.map(|angle| if angle < 1.0 { angle } else { 1.0 })
 }
 
-/// The normals that a texture of slopes makes of the surface's own: red along the tangent, green along the bitangent, blue along
-/// the normal (glTF 2.0 §3.9.3). Where there is no tangent, or the sum has no direction, the normals stay.
-#[inline(always)]
-pub(super) fn apply_normal_map<const N: usize>(
-    normals: &VectorLanes<N>,
-    tangents: &[[f32; N]; 4],
-    slope: &VectorLanes<N>,
-) -> VectorLanes<N> {
-    let mut bent = *normals;
-    for lane in 0..N {
-        let [n, t, s] = [normals, &[tangents[0], tangents[1], tangents[2]], slope]
-            .map(|v| lane_vector(v, lane));
-        let bitangent = cross(n, t);
-        let (across, along) = (dot(bitangent, bitangent), dot(t, t));
-        let side = if tangents[3][lane] < 0.0 { -1.0 } else { 1.0 };
-        let (u, v) = (s[0] / along.sqrt(), side * s[1] / across.sqrt());
-        let sum = [0, 1, 2].map(|k: usize| t[k] * u + bitangent[k] * v + n[k] * s[2]);
-        let square = dot(sum, sum);
-        let per = 1.0 / square.sqrt();
-        let is_good = across > 0.0 && square > 1e-12 && square < f32::INFINITY;
-        for axis in 0..3 {
-            bent[axis][lane] = if is_good { sum[axis] * per } else { n[axis] };
-        }
-    }
-    bent
-}
-
-/// The unit vectors from places to the viewer, who is homogeneous: an eye, or a direction.
+/// The unit vectors from positions to the viewer, a homogeneous point: an eye, or at infinity the
+/// direction of a parallel projection. Zero at the eye itself.
 #[inline(always)]
 pub(super) fn view_directions<const N: usize>(
-    places: &VectorLanes<N>,
-    viewer: [f32; 4],
-) -> VectorLanes<N> {
-    let mut ways = *places;
-    for axis in 0..3 {
-        for lane in 0..N {
-            ways[axis][lane] = viewer[axis] - places[axis][lane] * viewer[3];
-        }
-    }
-    for lane in 0..N {
-        let way = lane_vector(&ways, lane);
-        let square = dot(way, way);
-        let per = if square > 0.0 { 1.0 / square.sqrt() } else { 0.0 };
-        for axis in &mut ways {
-            axis[lane] *= per;
-        }
-    }
-    ways
+    positions: Vec3Lanes<N>,
+    [x, y, z, w]: [f32; 4],
+) -> Vec3Lanes<N> {
+    let directions = Vec3Lanes::splat([x, y, z]) - positions * w;
+    let inv_length = directions
+        .dot(directions)
+        .map(|square| if square > 0.0 { 1.0 / square.sqrt() } else { 0.0 });
+    directions * inv_length
 }
 
-/// Whether faces are seen from behind.
-///
-/// The face's own normal decides that: a smooth one may lean away from the viewer near the outline of a body and is right to
-/// do so.
+/// Finds the faces whose back is visible, by the normals of the triangles.
 #[inline(always)]
 pub(super) fn find_back_faces<const N: usize>(
-    faces: &VectorLanes<N>,
-    views: &VectorLanes<N>,
-) -> [bool; N] {
-    let towards = dot_lanes(faces, views);
-    let mut is_back = [false; N];
-    for lane in 0..N {
-        is_back[lane] = towards[lane] < 0.0;
-    }
-    is_back
+    face_normals: Vec3Lanes<N>,
+    views: Vec3Lanes<N>,
+) -> Mask<N> {
+    face_normals.dot(views).is_below(0.0)
 }
 
-/// Turns some vectors round.
+/// Vectors, negated in some lanes.
 #[inline(always)]
-pub(super) fn flip_vectors<const N: usize>(vectors: &mut VectorLanes<N>, which: &[bool; N]) {
-    for axis in vectors {
-        for lane in 0..N {
-            axis[lane] = if which[lane] { -axis[lane] } else { axis[lane] };
-        }
-    }
-}
-
-/// The vector at length 1; `None` if it is too short or too long to have a direction.
-fn try_normalize(v: [f32; 3]) -> Option<[f32; 3]> {
-    let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
-    (length > 0.0 && length.is_finite()).then(|| v.map(|c| c / length))
+pub(super) fn flip_vectors<const N: usize>(vectors: Vec3Lanes<N>, mask: &Mask<N>) -> Vec3Lanes<N> {
+    vectors.map(|component| (-component).select(mask, component))
 }

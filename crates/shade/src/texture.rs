@@ -1,151 +1,64 @@
-//! Textures: an image with its mip chain, and how it is read at a fragment.
+//! Textures: mip-mapped images, sampled with bilinear, trilinear and anisotropic filtering.
 //!
-//! A mip chain (Williams 1983) holds the image at full size, at half, at a quarter and so on. Where a pixel of the
-//! picture covers many texels, a level is read in which it covers about one, so that the texture neither shimmers nor
-//! costs more than a few fetches.
+//! ```text
+//!   UvLanes ─► footprint ─► taps ─► addressing ─► filtering ─► TexelLanes
+//!   u, v and   ellipse on   along   mip levels,   sRGB decode,  linear color,
+//!   d/dx d/dy  the texture  it      texels        lerp          straight alpha
+//! ```
+//!
+//! Where a pixel of the picture covers many texels, a mip level is read in which it covers about
+//! one, so that the texture neither shimmers nor costs more than a few fetches.
 
 mod addressing;
 mod filtering;
 mod footprint;
+mod mip_chain;
 
-use crate::color::srgb_to_linear_table;
-use addressing::TexelAddressing;
-use model::{Image, MipmapMode, Sampler};
-use std::borrow::Cow;
-use std::sync::OnceLock;
+pub use mip_chain::{MipChain, TexelEncoding};
 
-/// An image at all its sizes, with the way to read it.
-#[derive(Clone, Debug)]
-pub struct MipChain<'a> {
-    levels: Vec<MipLevel<'a>>,
-    addressing: TexelAddressing,
-    /// The light that the codes of colours stand for.
-    srgb_table: Option<&'static [f32; 256]>,
+use super::lanes::{Lanes, Rgb};
+
+/// Texture coordinates at some fragments.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct UvLanes<const N: usize> {
+    /// u and v, 0 to 1 over the image from its upper left corner.
+    pub(super) uv: [Lanes<N>; 2],
+    /// Their derivatives by the pixel's column.
+    pub(super) dx: [Lanes<N>; 2],
+    /// Their derivatives by the pixel's row, downwards.
+    pub(super) dy: [Lanes<N>; 2],
 }
 
-/// What the codes of texels mean.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum TexelEncoding {
-    /// Red, green and blue are sRGB, alpha is linear.
-    Srgb,
-    /// All four are linear, from 0 to 1.
-    Linear,
+impl<const N: usize> UvLanes<N> {
+    /// One point of the texture everywhere: the coordinates of a mesh that has none.
+    pub(super) const ZERO: Self =
+        Self { uv: [Lanes::ZERO; 2], dx: [Lanes::ZERO; 2], dy: [Lanes::ZERO; 2] };
 }
 
-/// One size of an image: texels with straight alpha, rows from the top.
-#[derive(Clone, Debug)]
-struct MipLevel<'a> {
-    width: i32,
-    height: i32,
-    texels: Cow<'a, [[u8; 4]]>,
+/// Filtered texels at some fragments: linear color with straight alpha.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct TexelLanes<const N: usize> {
+    pub(super) color: Rgb<N>,
+    pub(super) alpha: Lanes<N>,
 }
 
-impl<'a> MipChain<'a> {
-    /// Builds the chain; only the full image if the sampler asks for no others.
-    #[must_use]
-    pub fn new(image: &'a Image, sampler: Sampler, texels: TexelEncoding) -> Self {
-        let full = MipLevel {
-            width: image.width as i32,
-            height: image.height as i32,
-            texels: Cow::Borrowed(&image.rgba),
-        };
-        let mut levels = vec![full];
-        if sampler.mipmap_mode != MipmapMode::None {
-            let half = |level: &MipLevel<'a>| match texels {
-                TexelEncoding::Srgb => {
-                    level.downsample(|four| SrgbAverager::shared().average(four))
-                }
-                TexelEncoding::Linear => level.downsample(average_texels),
-            };
-            while let Some(half) = levels.last().and_then(half) {
-                levels.push(half);
-            }
-        }
-        let last = levels.len() as i32 - 1;
-        let addressing = TexelAddressing {
-            width: levels[0].width,
-            height: levels[0].height,
-            last_level: last,
-            sampler,
-        };
-        let srgb_table = (texels == TexelEncoding::Srgb).then(srgb_to_linear_table);
-        Self { levels, addressing, srgb_table }
-    }
+impl<const N: usize> TexelLanes<N> {
+    pub(super) const ZERO: Self = Self { color: Rgb::ZERO, alpha: Lanes::ZERO };
 
-    /// What decides where it is read.
+    /// Linear interpolation of all four channels.
     #[inline(always)]
-    pub(super) const fn addressing(&self) -> &TexelAddressing {
-        &self.addressing
-    }
-}
-
-impl MipLevel<'_> {
-    /// This level at half size: each texel the mean of four; `None` if it is a single texel. Of an odd number of rows or
-    /// columns the last one is left out.
-    fn downsample<'b>(&self, mean: impl Fn([[u8; 4]; 4]) -> [u8; 4]) -> Option<MipLevel<'b>> {
-        if self.width == 1 && self.height == 1 {
-            return None;
+    fn lerp(self, to: Self, t: Lanes<N>) -> Self {
+        Self {
+            color: self.color.zip(to.color, |from, to| from.lerp(to, t)),
+            alpha: self.alpha.lerp(to.alpha, t),
         }
-        let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
-        let mut texels = Vec::with_capacity(width as usize * height as usize);
-        let row = |y: i32| {
-            let start = y.min(self.height - 1) as usize * self.width as usize;
-            &self.texels[start..start + self.width as usize]
-        };
-        for y in 0..height {
-            let (upper, lower) = (row(2 * y), row(2 * y + 1));
-            if let ([a], [b]) = (upper, lower) {
-                texels.push(mean([*a, *a, *b, *b]));
-                continue;
-            }
-            let pairs = upper.as_chunks::<2>().0.iter().zip(lower.as_chunks::<2>().0);
-            texels.extend(pairs.map(|(&[a, b], &[c, d])| mean([a, b, c, d])));
-        }
-        Some(MipLevel { width, height, texels: Cow::Owned(texels) })
-    }
-}
-
-/// The mean of four texels of numbers.
-fn average_texels(four: [[u8; 4]; 4]) -> [u8; 4] {
-    [0, 1, 2, 3].map(|k: usize| {
-        let sum: u16 = four.iter().map(|texel| u16::from(texel[k])).sum();
-        ((sum + 2) / 4) as u8
-    })
-}
-
-/// Tables for means of colours: 16-bit linear light of each code, and back.
-#[derive(Debug)]
-struct SrgbAverager {
-    linear: [u32; 256],
-    codes: Vec<u8>,
-}
-
-impl SrgbAverager {
-    fn shared() -> &'static Self {
-        static TABLES: OnceLock<SrgbAverager> = OnceLock::new();
-        TABLES.get_or_init(|| {
-            let linear = srgb_to_linear_table().map(|light| (light * 65535.0 + 0.5) as u32);
-            let encoder = crate::color::SrgbEncoder::shared();
-            let code = |light: u16| encoder.encode(f32::from(light) / 65535.0);
-            Self { linear, codes: (0..=65535).map(code).collect() }
-        })
-    }
-
-    /// The mean of four colours, in linear light.
-    fn average(&self, four: [[u8; 4]; 4]) -> [u8; 4] {
-        let color = |k: usize| {
-            let sum: u32 = four.iter().map(|texel| self.linear[usize::from(texel[k])]).sum();
-            self.codes[((sum + 2) / 4) as usize]
-        };
-        let [.., alpha] = average_texels(four);
-        [color(0), color(1), color(2), alpha]
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use model::{TextureFilter, WrapMode};
+    use model::{Image, MipmapMode, Sampler, TextureFilter, WrapMode};
 
     fn checker(size: u32) -> Image {
         let texel = |n: u32| {
@@ -156,11 +69,22 @@ mod tests {
 
     /// One fragment, with alpha.
     fn sample(chain: &MipChain<'_>, uvs: [[f32; 2]; 3]) -> [f32; 4] {
-        chain.sample(&uvs.map(|[u, v]| [[u], [v]]), true, 1).map(|[channel]| channel)
+        lane(&chain.sample(&uv_lanes(uvs), true, 1), 0)
+    }
+
+    /// Coordinates and derivatives of one fragment.
+    fn uv_lanes(uvs: [[f32; 2]; 3]) -> UvLanes<1> {
+        let [uv, dx, dy] = uvs.map(|uv| uv.map(Lanes::splat));
+        UvLanes { uv, dx, dy }
+    }
+
+    fn lane<const N: usize>(texels: &TexelLanes<N>, lane: usize) -> [f32; 4] {
+        let [r, g, b] = texels.color.lane(lane);
+        [r, g, b, texels.alpha[lane]]
     }
 
     #[test]
-    fn a_checker_from_afar_is_grey_in_linear_light() {
+    fn a_checker_from_afar_is_gray_in_linear_light() {
         let image = checker(16);
         let chain = MipChain::new(&image, Sampler::default(), TexelEncoding::Srgb);
         let uvs = [[0.4, 0.4], [1.0, 0.0], [0.0, 1.0]];
@@ -169,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn linear_filtering_passes_through_texel_centres_and_halves_between() {
+    fn linear_filtering_passes_through_texel_centers_and_halves_between() {
         let image = Image { width: 2, height: 1, rgba: vec![[0, 0, 0, 0], [255; 4]] };
         let sampler = Sampler { wrap_u: WrapMode::ClampToEdge, ..Sampler::default() };
         let chain = MipChain::new(&image, sampler, TexelEncoding::Srgb);
@@ -178,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn coordinates_that_are_no_numbers_read_some_texel() {
+    fn coordinates_that_are_not_finite_read_some_texel() {
         let image = checker(4);
         let chain = MipChain::new(&image, Sampler::default(), TexelEncoding::Srgb);
         for u in [f32::NAN, f32::INFINITY, f32::MAX] {
@@ -194,16 +118,12 @@ mod tests {
         let image = Image { width: 24, height: 16, rgba };
         let filters = [TextureFilter::Nearest, TextureFilter::Linear];
         let wraps = [WrapMode::Repeat, WrapMode::MirroredRepeat, WrapMode::ClampToEdge];
-        for mipmap in [MipmapMode::None, MipmapMode::Nearest, MipmapMode::Linear] {
-            for (magnify, minify) in filters.into_iter().flat_map(|a| filters.map(|b| (a, b))) {
+        for mipmap_mode in [MipmapMode::None, MipmapMode::Nearest, MipmapMode::Linear] {
+            for (mag_filter, min_filter) in
+                filters.into_iter().flat_map(|a| filters.map(|b| (a, b)))
+            {
                 for (wrap_u, wrap_v) in wraps.into_iter().flat_map(|a| wraps.map(|b| (a, b))) {
-                    let sampler = Sampler {
-                        wrap_u,
-                        wrap_v,
-                        mag_filter: magnify,
-                        min_filter: minify,
-                        mipmap_mode: mipmap,
-                    };
+                    let sampler = Sampler { wrap_u, wrap_v, mag_filter, min_filter, mipmap_mode };
                     eight_are_as_one_by_one(&MipChain::new(&image, sampler, TexelEncoding::Srgb));
                 }
             }
@@ -213,22 +133,22 @@ mod tests {
     /// Sizes of a pixel from a thirtieth of a texel to all of the image, mixed in each eight.
     fn eight_are_as_one_by_one(chain: &MipChain<'_>) {
         for round in 0..20 {
-            let mut uvs = [[[0.0_f32; 8]; 2]; 3];
+            let mut uvs = UvLanes::<8>::ZERO;
             for lane in 0..8 {
-                let number = (round * 8 + lane) as f32;
+                let index = (round * 8 + lane) as f32;
                 let size = 0.002 * (1 << ((round * 5 + lane * 3) % 10)) as f32;
-                uvs[0][0][lane] = number * 0.37 - 20.0;
-                uvs[0][1][lane] = 9.0 - number * 0.19;
-                uvs[1][0][lane] = size;
-                uvs[2][1][lane] = size * [0.7, 0.05, 3.0][lane % 3];
+                uvs.uv[0][lane] = index * 0.37 - 20.0;
+                uvs.uv[1][lane] = 9.0 - index * 0.19;
+                uvs.dx[0][lane] = size;
+                uvs.dy[1][lane] = size * [0.7, 0.05, 3.0][lane % 3];
             }
-            let all = chain.sample(&uvs, true, 1);
-            let along = chain.sample(&uvs, true, 8);
-            for lane in 0..8 {
-                let one = uvs.map(|uv| uv.map(|axis| axis[lane]));
-                assert_eq!(sample(chain, one), all.map(|channel| channel[lane]));
-                let one = chain.sample(&one.map(|[u, v]| [[u], [v]]), true, 8);
-                assert_eq!(one.map(|[channel]| channel), along.map(|channel| channel[lane]));
+            let isotropic = chain.sample(&uvs, true, 1);
+            let anisotropic = chain.sample(&uvs, true, 8);
+            for index in 0..8 {
+                let one = [uvs.uv, uvs.dx, uvs.dy].map(|uv| uv.map(|axis| axis[index]));
+                assert_eq!(sample(chain, one), lane(&isotropic, index));
+                let one = chain.sample(&uv_lanes(one), true, 8);
+                assert_eq!(lane(&one, 0), lane(&anisotropic, index));
             }
         }
     }

@@ -1,45 +1,51 @@
-//! Transmission: what light that passes through a surface becomes of (KHR_materials_transmission, KHR_materials_volume).
+//! Transmission: tinted glass, and absorption in a volume by Beer's law
+//! (KHR_materials_transmission, KHR_materials_volume).
 //!
 //! ```text
-//!   behind ──►│░░░░░│──► behind × passing × tint        tint = base colour × attenuation colour ^ (thickness / attenuation distance)
-//!              glass
+//!   behind ──►│░░░░░│──► behind · transmittance · tint
+//!              glass      tint = base color · attenuation color ^ (thickness / distance)
 //! ```
-//! Surfaces are thin: light is neither bent nor blurred by roughness, and goes straight through the thickness that the material tells
-//! (Beer's law). Red, green and blue pass in their own shares. A fragment has one alpha all the same, for what picks up alpha, a
-//! transparent background above all: that of a grey as bright as the tint. A transparent picture of tinted glass therefore
-//! shows, laid over something, that grey; where Alberti draws what is behind, it has the tint.
+//!
+//! Surfaces are thin: light is neither refracted nor blurred by roughness, and goes straight
+//! through the thickness that the material states. Red, green and blue have transmittances of their
+//! own. A fragment has one alpha all the same, for all that looks at alpha, above all a transparent
+//! background: that of a gray with the luminance of the tint. A transparent picture of tinted glass
+//! therefore shows that gray when it is laid over something; where what is behind is drawn with it,
+//! it has the tint.
 
 use super::Shading;
 use super::fragment_lanes::FragmentPacket;
+use super::lanes::{Lanes, Rgb, map_to_lanes};
 use super::material_inputs::MaterialInputs;
 use model::{AlphaMode, MaterialExtensions};
 use raster::{F32x8, Fragments, Kernel, LANES};
 
-/// What of white light a body leaves; `scale` is how much longer things are in the world than in its mesh.
+/// The color that white light has behind the surface: base color and absorption in the volume.
+///
+/// `world_scale` is the scale from the mesh, in whose units the thickness is given, to the world.
 #[inline(always)]
 pub(super) fn transmission_tint<const N: usize>(
     extensions: &MaterialExtensions,
     inputs: &MaterialInputs<N>,
-    scale: f32,
-    lane: usize,
-) -> [f32; 3] {
+    world_scale: f32,
+) -> Rgb<N> {
     let volume = extensions.volume.as_deref().copied().unwrap_or_default();
-    let way = inputs.layers.thickness[lane] * scale / volume.attenuation_distance;
-    let mut tint = [0.0; 3];
-    for channel in 0..3 {
-        let left = if way > 0.0 { libm::powf(volume.attenuation_color[channel], way) } else { 1.0 };
-        tint[channel] = inputs.base[channel][lane] * left;
-    }
-    tint
+    let length = inputs.layers.thickness * world_scale / volume.attenuation_distance;
+    // Beer's law. A surface without thickness absorbs nothing.
+    let [r, g, b] = map_to_lanes(&volume.attenuation_color, |color| {
+        length.map(|length| if length > 0.0 { libm::powf(color, length) } else { 1.0 })
+    });
+    inputs.base_color * Rgb { r, g, b }
 }
 
-/// The grey that is as bright as a colour (Rec. 709).
+/// The relative luminance of linear sRGB (Rec. 709).
 #[inline(always)]
-pub(super) fn luminance([r, g, b]: [f32; 3]) -> f32 {
-    0.2126 * r + 0.7152 * g + 0.0722 * b
+pub(super) fn luminance<const N: usize>(color: Rgb<N>) -> Lanes<N> {
+    0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b
 }
 
-/// What eight translucent fragments with these alphas let through.
+/// The kernel that computes the colored transmittance of eight translucent fragments with these
+/// alphas.
 pub(super) struct TransmitEight<'a> {
     pub(super) shading: &'a Shading<'a>,
     pub(super) fragments: &'a Fragments<'a>,
@@ -52,34 +58,38 @@ impl Kernel for TransmitEight<'_> {
     #[inline(always)]
     fn run(self) -> [F32x8; 3] {
         let Self { shading, fragments, alphas } = self;
-        let mut through = [alphas.map(|alpha| 1.0 - alpha); 3];
-        let mut done = [false; LANES];
-        while let Some(first) = done.iter().position(|&is_done| !is_done) {
-            let (draw, ids, own) = shading.draws.select_draw_lanes(fragments, first);
-            for lane in 0..LANES {
-                done[lane] |= own[lane];
+        // Where nothing is transmitted, or alike in all channels: what alpha says.
+        let mut transmittance = [alphas.map(|alpha| 1.0 - alpha); 3];
+        let mut is_done = [false; LANES];
+        while let Some(first) = is_done.iter().position(|&is_done| !is_done) {
+            let selection = shading.draws.select_draw_lanes(fragments, first);
+            let draw = selection.draw;
+            for (is_done, is_selected) in is_done.iter_mut().zip(selection.mask) {
+                *is_done |= is_selected;
             }
             if !draw.material.is_transmissive() {
                 continue;
             }
-            let items = draw.primitive_indices(&ids, fragments.is_single_primitive());
+            let primitives =
+                draw.primitive_indices(&selection.ids, fragments.is_single_primitive());
+            let vertices = draw.vertex_indices(&primitives);
+            let inputs = MaterialInputs::evaluate(draw, &vertices, &FragmentPacket::new(fragments));
             let is_blended = draw.material.alpha_mode == AlphaMode::Blend;
-            let corners = draw.vertex_indices(&items);
-            let inputs = MaterialInputs::evaluate(draw, &corners, &FragmentPacket::new(fragments));
-            for lane in (0..LANES).filter(|&lane| own[lane]) {
-                let there = if is_blended { inputs.base[3][lane] } else { 1.0 };
-                let tint =
-                    transmission_tint(&draw.material.extensions, &inputs, draw.world_scale, lane);
-                let passing = (there - alphas[lane]) / luminance(tint);
-                // Grey passes as it is, and so does what no number tells.
-                if passing.is_finite() && (tint[0] != tint[1] || tint[1] != tint[2]) {
-                    for channel in 0..3 {
-                        let share = 1.0 - there + passing * tint[channel];
-                        through[channel][lane] = share.clamp(0.0, 1.0);
+            let coverage = if is_blended { inputs.alpha } else { Lanes::ONE };
+            let tint = transmission_tint(&draw.material.extensions, &inputs, draw.world_scale);
+            // The alpha is that of a gray as bright as the tint: undo that, then tint each channel.
+            let white = (coverage - Lanes(*alphas)) / luminance(tint);
+            for lane in (0..LANES).filter(|&lane| selection.mask[lane]) {
+                let [r, g, b] = tint.lane(lane);
+                let white = white[lane];
+                // A gray tint is what alpha says already; a black one leaves nothing to undo.
+                if white.is_finite() && (r != g || g != b) {
+                    for (channel, tint) in transmittance.iter_mut().zip([r, g, b]) {
+                        channel[lane] = (1.0 - coverage[lane] + white * tint).clamp(0.0, 1.0);
                     }
                 }
             }
         }
-        through
+        transmittance
     }
 }

@@ -1,4 +1,4 @@
-//! What can be wrong with the parameters of this crate.
+//! Errors of viewport parameters.
 
 use thiserror::Error;
 
@@ -33,7 +33,7 @@ pub enum ViewportError {
     /// A count is too small.
     #[error("{name} = {count} is not allowed: it must be at least {least}")]
     TooFew {
-        /// What is counted.
+        /// The name of the count.
         name: &'static str,
         /// The count.
         count: usize,

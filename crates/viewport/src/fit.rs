@@ -105,7 +105,7 @@ impl FitPolicy {
     }
 }
 
-/// What takes the picture's width and height to those of the place.
+/// The factors from the picture's width and height to those of the rectangle.
 fn scale_factors(picture: [f64; 2], place: Rectangle) -> Result<(f64, f64), ViewportError> {
     let sx = place.width() / check_positive("picture width", picture[0])?;
     let sy = place.height() / check_positive("picture height", picture[1])?;

@@ -15,25 +15,27 @@
 //!                                         y ▼  └───┴───┴───┴───┴───┴───┘
 //! ```
 //!
-//! What is often left unsaid is said here: whether y runs up or down and where pixels have their
-//! centres ([`PixelConvention`](homog::PixelConvention)), and where depth goes ([`DepthRange`]).
-//! [`Viewport::image`] is the pipeline's own way, [`Viewport::chapter`] the textbook's; every other
-//! is made from parts.
+//! Everything that is often left unsaid is explicit: whether y runs up or down and where pixels
+//! have their centers ([`PixelConvention`](homog::PixelConvention)), and the range of depth
+//! ([`DepthRange`]). [`Viewport::image`] is the pipeline's own way, [`Viewport::chapter`] the
+//! textbook's; every other is made from parts.
 //!
 //! | what | by |
 //! | --- | --- |
-//! | the map M_vp and its inverse | [`Viewport::ndc_to_screen`], [`Viewport::screen_to_ndc`] (VP-1 to VP-3, WV-3) |
-//! | from one pixel convention to another | [`PixelConvention::convert_to`](homog::PixelConvention::convert_to) (VP-4) |
+//! | the map M_vp (VP-1 to VP-3) | [`Viewport::ndc_to_screen`] |
+//! | its inverse (WV-3) | [`Viewport::screen_to_ndc`] |
+//! | another pixel convention (VP-4) | `homog::PixelConvention::convert_to` |
 //! | window to viewport in the plane, by both methods | [`WindowToViewport`] (WV-1, WV-2) |
 //! | pictures of one shape in places of another | [`FitPolicy`] |
-//! | several viewports on a page | [`Rectangle::split_grid`], [`Rectangle::inset_rectangle`], [`Rectangle::shrink`] |
+//! | several viewports on a page | [`Rectangle::split_grid`], [`Rectangle::inset_rectangle`] |
 //! | millimetres, dots per inch, scale 1:n | [`Paper`], [`Resolution`], [`DrawingScale`] |
 //! | large images in parts | [`tiles`], [`Viewport::for_tile`] |
-//! | what is under a pixel | [`Viewport::unprojector`], [`Unprojector::pick_ray`] (UN-1, UN-2), [`Viewport::pick_matrix`] |
+//! | picking (UN-1, UN-2) | [`Viewport::unprojector`], [`Unprojector::pick_ray`] |
+//! | a part of the view as the whole | [`Viewport::pick_matrix`] |
 //! | the points of a height field | [`PointGrid`] (WV-4) |
 //!
 //! # Example
-//! The same corner of the view in two conventions, and the way back:
+//! A corner of the view in two conventions, and the inverse:
 //! ```
 //! use homog::{PixelConvention, Point};
 //! use viewport::Viewport;
@@ -81,3 +83,8 @@ pub use tile::tiles;
 pub use unproject::{PickRay, Unprojector};
 pub use viewport::Viewport;
 pub use window_to_viewport::{Limits, WindowToViewport};
+
+/// The examples of the README, compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -80,7 +80,7 @@ impl Paper {
         })
     }
 
-    /// The same sheet turned by a right angle.
+    /// This sheet rotated by a right angle: landscape for portrait.
     #[must_use]
     pub const fn rotated(self) -> Self {
         Self { width: self.height, height: self.width }
@@ -121,7 +121,8 @@ impl Paper {
 /// ```
 /// use viewport::DrawingScale;
 /// let scale = DrawingScale::new(1, 50)?;
-/// assert_eq!(scale.to_paper_length(5000.0), 100.0); // five metres are ten centimetres, all in millimetres
+/// // Five meters are ten centimeters on paper, all in millimeters.
+/// assert_eq!(scale.to_paper_length(5000.0), 100.0);
 /// assert_eq!(scale.to_string(), "1:50");
 /// # Ok::<(), viewport::ViewportError>(())
 /// ```

@@ -20,8 +20,8 @@ use homog::{Clip, HPoint, Point, Projective, Ray, Screen, Space, Vector};
 /// use homog::{Clip, Point, Projective, View};
 /// use viewport::Viewport;
 /// // P of the chapter, times −1 (PE-3), for n = −1 and f = −3.
-/// let rows = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 4.0, 3.0], [0.0, 0.0, -1.0, 0.0]];
-/// let view_to_clip = Projective::<View, Clip>::from_raw(glam::DMat4::from_cols_array_2d(&rows).transpose());
+/// let [x, y, z] = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 4.0, 3.0]];
+/// let view_to_clip = Projective::<View, Clip>::from_rows([x, y, z, [0.0, 0.0, -1.0, 0.0]]);
 /// let clip_to_view = view_to_clip.inverse().expect("regular");
 /// let back = Viewport::image(200, 100)?.unprojector(clip_to_view);
 /// let pick = back.pick_ray([100.0, 50.0], [1.0, -1.0]).expect("the middle of the picture");
@@ -66,7 +66,7 @@ impl Viewport {
 
     /// The map to put after the projection so that `area`, in pixels of this viewport's convention,
     /// fills the whole view: a pick matrix, as gluPickMatrix makes it, or the sub-view of a tile.
-    /// What is outside of the area is outside of the volume then.
+    /// Everything outside the area is then outside the volume.
     ///
     /// # Errors
     /// If the area is so small against the viewport that the factors are no finite numbers.

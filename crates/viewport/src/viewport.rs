@@ -51,13 +51,13 @@ impl Viewport {
         Ok(Self::new(area, PixelConvention::CHAPTER, DepthRange::KEEP))
     }
 
-    /// The same with pixels counted in another way.
+    /// This viewport in another pixel convention.
     #[must_use]
     pub const fn with_convention(self, convention: PixelConvention) -> Self {
         Self { convention, ..self }
     }
 
-    /// The same with another range of depth.
+    /// This viewport with another range of depth.
     #[must_use]
     pub const fn with_depth(self, depth: DepthRange) -> Self {
         Self { depth, ..self }

@@ -4,7 +4,7 @@
 //!   window                         viewport
 //!   ┌───────────────┐ yw max       ┌──────────┐ yv max
 //!   │        ● p    │       ──►    │     ● q  │         q divides the viewport's sides
-//!   └───────────────┘ yw min       └──────────┘ yv min  in the ratios in which p divides the window's
+//!   └───────────────┘ yw min       └──────────┘ yv min  as p divides the window's sides
 //! xw min         xw max         xv min     xv max
 //! ```
 

@@ -3,7 +3,9 @@
 
 use glam::{DMat3, DMat4, DVec2, DVec4};
 use homog::{Affine, HPoint2, Homography, Ndc, PixelConvention, Point, Projective, Vector, View};
-use viewport::{DepthRange, Limits, PointGrid, Rectangle, Viewport, WindowToViewport};
+use viewport::{
+    DepthRange, Limits, PointGrid, Rectangle, Viewport, ViewportError, WindowToViewport,
+};
 
 fn rows(rows: [[f64; 4]; 4]) -> DMat4 {
     DMat4::from_cols_array_2d(&rows).transpose()
@@ -163,20 +165,32 @@ fn rays_reach_to_infinity() {
 
 #[test]
 fn what_has_no_size_is_refused_by_name() {
-    let message = |error: viewport::ViewportError| error.to_string();
+    let message = |error: ViewportError| error.to_string();
     assert_eq!(
         Viewport::chapter(0, 5).map_err(message).unwrap_err(),
         "nx = 0 is not allowed: it must be greater than 0"
     );
-    assert!(Rectangle::new(0.0, 0.0, f64::NAN, 1.0).is_err());
-    assert!(Rectangle::new(0.0, f64::INFINITY, 1.0, 1.0).is_err());
-    assert!(DepthRange::new([0.5, 0.5], [0.0, 1.0]).is_err());
-    assert!(DepthRange::new([0.0, 1.0], [0.0, f64::NAN]).is_err());
+    assert!(matches!(
+        Rectangle::new(0.0, 0.0, f64::NAN, 1.0),
+        Err(ViewportError::NotFinite { .. })
+    ));
+    assert!(matches!(
+        Rectangle::new(0.0, f64::INFINITY, 1.0, 1.0),
+        Err(ViewportError::NotFinite { .. })
+    ));
+    assert!(matches!(DepthRange::new([0.5, 0.5], [0.0, 1.0]), Err(ViewportError::Empty { .. })));
+    assert!(matches!(
+        DepthRange::new([0.0, 1.0], [0.0, f64::NAN]),
+        Err(ViewportError::NotFinite { .. })
+    ));
     assert!(PixelConvention::IMAGE.convert_to(PixelConvention::CHAPTER, 0.0).is_err());
     let unit = Limits { x: [0.0, 1.0], y: [0.0, 1.0] };
     let flat = Limits { x: [0.0, 1.0], y: [2.0, 2.0] };
     let error = WindowToViewport::new(flat, unit).map_err(message).unwrap_err();
     assert_eq!(error, "window's y is empty: both its ends are 2");
     let tiny = Rectangle::from_size(1e-100, 1.0).expect("allowed");
-    assert!(Viewport::image(4, 4).expect("has pixels").pick_matrix(tiny).is_err());
+    assert!(matches!(
+        Viewport::image(4, 4).expect("has pixels").pick_matrix(tiny),
+        Err(ViewportError::NotFinite { .. })
+    ));
 }

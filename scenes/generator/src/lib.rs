@@ -7,7 +7,7 @@
 //!
 //! | module | holds |
 //! | --- | --- |
-//! | [`document`] | a glTF document under construction: meshes, materials, textures, nodes, cameras |
+//! | [`document`] | a glTF document under construction: meshes, materials, nodes, cameras |
 //! | [`mesh`] | vertices and indices, and the shapes that models consist of |
 //! | [`palette`] | the colors that the scenes share |
 //! | [`glb`] | the binary container |

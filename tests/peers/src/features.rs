@@ -7,7 +7,7 @@
 use crate::measure::{Contestant, Series, rounds};
 use model::{Anisotropy, Clearcoat, Iridescence, MaterialExtensions, Sheen, Transmission, Volume};
 use pipeline::scene::{ResolveOptions, Scene, parse_scene};
-use pipeline::{Origin, Picture, Renderer, Textures, Timings};
+use pipeline::{Origin, Picture, RenderContext, Renderer, Textures};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -100,10 +100,11 @@ fn frames(scene: Scene) -> Result<Box<dyn FnMut()>, String> {
     let textures = Textures::for_models(&scene.models);
     let mut renderer = Renderer::default();
     let mut picture: Picture = Picture::default();
-    let silent = Timings::default();
-    renderer.render(scene, &textures, 1, &silent, &mut picture).map_err(|e| e.to_string())?;
+    let context = RenderContext::new(scene, &textures, 1);
+    renderer.render(&context, &mut picture).map_err(|e| e.to_string())?;
     Ok(Box::new(move || {
         // It could be rendered just before.
-        let _ = renderer.render(scene, &textures, 1, &silent, &mut picture);
+        let context = RenderContext::new(scene, &textures, 1);
+        let _ = renderer.render(&context, &mut picture);
     }))
 }

@@ -1,4 +1,4 @@
-//! What there is to do: models and scenes, and a name for the picture of each.
+//! The jobs of a batch: models and scenes to render, with a unique picture name for each.
 
 use crate::CliError;
 use std::collections::BTreeMap;

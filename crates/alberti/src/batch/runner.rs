@@ -5,9 +5,7 @@ use super::report::{BatchReport, DONE, DONE_BEFORE, FAILED, JobRecord};
 use super::{BatchArgs, key::content_key};
 use crate::CliError;
 use crate::progress::ProgressCounter;
-use crate::render::open_input;
-use pipeline::scene::ResolveOptions;
-use pipeline::{Scene, Timings, render_reported};
+use pipeline::{Picture, RenderContext, Renderer, Textures};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -42,10 +40,12 @@ impl BatchRun<'_> {
         let counter = ProgressCounter::start(jobs.len());
         let (next, results) = (AtomicUsize::new(0), Mutex::new(BTreeMap::new()));
         let work = || {
+            let mut renderer = Renderer::default();
             loop {
                 let at = next.fetch_add(1, Ordering::Relaxed);
                 let Some(job) = jobs.get(at) else { break };
-                let record = self.run_job(job, before.get(job.output.as_str()).copied());
+                let before = before.get(job.output.as_str()).copied();
+                let record = self.run_job(job, before, &mut renderer);
                 report.append_record(&record);
                 counter.increment();
                 if let Ok(mut results) = results.lock() {
@@ -66,7 +66,12 @@ impl BatchRun<'_> {
     ///
     /// A panic is caught and recorded like any other failure: one broken model must not end a run
     /// of thousands.
-    fn run_job(&self, job: &BatchJob, before: Option<&JobRecord>) -> JobRecord {
+    fn run_job(
+        &self,
+        job: &BatchJob,
+        before: Option<&JobRecord>,
+        renderer: &mut Renderer,
+    ) -> JobRecord {
         let key = content_key(
             &job.input,
             self.settings,
@@ -77,8 +82,10 @@ impl BatchRun<'_> {
             return JobRecord { status: DONE_BEFORE.to_owned(), ..before.clone() };
         }
         let begin = Instant::now();
-        let work = AssertUnwindSafe(|| self.render_picture(&job.input, &output));
+        let work = AssertUnwindSafe(|| self.render_picture(&job.input, &output, renderer));
         let result = catch_unwind(work).unwrap_or_else(|_| {
+            // Its buffers may be in any state.
+            *renderer = Renderer::default();
             Err(CliError::Usage(
                 "internal error: the renderer panicked; please report this as a bug".to_owned(),
             ))
@@ -99,16 +106,16 @@ impl BatchRun<'_> {
     }
 
     /// Renders one picture; returns the warnings of its models and of the drawing.
-    fn render_picture(&self, input: &Path, output: &Path) -> Result<Vec<String>, CliError> {
-        let (origin, mut file) =
-            open_input(input, &self.args.overrides.import_options(&self.args.load_options))?;
-        self.args.overrides.apply_to(&mut file);
-        let scene = Scene::resolve(
-            &origin,
-            &file,
-            &ResolveOptions { import: self.args.overrides.import_options(&self.args.load_options) },
-        )?;
-        let (picture, drawing) = render_reported(&scene, 1, &Timings::default())?;
+    fn render_picture(
+        &self,
+        input: &Path,
+        output: &Path,
+        renderer: &mut Renderer,
+    ) -> Result<Vec<String>, CliError> {
+        let (_, _, scene) = self.args.overrides.open_scene(input, &self.args.load_options)?;
+        let textures = Textures::for_scene(&scene);
+        let mut picture = Picture::<u8>::default();
+        let drawing = renderer.render(&RenderContext::new(&scene, &textures, 1), &mut picture)?;
         let png = picture.to_png();
         if let Some(folder) = output.parent() {
             let fault = |cause| {
@@ -118,7 +125,7 @@ impl BatchRun<'_> {
         }
         pipeline::write_file(output, &png)?;
         let warnings = scene.models.iter().flat_map(|placed| &placed.model.warnings);
-        let warnings = warnings.map(|warning| format!("{}: {}", warning.location, warning.message));
+        let warnings = warnings.map(model::Diagnostic::sentence);
         Ok(warnings.chain(drawing.iter().map(ToString::to_string)).collect())
     }
 }

@@ -1,8 +1,7 @@
 //! The JSON reports of `alberti check` and `alberti scene check`.
 
 use super::CheckResult;
-use model::Diagnostic;
-use model::import::CheckReport;
+use model::{CheckReport, Diagnostic};
 use pipeline::SceneError;
 use pipeline::scene::Lint;
 use serde_json::{Value, json};

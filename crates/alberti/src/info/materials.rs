@@ -2,8 +2,8 @@
 
 use super::json::{shortest_number, shortest_numbers};
 use model::{
-    AlphaMode, ImageHeader, Material, MipmapMode, Model, TextureFilter, TextureInfo, TextureSlot,
-    WrapMode,
+    AlphaMode, ImageHeader, Material, MaterialExtensions, MipmapMode, Model, TextureFilter,
+    TextureInfo, TextureSlot, WrapMode,
 };
 use serde_json::{Value, json};
 
@@ -46,68 +46,66 @@ fn texture_use_json((slot, used): (TextureSlot, TextureInfo)) -> Value {
 
 /// The material extensions that differ from their defaults, by name without `KHR_materials_`.
 fn material_extensions_json(material: &Material) -> Value {
-    let more = &material.extensions;
-    let mut all = serde_json::Map::new();
-    let mut put = |name: &str, value: Value| all.insert(name.to_owned(), value);
-    if more.ior != 1.5 {
-        put("ior", json!({"ior": shortest_number(more.ior)}));
-    }
-    if more.dispersion != 0.0 {
-        put("dispersion", json!({"dispersion": shortest_number(more.dispersion)}));
-    }
-    if material.emission.strength != 1.0 {
-        put("emissive_strength", json!({"strength": shortest_number(material.emission.strength)}));
-    }
-    if let Some(of) = &more.specular {
-        put(
-            "specular",
-            json!({"factor": shortest_number(of.factor), "color": shortest_numbers(&of.color)}),
-        );
-    }
-    if let Some(of) = &more.specular_glossiness {
-        let (specular, glossiness) =
-            (shortest_numbers(&of.specular), shortest_number(of.glossiness));
-        put("pbrSpecularGlossiness", json!({"specular": specular, "glossiness": glossiness}));
-    }
-    if let Some(of) = &more.clearcoat {
-        put(
-            "clearcoat",
-            json!({"factor": shortest_number(of.factor), "roughness": shortest_number(of.roughness)}),
-        );
-    }
-    if let Some(of) = &more.sheen {
-        put(
-            "sheen",
-            json!({"color": shortest_numbers(&of.color), "roughness": shortest_number(of.roughness)}),
-        );
-    }
-    if let Some(of) = &more.transmission {
-        put("transmission", json!({"factor": shortest_number(of.factor)}));
-    }
-    if let Some(of) = &more.volume {
-        let (distance, color) =
-            (shortest_number(of.attenuation_distance), shortest_numbers(&of.attenuation_color));
-        let thickness = shortest_number(of.thickness);
-        put(
-            "volume",
-            json!({"thickness": thickness, "attenuation_distance": distance, "attenuation_color": color}),
-        );
-    }
-    if let Some(of) = &more.iridescence {
-        let thickness = shortest_numbers(&[of.thickness_minimum, of.thickness_maximum]);
-        let (factor, ior) = (shortest_number(of.factor), shortest_number(of.ior));
-        put(
-            "iridescence",
-            json!({"factor": factor, "ior": ior, "thickness_nanometres": thickness}),
-        );
-    }
-    if let Some(of) = &more.anisotropy {
-        put(
-            "anisotropy",
-            json!({"strength": shortest_number(of.strength), "rotation": shortest_number(of.rotation)}),
-        );
-    }
-    Value::Object(all)
+    let (more, strength) = (&material.extensions, material.emission.strength);
+    let ior = (more.ior != 1.5).then(|| json!({"ior": shortest_number(more.ior)}));
+    let dispersion =
+        (more.dispersion != 0.0).then(|| json!({"dispersion": shortest_number(more.dispersion)}));
+    let emissive = (strength != 1.0).then(|| json!({"strength": shortest_number(strength)}));
+    let volume = more.volume.as_ref().map(|of| {
+        json!({
+            "thickness": shortest_number(of.thickness),
+            "attenuation_distance": shortest_number(of.attenuation_distance),
+            "attenuation_color": shortest_numbers(&of.attenuation_color),
+        })
+    });
+    let all = [
+        ("ior", ior),
+        ("dispersion", dispersion),
+        ("emissive_strength", emissive),
+        ("volume", volume),
+    ];
+    let all = all.into_iter().chain(material_layers_json(&material.extensions));
+    all.filter_map(|(name, value)| Some((name.to_owned(), value?))).collect()
+}
+
+/// The extensions that add or replace a layer of the BRDF; `None` where the material has none.
+fn material_layers_json(more: &MaterialExtensions) -> [(&'static str, Option<Value>); 7] {
+    // A color or reflectance has three components, every other parameter one.
+    let (one, three) = (shortest_number, |color: &[f32]| shortest_numbers(color));
+    let specular = more
+        .specular
+        .as_ref()
+        .map(|of| json!({"factor": one(of.factor), "color": three(&of.color)}));
+    let glossiness = more
+        .specular_glossiness
+        .as_ref()
+        .map(|of| json!({"specular": three(&of.specular), "glossiness": one(of.glossiness)}));
+    let clearcoat = more
+        .clearcoat
+        .as_ref()
+        .map(|of| json!({"factor": one(of.factor), "roughness": one(of.roughness)}));
+    let sheen = more
+        .sheen
+        .as_ref()
+        .map(|of| json!({"color": three(&of.color), "roughness": one(of.roughness)}));
+    let transmission = more.transmission.as_ref().map(|of| json!({"factor": one(of.factor)}));
+    let iridescence = more.iridescence.as_ref().map(|of| {
+        let thickness = three(&[of.thickness_minimum, of.thickness_maximum]);
+        json!({"factor": one(of.factor), "ior": one(of.ior), "thickness_nanometres": thickness})
+    });
+    let anisotropy = more
+        .anisotropy
+        .as_ref()
+        .map(|of| json!({"strength": one(of.strength), "rotation": one(of.rotation)}));
+    [
+        ("specular", specular),
+        ("pbrSpecularGlossiness", glossiness),
+        ("clearcoat", clearcoat),
+        ("sheen", sheen),
+        ("transmission", transmission),
+        ("iridescence", iridescence),
+        ("anisotropy", anisotropy),
+    ]
 }
 
 /// All textures of the file, with their samplers.

@@ -1,6 +1,7 @@
 //! The reference as a self-contained HTML page.
 
 use super::{ReferenceEntry, ReferenceSection};
+use drawing::escape_markup;
 
 /// The style sheet of the page, for light and dark color schemes.
 const PAGE_STYLE: &str = "\
@@ -43,7 +44,7 @@ fn write_entries(page: &mut String, entries: &[ReferenceEntry], titles: &[&str])
     for entry in entries {
         let flag = entry.term.starts_with('-');
         let gap = if entry.value.is_empty() || flag { " " } else { ": " };
-        let term = if flag { escape_html(&entry.term) } else { link_titles(&entry.term, titles) };
+        let term = if flag { escape_markup(&entry.term) } else { link_titles(&entry.term, titles) };
         let value = link_titles(&entry.value, titles);
         let note = &entry.note;
         page.push_str(&format!(
@@ -66,13 +67,13 @@ fn link_titles(text: &str, titles: &[&str]) -> String {
     let mut html = String::new();
     for (number, part) in text.split_inclusive(|c: char| !c.is_alphanumeric()).enumerate() {
         let word = part.trim_end_matches(|c: char| !c.is_alphanumeric());
-        let rest = escape_html(&part[word.len()..]);
+        let rest = escape_markup(&part[word.len()..]);
         // The first word of a variant is its own name, not a type.
         let is_link = titles.contains(&word) && (number > 0 || !text.contains('('));
         if is_link {
             html.push_str(&format!("<a href=\"#{}\">{word}</a>{rest}", section_anchor(word)));
         } else {
-            html.push_str(&format!("{}{rest}", escape_html(word)));
+            html.push_str(&format!("{}{rest}", escape_markup(word)));
         }
     }
     html
@@ -80,15 +81,10 @@ fn link_titles(text: &str, titles: &[&str]) -> String {
 
 /// Escapes text and turns backticks into `<code>`.
 fn mark_code(text: &str) -> String {
-    let parts = escape_html(text).split('`').map(str::to_owned).collect::<Vec<_>>();
+    let parts = escape_markup(text).split('`').map(str::to_owned).collect::<Vec<_>>();
     let part = |(number, part): (usize, &String)| match number % 2 {
         0 => part.clone(),
         _ => format!("<code>{part}</code>"),
     };
     parts.iter().enumerate().map(part).collect()
-}
-
-/// Escapes text for HTML content.
-fn escape_html(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

@@ -63,7 +63,10 @@ fn entry_names(entry: &ReferenceEntry) -> impl Iterator<Item = &str> {
     entry.term.split(", ").map(|name| name.split('(').next().unwrap_or(name))
 }
 
-/// The entries at the end of a path such as `camera.view.eye`; naming the variants is optional.
+/// The entries at the end of a path such as `camera.view.eye`.
+///
+/// Variants on the path may be named or left out. The types of the values at the end are appended,
+/// so that `camera.view` describes `View` as well.
 fn find_by_path(sections: &[ReferenceSection], steps: &[&str]) -> Vec<ReferenceSection> {
     let is_scene = |section: &&ReferenceSection| section.title == "Scene";
     let mut scopes: Vec<ReferenceSection> = sections.iter().filter(is_scene).cloned().collect();

@@ -93,6 +93,8 @@ fn output_template(args: &RenderArgs) -> Result<NameTemplate, CliError> {
 }
 
 /// The value of a text field of the template; `default` where no flag sets it.
+///
+/// The value of a flag is its name as written on the command line.
 fn template_word(name: &str, input: &Path, look: &SceneOverrideArgs) -> String {
     let choice = |choice: &Option<pipeline::scene::file::Choice>| {
         choice.as_ref().map(|choice| match choice {

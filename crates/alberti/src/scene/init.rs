@@ -59,6 +59,9 @@ pub(crate) fn run(args: &InitArgs) -> Result<(), CliError> {
 }
 
 /// The path of a file relative to the folder of the scene, with `/` as separator.
+///
+/// Both paths are made canonical first, so that symbolic links and `..` in the current folder do
+/// not matter.
 fn relative_path(folder: &Path, file: &Path) -> String {
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let (Ok(from), Ok(to)) = (here.canonicalize(), file.canonicalize()) else {
@@ -71,7 +74,10 @@ fn relative_path(folder: &Path, file: &Path) -> String {
     up.chain(down).collect::<Vec<_>>().join("/")
 }
 
-/// The text of the scene, before formatting. Writing to a `String` cannot fail.
+/// The text of the scene, before formatting.
+///
+/// Every comment that shows a field is valid RON, so that removing the slashes is enough to try it.
+/// Writing to a `String` cannot fail.
 fn starter_scene(path: &str, output: &str, scene: &Scene) -> String {
     let placed = &scene.models[0];
     let model = &placed.model;
@@ -140,6 +146,9 @@ fn write_model_states(text: &mut String, model: &Model) {
 }
 
 /// Writes the default view, with the equivalent `LookAt` and the model's cameras as comments.
+///
+/// The target of the `LookAt` is the point on the view axis that is nearest to the center of the
+/// model.
 fn write_views(text: &mut String, scene: &Scene) {
     let model = &scene.models[0].model;
     let camera = scene.view_projection.camera;

@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_written_short() {
+    fn ticks_are_formatted_short() {
         let texts = [0.0, -0.0, 0.3, 1e-7, 2e5, 1000.0].map(format_tick);
         assert_eq!(texts, ["0", "0", "0.3", "1e-7", "2e5", "1000"]);
     }

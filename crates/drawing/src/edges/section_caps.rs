@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn surfaces_turned_inside_out_are_filled_alike() {
+    fn inside_out_surfaces_get_the_same_caps() {
         assert_eq!(
             cap_area(vec![square_loop(0.0, 3.0, false), square_loop(0.0, 2.0, true)]),
             36.0 - 16.0

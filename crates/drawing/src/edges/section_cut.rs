@@ -49,19 +49,33 @@ pub(super) fn cut_mesh(
     for face in std::mem::take(&mut mesh.faces) {
         cut_face(mesh, &face, plane, &mut retained, &mut openings);
     }
-    let mut none = Vec::new();
+    let mut discarded = Vec::new();
     for face in fillings {
-        none.clear();
-        cut_face(mesh, face, plane, &mut none, &mut openings);
+        discarded.clear();
+        cut_face(mesh, face, plane, &mut discarded, &mut openings);
     }
     mesh.faces = retained;
     cut_line_edges(mesh, plane);
     openings.sort_by_key(|(_, object)| *object);
     for &(ends, _) in &openings {
-        let cut = ends.map(|end| add_point(mesh, end));
-        mesh.section_edges.push(cut);
+        let section_edge = ends.map(|end| add_point(mesh, end));
+        mesh.section_edges.push(section_edge);
     }
-    for (object, loops) in close_loops(mesh, &openings, warnings) {
+    add_caps(mesh, &openings, (plane, section), warnings);
+}
+
+/// Closes a cut: the loops of its edges become faces with a material of their own.
+///
+/// Cap materials count down from `u32::MAX`, one for each section, so they equal no other.
+fn add_caps(
+    mesh: &mut WorldMesh,
+    openings: &[CutEdge],
+    (plane, section): (Plane<World>, u16),
+    warnings: &mut Vec<Warning>,
+) {
+    let material = u32::MAX - u32::from(section);
+    let (edge_visibility, cap_section) = (None, Some(section));
+    for (object, loops) in close_loops(mesh, openings, warnings) {
         let Some(triangles) = triangulate_caps(loops, plane) else {
             let object = mesh.objects[object as usize].clone();
             warnings.push(Warning::SectionTooComplex { object });
@@ -69,15 +83,7 @@ pub(super) fn cut_mesh(
         };
         for triangle in triangles {
             let vertices = triangle.map(|vertex| add_point(mesh, vertex));
-            let material = u32::MAX - u32::from(section);
-            let face = Face {
-                vertices,
-                object,
-                material,
-                edge_visibility: None,
-                cap_section: Some(section),
-            };
-            mesh.faces.push(face);
+            mesh.faces.push(Face { vertices, object, material, edge_visibility, cap_section });
         }
     }
 }
@@ -311,7 +317,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plane_beside_the_body_takes_nothing_or_all() {
+    fn a_plane_that_misses_the_body_removes_nothing_or_all() {
         let cut = |height: f64| {
             let mut mesh = solid_of_revolution(&CYLINDER, 8);
             let plane = Plane::through(Point::new(0.0, height, 0.0), Normal::new(0.0, -1.0, 0.0));
@@ -325,7 +331,7 @@ mod tests {
     }
 
     #[test]
-    fn marks_stay_with_the_sides_they_were_made_for() {
+    fn edge_visibility_stays_with_original_sides() {
         let mut mesh = solid_of_revolution(&CYLINDER, 8);
         let hard = EdgeVisibility::Hard;
         mesh.faces.iter_mut().for_each(|face| face.edge_visibility = Some([hard; 3]));

@@ -76,7 +76,7 @@ pub struct EdgeParts {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Occluders {
-    /// From the world to the screen on which the faces were projected; edges must go the same way.
+    /// The projection of the faces; edges must be projected by the same one.
     projector: Projector,
     tolerance: Tolerance,
     /// In the order of the leaves of the hierarchy, so that a leaf is a range.

@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_common_is_added() {
+    fn intersections_of_sets_are_inserted() {
         let mut intervals = interval_set(&[[0.0, 0.1]]);
         intervals.insert_intersection(
             &interval_set(&[[0.2, 0.5], [0.6, 0.9]]),
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn slivers_go() {
+    fn slivers_are_removed() {
         let mut intervals =
             interval_set(&[[0.001, 0.2], [0.201, 0.4], [0.6, 0.601], [0.8, 0.9999]]);
         intervals.remove_slivers(0.01);

@@ -195,7 +195,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lengths_have_no_idle_zeros() {
+    fn lengths_have_no_trailing_zeros() {
         for (length, text) in [
             (150.0, "150"),
             (12.5, "12.5"),

@@ -59,53 +59,80 @@ impl PlacedView<'_> {
 
 /// The section lines and names for all sections that a principal view shows, lettered from A.
 ///
-/// Three layers, for three pens: the chain line, its wide ends, and arrows with letters. A plane
-/// that no principal view faces is shown by no name; only the axonometric view is cut by it.
+/// A plane that no principal view faces gets no name; only the axonometric view is cut by it.
 pub(super) fn section_line_layers(
     sheet: &Sheet,
     sections: &[Plane<World>],
     layout: &ViewLayout<'_>,
     ink: Ink,
 ) -> Vec<Layer> {
-    let principal: Vec<&PlacedView<'_>> = layout
-        .views
-        .iter()
-        .filter(|placed| NamedView::PRINCIPAL.contains(&placed.view.name))
-        .collect();
-    let group = sheet.line_width_group();
-    let chain =
-        LineType::LongDashedDotted.to_pen(group.narrow_width(), ink, Cap::Butt, Join::Miter);
-    let mut lines = Layer::new("cut-lines", "lines of cuts", chain);
-    let wide = Pen { cap: Cap::Butt, ..Pen::solid(group.wide_width(), ink) };
-    let mut ends = Layer::new("cut-ends", "ends of cuts", wide);
-    let mut names =
-        Layer::new("cut-names", "names of cuts", Pen::solid(group.lettering_width(), ink));
+    let is_principal = |placed: &&PlacedView<'_>| NamedView::PRINCIPAL.contains(&placed.view.name);
+    let principal: Vec<&PlacedView<'_>> = layout.views.iter().filter(is_principal).collect();
+    let mut layers = SectionLayers::new(sheet, ink);
     let shown = sections.iter().filter(|plane| principal.iter().any(|p| p.faces_section(**plane)));
     for (plane, letter) in shown.zip('A'..='Z') {
         for placed in &principal {
             if placed.faces_section(*plane) {
-                let area = placed.object_area();
-                let height = sheet.lettering_height();
-                let at = DVec2::new(placed.center.x, area.y() + area.height() + 1.8 * height);
-                let name = format!("{letter}-{letter}");
-                names.groups.push(label_group(&name, at, height));
+                layers.push_name(placed, letter);
             } else if let Some(line) = SectionLine::in_view(placed, *plane) {
-                lines.groups.push(stroke_group([line.ends]));
-                let inner =
-                    |k: usize| line.ends[k].lerp(line.ends[1 - k], OVERHANG / line.line_length());
-                ends.groups
-                    .push(stroke_group([[line.ends[0], inner(0)], [line.ends[1], inner(1)]]));
-                names.groups.push(line.arrow_group());
-                let height = sheet.lettering_height();
-                for end in line.ends {
-                    let at = end - line.retained_direction * (ARROW_LENGTH + height)
-                        + DVec2::Y * (0.5 * height);
-                    names.groups.push(label_group(&letter.to_string(), at, height));
-                }
+                layers.push_line(&line, letter);
             }
         }
     }
+    let SectionLayers { lines, ends, names, .. } = layers;
     [lines, ends, names].into_iter().filter(|layer| !layer.groups.is_empty()).collect()
+}
+
+/// The layers of section lines, one for each of three pens.
+struct SectionLayers {
+    /// Chain lines.
+    lines: Layer,
+    /// The wide ends of the lines.
+    ends: Layer,
+    /// Arrows, letters and the names below sectional views.
+    names: Layer,
+    /// The height of letters in millimeters.
+    lettering: f64,
+}
+
+impl SectionLayers {
+    /// Empty layers with the pens of a sheet.
+    fn new(sheet: &Sheet, ink: Ink) -> Self {
+        let group = sheet.line_width_group();
+        let chain =
+            LineType::LongDashedDotted.to_pen(group.narrow_width(), ink, Cap::Butt, Join::Miter);
+        let wide = Pen { cap: Cap::Butt, ..Pen::solid(group.wide_width(), ink) };
+        let lettering = Pen::solid(group.lettering_width(), ink);
+        Self {
+            lines: Layer::new("cut-lines", "lines of cuts", chain),
+            ends: Layer::new("cut-ends", "ends of cuts", wide),
+            names: Layer::new("cut-names", "names of cuts", lettering),
+            lettering: sheet.lettering_height(),
+        }
+    }
+
+    /// Writes A–A below a view that shows section A.
+    fn push_name(&mut self, placed: &PlacedView<'_>, letter: char) {
+        let area = placed.object_area();
+        let below = area.y() + area.height() + 1.8 * self.lettering;
+        let name = format!("{letter}-{letter}");
+        let anchor = DVec2::new(placed.center.x, below);
+        self.names.groups.push(label_group(&name, anchor, self.lettering));
+    }
+
+    /// Draws a section line with its wide ends, and an arrow with the letter at each of them.
+    fn push_line(&mut self, line: &SectionLine, letter: char) {
+        let [a, b] = line.ends;
+        self.lines.groups.push(stroke_group([line.ends]));
+        let inner = |k: usize| line.ends[k].lerp(line.ends[1 - k], OVERHANG / line.line_length());
+        self.ends.groups.push(stroke_group([[a, inner(0)], [b, inner(1)]]));
+        self.names.groups.push(line.arrow_group());
+        for end in line.ends {
+            let anchor = end - line.retained_direction * (ARROW_LENGTH + self.lettering)
+                + DVec2::Y * (0.5 * self.lettering);
+            self.names.groups.push(label_group(&letter.to_string(), anchor, self.lettering));
+        }
+    }
 }
 
 /// A centered label as a group.

@@ -30,3 +30,20 @@ impl<'a> SurfaceCache<'a> {
         &self.surfaces[index].1
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use homog::{Normal, Point};
+
+    #[test]
+    fn views_with_equal_sections_share_a_surface() {
+        let plane = Plane::through(Point::ORIGIN, Normal::new(0.0, 0.0, 1.0));
+        let mut cache = SurfaceCache::new(&[]);
+        for sections in [&[][..], &[plane], &[], &[plane]] {
+            assert!(cache.cut_by(sections).object_names().is_empty());
+        }
+        assert_eq!(cache.surfaces.len(), 2);
+        assert_eq!(cache.surfaces[1].0, [plane]);
+    }
+}

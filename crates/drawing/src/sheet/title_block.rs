@@ -40,6 +40,25 @@ struct TitleBlockField<'a> {
     height: f64,
 }
 
+impl TitleBlockField<'_> {
+    /// Width and height of the field in a block, in millimeters.
+    fn size(&self, block: Rectangle) -> DVec2 {
+        self.corner(block, 1) - self.corner(block, 0)
+    }
+
+    /// The upper left (0) or lower right (1) corner of the field in a block.
+    fn corner(&self, block: Rectangle, end: usize) -> DVec2 {
+        let (x, y) = (self.x[end], self.y[end]);
+        DVec2::new(block.x() + x * block.width(), block.y() + y * block.height())
+    }
+
+    /// The rectangle of the field in a block.
+    fn cell(&self, block: Rectangle) -> Rectangle {
+        let (corner, size) = (self.corner(block, 0), self.size(block));
+        rectangle_from_size(corner.x, corner.y, size.x, size.y)
+    }
+}
+
 /// The area of the block within the frame.
 pub(super) fn title_block_area(frame: Rectangle) -> Rectangle {
     let width = BLOCK_SIZE[0].min(frame.width());
@@ -68,19 +87,18 @@ pub(super) fn title_block_layers(
     let mut heading = Layer::new("title-block-title", "title block: title", heading);
     let mut values = Layer::new("title-block-text", "title block: text", Pen::solid(0.35, ink));
     for field in &fields {
-        let block_point =
-            |x: f64, y: f64| DVec2::new(area.x() + x * area.width(), area.y() + y * area.height());
-        let (low, high) =
-            (block_point(field.x[0], field.y[0]), block_point(field.x[1], field.y[1]));
-        let size = high - low;
-        let cell = rectangle_from_size(low.x, low.y, size.x, size.y);
+        let cell = field.cell(area);
+        let (corner, size) = (field.corner(area, 0), field.size(area));
         borders.groups[0].strokes.push(rectangle_outline(cell));
         let text_width = size.x - 2.0 * FIELD_INSET;
         let small = NAME_HEIGHT.min(size.y * 0.2);
-        let name =
-            Label::new(field.name, low + DVec2::new(FIELD_INSET, FIELD_INSET * 0.8 + small), small);
+        let name = Label::new(
+            field.name,
+            corner + DVec2::new(FIELD_INSET, FIELD_INSET * 0.8 + small),
+            small,
+        );
         names.groups.push(label_group(&name.fit_to_width(text_width)));
-        let foot = low + DVec2::new(FIELD_INSET, size.y - size.y * 0.19);
+        let foot = corner + DVec2::new(FIELD_INSET, size.y - size.y * 0.19);
         let value = Label::new(&field.value, foot, field.height.min(size.y * 0.42));
         let layer = if field.height == TITLE_HEIGHT { &mut heading } else { &mut values };
         layer.groups.push(label_group(&value.fit_to_width(text_width)));

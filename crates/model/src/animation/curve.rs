@@ -2,13 +2,22 @@
 //!
 //! ```text
 //!  Step                Linear              CubicSpline
-//!        ┌───•              •                  ╭─•      a value and two tangents at each keyframe: the
-//!  •─────┘               ╱                   ╱          curve leaves along the out-tangent and arrives
-//!                     •                   •─╯           along the in-tangent
+//!        ┌───•              •                  ╭─•    a value and two tangents at each keyframe:
+//!  •─────┘               ╱                   ╱        the curve leaves along the out-tangent and
+//!                     •                   •─╯         arrives along the in-tangent
 //! ```
 //!
-//! Values are constant before the first keyframe and after the last. Rotations are interpolated
-//! spherically (slerp): at constant angular velocity about one axis.
+//! Between keyframes at t₀ and t₁ with t = (time − t₀) / (t₁ − t₀) and Δ = t₁ − t₀:
+//!
+//! ```text
+//!  Step         v₀
+//!  Linear       (1 − t) v₀ + t v₁
+//!  Spherical    slerp(q₀, ±q₁, t)          the sign that gives the shorter arc
+//!  CubicSpline  (2t³ − 3t² + 1) v₀ + Δ (t³ − 2t² + t) out₀ + (−2t³ + 3t²) v₁ + Δ (t³ − t²) in₁
+//! ```
+//!
+//! Values are constant before the first keyframe and after the last. Sines and arccosines are
+//! `libm`'s, so that all machines compute equal bits.
 
 /// A keyframe curve (glTF's animation sampler). All numbers are finite.
 #[derive(Clone, PartialEq, Debug)]
@@ -102,7 +111,8 @@ fn slerp(from: &[f64], to: &[f64], t: f64) -> Vec<f64> {
     let sign = if cosine < 0.0 { -1.0 } else { 1.0 };
     let angle = libm::acos(cosine.abs().min(1.0));
     let sine = libm::sin(angle);
-    // Where both are nearly the same the straight way is as good, and there is no division by nearly nothing.
+    // Where both are nearly the same the straight way is as good, and there is no division by
+    // nearly nothing.
     let (first, second) = if sine < 1e-6 {
         (1.0 - t, t)
     } else {

@@ -1,8 +1,18 @@
 //! Animatable properties of materials, lights and cameras, by their JSON pointers (glTF Object
 //! Model).
 //!
-//! KHR_animation_pointer names its targets by these pointers. The table also tells the importer
-//! where the numbers of the KHR_materials extensions are, and the bounds they must be within.
+//! KHR_animation_pointer names its targets by these pointers. The same tables tell the importer
+//! where the numbers of the KHR_materials extensions are, and the bounds they must be within, so
+//! that each property is declared once:
+//!
+//! ```text
+//!  row("extensions/KHR_materials_sheen/sheenColorFactor", 3, UNIT_RANGE, |m| …)
+//!       JSON pointer into the material                    │  │           access to the numbers
+//!                                                 components  bounds
+//! ```
+//!
+//! A value set by an animation is clamped to the bounds, and fields that follow from it are
+//! updated. To add a property, add a row.
 
 use crate::{AlphaMode, CameraProjection, LightKind, Material, PunctualLight};
 use std::f32::consts::FRAC_PI_2;

@@ -1,4 +1,8 @@
 //! Posing: applies an animation at a time to the nodes, morph weights and materials of a model.
+//!
+//! Channels are sampled and set in the order of the file; then all global transforms are computed
+//! anew. Deformed vertices are not stored: [`Model::skin_primitive`] computes them from the posed
+//! nodes when a primitive is drawn.
 
 use crate::{
     Animation, AnimationChannel, AnimationTarget, Model, NodeProperty, ObjectProperty, Trs,
@@ -9,7 +13,17 @@ impl Model {
     /// Sets the model to the pose of an animation at a time in seconds.
     ///
     /// Everything that the animation does not change stays as it is, and so do nodes whose
-    /// transforms would overflow. An index that is out of range changes nothing.
+    /// transforms would overflow. An index that is out of range changes nothing. Times outside of
+    /// the animation give its first or last pose: to loop, take the remainder by
+    /// [`Animation::duration_seconds`].
+    ///
+    /// ```
+    /// # let mut model = model::Model::default();
+    /// for frame in 0..48 {
+    ///     model.apply_animation(0, f64::from(frame) / 24.0);
+    ///     // … draw the pose
+    /// }
+    /// ```
     pub fn apply_animation(&mut self, animation: usize, seconds: f64) {
         let animations = std::mem::take(&mut self.animations);
         if let Some(Animation { channels, .. }) = animations.get(animation) {

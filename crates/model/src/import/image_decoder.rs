@@ -35,6 +35,9 @@ pub(crate) struct EncodedImage<'a> {
 /// Width and height from the header alone.
 ///
 /// Refuses decompression bombs: sizes that so few bytes cannot hold.
+///
+/// # Errors
+/// A message for people: the format is not known, the header is broken, or the size is implausible.
 pub(crate) fn image_size(bytes: &[u8]) -> Result<(u32, u32), String> {
     catch_decoder_panic(|| match ImageFormat::from_magic(bytes)? {
         ImageFormat::Png => {
@@ -78,6 +81,11 @@ pub(crate) fn format_name(bytes: &[u8]) -> &'static str {
 }
 
 /// Decodes an image with at most `most` texels; the header is checked before anything is allocated.
+///
+/// ```
+/// let message = model::import::decode_image(b"GIF89a", 1 << 20).unwrap_err();
+/// assert_eq!(message, "this is a GIF image; only PNG, JPEG and WebP are read");
+/// ```
 ///
 /// # Errors
 /// A message for people: the format is not known, the data is broken, or the image is too large.
@@ -279,8 +287,8 @@ mod tests {
         bytes
     }
 
-    /// A baseline JPEG of 8 x 8 texels, all of middle grey: every coefficient is 0, and each of the two Huffman tables has
-    /// the single code `0`, for "no difference" and for "end of block".
+    /// A baseline JPEG of 8 x 8 texels, all of middle gray: every coefficient is 0, and each of the
+    /// two Huffman tables has the single code `0`, for "no difference" and for "end of block".
     fn jpeg(components: u8) -> Vec<u8> {
         let numbers = || 1..=components;
         let mut bytes = vec![0xFF, 0xD8, 0xFF, 0xDB, 0, 67, 0];

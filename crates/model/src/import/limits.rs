@@ -1,5 +1,10 @@
 //! Limits on everything a file can declare, so that a small file cannot demand a large amount of
 //! work.
+//!
+//! A glTF file of a few hundred bytes can declare an accessor of 2³² zeros, a chain of a million
+//! nodes, or a mesh that a million nodes draw; a PNG of a few kilobytes can hold a billion black
+//! texels. Each of these is cheap to write and expensive to read. The defaults are far above what
+//! real models need; the program has a flag `--max-…` for each.
 
 /// The largest sizes that are accepted. Exceeding one is an error that names the field.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -34,6 +39,7 @@ pub struct Limits {
 }
 
 impl Default for Limits {
+    /// The defaults that the fields name.
     fn default() -> Self {
         Self {
             file_bytes: 512 << 20,

@@ -1,6 +1,8 @@
 //! Parallel image decoding, on all processors while the geometry is read.
 //!
-//! Results are stored by index, so that it makes no difference which thread decodes which image.
+//! Threads take images from a common queue and store results by index, so that it makes no
+//! difference which thread decodes which image. The thread that reads the geometry joins in when it
+//! is done.
 
 use super::image_decoder;
 use super::image_decoder::EncodedImage;

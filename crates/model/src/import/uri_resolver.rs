@@ -111,6 +111,12 @@ impl<'a> UriResolver<'a> {
     }
 
     /// The file that a URI names: taken literally, else percent-decoded, else with `\` read as `/`.
+    ///
+    /// Exporters disagree about escaping, and some write paths of Windows; the first candidate that
+    /// exists is taken. Each candidate is checked against the sandbox.
+    ///
+    /// # Errors
+    /// The path leaves the sandbox, has a scheme, or no candidate exists.
     fn locate_file(&self, uri: &str, pointer: &str) -> Result<PathBuf, Diagnostic> {
         if uri.is_empty() {
             return Err(Diagnostic::invalid(pointer, "the URI is empty"));
@@ -149,6 +155,11 @@ impl AssetSandbox {
     }
 
     /// Joins a relative path to the folder, if it stays below a root by its components alone.
+    ///
+    /// This is the first of two checks, made before the file system is asked anything: a file that
+    /// contains `../../secret` learns nothing, not even whether that file exists.
+    /// [`check_path`](Self::check_path) is the second, on the canonical path, and catches symbolic
+    /// links.
     ///
     /// With a single root the path never leaves it; with several, `..` must be able to cross from
     /// one to another.
@@ -189,6 +200,12 @@ impl AssetSandbox {
 }
 
 /// Reads a whole regular file, but no more than the limit.
+///
+/// The size is checked before reading and the read is bounded as well: a file may grow in between,
+/// and special files report a size of 0. One byte more than the limit is read to detect the excess.
+///
+/// # Errors
+/// The file does not exist, may not be read, is not a regular file, or is too large.
 pub(crate) fn read_file(
     path: &Path,
     limits: &Limits,

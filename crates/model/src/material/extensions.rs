@@ -34,6 +34,7 @@ pub struct MaterialExtensions {
 }
 
 impl Default for MaterialExtensions {
+    /// No extension: an index of refraction of 1.5, and no dispersion.
     fn default() -> Self {
         Self {
             ior: 1.5,

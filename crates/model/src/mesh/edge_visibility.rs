@@ -4,6 +4,8 @@
 //! Drawings find feature edges from the shape where a file marks none.
 
 /// Marked edges of the triangles of a primitive.
+///
+/// The two sources add up: an edge is drawn if `visibility` or an entry of `lines` says so.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct PrimitiveEdges {
     /// For each triangle of [`Primitive::indices`](crate::Primitive::indices) the visibility of its

@@ -115,7 +115,8 @@ mod tests {
     use super::*;
     use crate::mesh::DerivedData;
 
-    /// A unit square in the plane z = 0 that faces +z, with these texture coordinates at (0, 0), (1, 0), (1, 1), (0, 1).
+    /// A unit square in the plane z = 0 that faces +z, with texture coordinates at (0, 0), (1, 0),
+    /// (1, 1) and (0, 1).
     fn textured_square(uvs: [[f32; 2]; 4]) -> Primitive {
         Primitive {
             indices: vec![0, 1, 2, 0, 2, 3],

@@ -1,37 +1,39 @@
 //! Linear light to 16-bit sRGB: the nearest of 65,536 codes, exactly.
 //!
-//! The borders between codes are a table. A float's exponent and the first seven bits of its mantissa name one of 128 steps of
-//! each octave, and a second table says where among the borders the step begins: at most some 180 are left to search.
+//! The thresholds between codes are a table. A float's exponent and the first seven bits of its
+//! mantissa are one of 128 steps of each octave, and a second table holds the code at the beginning
+//! of each step: at most some 180 thresholds are left for a binary search.
 
 use super::srgb_to_linear;
 use raster::Encode;
 use std::sync::OnceLock;
 
-/// Half of the first code is 2⁻²⁰·⁷ of light.
+/// The bits of 2⁻²¹, below the threshold of the first code, which is 2⁻²⁰·⁷ of light.
 const MIN_LIGHT_BITS: u32 = (127 - 21) << 23;
-/// The steps from there to 1.
+/// The steps from there to 1, 128 for each octave.
 const STEP_COUNT: usize = 21 * 128 + 1;
 
-/// Finds the nearest 16-bit sRGB value of linear light.
+/// Encodes linear light as the nearest 16-bit sRGB code.
 #[derive(Debug)]
 pub struct Srgb16Encoder {
-    /// For each code but the first, the least light whose code it is.
+    /// For each code but the first, the least linear light whose nearest code it is.
     thresholds: Box<[f32]>,
-    /// For each step, the code of its beginning.
+    /// For each step, the code at its beginning.
     step_codes: Box<[u16]>,
 }
 
 impl Srgb16Encoder {
-    /// The encoder; made once.
+    /// The encoder, shared by the whole program; its tables are computed once.
     #[must_use]
     pub fn shared() -> &'static Self {
         static ENCODER: OnceLock<Srgb16Encoder> = OnceLock::new();
         ENCODER.get_or_init(Self::new)
     }
 
+    /// Builds the tables.
     fn new() -> Self {
-        let border = |code: u32| srgb_to_linear((f64::from(code) - 0.5) / 65_535.0) as f32;
-        let thresholds: Box<[f32]> = (1..=65_535).map(border).collect();
+        let threshold = |code: u32| srgb_to_linear((f64::from(code) - 0.5) / 65_535.0) as f32;
+        let thresholds: Box<[f32]> = (1..=65_535).map(threshold).collect();
         let start = |step: usize| {
             let light = f32::from_bits(MIN_LIGHT_BITS + ((step as u32) << 16));
             thresholds.partition_point(|&least| least <= light) as u16
@@ -40,22 +42,23 @@ impl Srgb16Encoder {
         Self { thresholds, step_codes }
     }
 
-    /// The nearest 16-bit sRGB value; light beyond [0, 1] (and NaN, as 0) is cut off.
+    /// The nearest 16-bit sRGB code; light beyond \[0, 1\] is clamped, NaN to 0.
     #[must_use]
     pub fn encode(&self, light: f32) -> u16 {
         let least = f32::from_bits(MIN_LIGHT_BITS);
         let light = if light > least { light.min(1.0) } else { return 0 };
+        // The step narrows the search to the thresholds within it.
         let step = ((light.to_bits() - MIN_LIGHT_BITS) >> 16) as usize;
         let from = self.step_codes[step];
         let to = self.step_codes.get(step + 1).copied().unwrap_or(u16::MAX);
-        let left = &self.thresholds[usize::from(from)..usize::from(to)];
-        from + left.partition_point(|&least| least <= light) as u16
+        let candidates = &self.thresholds[usize::from(from)..usize::from(to)];
+        from + candidates.partition_point(|&least| least <= light) as u16
     }
 }
 
 impl Encode<[u16; 4]> for &Srgb16Encoder {
     fn encode_pixel(&self, [r, g, b, alpha]: [f32; 4]) -> [u16; 4] {
-        // As the encoder of 8 bits has it: NaN and below are nothing.
+        // As the 8-bit encoder has it: transparent where alpha is NaN or not above 0.
         if alpha.is_nan() || alpha <= 0.0 {
             return [0; 4];
         }
@@ -71,7 +74,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_code_survives_the_way_to_light_and_back() {
+    fn every_code_survives_decoding_and_encoding() {
         let encoder = Srgb16Encoder::shared();
         for code in 0..=65_535_u16 {
             let light = srgb_to_linear(f64::from(code) / 65_535.0) as f32;
@@ -81,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn codes_change_at_their_borders_and_nowhere_else() {
+    fn codes_change_at_their_thresholds_and_nowhere_else() {
         let encoder = Srgb16Encoder::shared();
         for (code, &least) in (1..=65_535).zip(&encoder.thresholds) {
             let below = f32::from_bits(least.to_bits() - 1);

@@ -1,132 +1,133 @@
-//! A picture of all directions on a square.
+//! The octahedral map: colors by direction on a square (Engelhardt and Dachsbacher 2008).
 //!
-//! A direction is divided by the sum of its coordinates' sizes, which brings it onto an octahedron; the upper half is seen from
-//! above, the lower half folded out over its corners.
+//! ```text
+//!   ┌────┬────┐     A direction is divided by the sum of its coordinates' magnitudes, which
+//!   │ ╲−y│−y╱ │     projects it onto an octahedron. The upper half is seen from above, the
+//!   │  ╲ │ ╱  │     diamond in the middle; the lower half is folded out over the four corners.
+//!   ├── +y ───┤
+//!   │  ╱ │ ╲  │     A step beyond a border comes back at the mirror image on the same border.
+//!   │ ╱−y│−y╲ │
+//!   └────┴────┘
+//! ```
 
-/// Red, green and blue, and nothing: four numbers are read at once.
+use crate::lanes::{Lanes, Vec3Lanes, map_to_lanes};
+use crate::vector::normalize;
+
+/// Red, green and blue, and padding: four numbers are loaded at once.
 pub(super) type Texel = [f32; 4];
 
-/// Colours by direction, at the nodes of a square grid.
+/// Colors by direction, at the nodes of a square grid.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct OctahedralMap {
     /// Nodes along a side: a power of two and one.
     pub(super) side: usize,
+    /// `side` × `side` nodes, row by row.
     pub(super) texels: Vec<Texel>,
 }
 
-/// What lies between two neighbours of a chain of pictures, the one with the number `near` and the next, in directions of any
-/// length but 0; each lane has its own. Where the next has no share nobody asks for it.
+/// Trilinear lookup between mip levels `near` and `near + 1` of each lane; directions need not be
+/// normalized.
+///
+/// `level` is not called for a next level that has no weight: levels may be computed on demand.
 #[inline(always)]
 pub(super) fn sample_trilinear<'a, const N: usize>(
     level: impl Fn(usize) -> &'a OctahedralMap,
-    near: &[usize; N],
-    share: &[f32; N],
-    ways: &[[f32; N]; 3],
+    near_levels: &[usize; N],
+    fractions: Lanes<N>,
+    directions: Vec3Lanes<N>,
 ) -> [Texel; N] {
-    let mut pictures = [[level(near[0]); N]; 2];
-    let mut lasts = [[0.0; N]; 2];
-    for lane in 0..N {
-        let next = near[lane] + usize::from(share[lane] != 0.0);
-        pictures[0][lane] = level(near[lane]);
-        pictures[1][lane] = level(next);
+    // Gather the two maps of each lane; their sizes become lanes too.
+    let mut maps = [[level(near_levels[0]); N]; 2];
+    for (lane, &near_level) in near_levels.iter().enumerate() {
+        maps[0][lane] = level(near_level);
+        maps[1][lane] = level(near_level + usize::from(fractions[lane] != 0.0));
     }
-    for (pictures, lasts) in pictures.iter().zip(&mut lasts) {
-        for lane in 0..N {
-            lasts[lane] = (pictures[lane].side - 1) as f32;
-        }
-    }
-    let places = encode_octahedral(ways);
-    let [here, behind] =
-        [BilinearNodes::locate(&places, &lasts[0]), BilinearNodes::locate(&places, &lasts[1])];
+    let last_nodes =
+        map_to_lanes(&maps, |maps| Lanes::from_fn(|lane| (maps[lane].side - 1) as f32));
+    let positions = encode_octahedral(directions);
+    let near = BilinearNodes::locate(positions, last_nodes[0]);
+    let next = BilinearNodes::locate(positions, last_nodes[1]);
+    // Four channels of one lane at a time, in one vector register.
     let mut colors = [[0.0; 4]; N];
-    for lane in 0..N {
-        let a = pictures[0][lane].sample_bilinear(&here, lane);
-        let b = pictures[1][lane].sample_bilinear(&behind, lane);
-        for k in 0..4 {
-            colors[lane][k] = a[k] + (b[k] - a[k]) * share[lane];
-        }
+    for (lane, color) in colors.iter_mut().enumerate() {
+        let a = maps[0][lane].sample_bilinear(&near, lane);
+        let b = maps[1][lane].sample_bilinear(&next, lane);
+        *color = lerp_texels(a, b, fractions[lane]);
     }
     colors
 }
 
-/// Where directions are on the square, between 0 and 1.
+/// The positions of directions on the square, between 0 and 1.
 #[inline(always)]
-fn encode_octahedral<const N: usize>(ways: &[[f32; N]; 3]) -> [[f32; N]; 2] {
-    let mut places = [[0.0; N]; 2];
-    for lane in 0..N {
-        let (x, y, z) = (ways[0][lane], ways[1][lane], ways[2][lane]);
-        let sum = x.abs() + y.abs() + z.abs();
-        let per = if sum > 0.0 { 1.0 / sum } else { 0.0 };
-        let (u, v) = (x * per, z * per);
-        let folded = [(1.0 - v.abs()) * sign_not_zero(u), (1.0 - u.abs()) * sign_not_zero(v)];
-        places[0][lane] = if y < 0.0 { folded[0] } else { u } * 0.5 + 0.5;
-        places[1][lane] = if y < 0.0 { folded[1] } else { v } * 0.5 + 0.5;
-    }
-    places
+fn encode_octahedral<const N: usize>(directions: Vec3Lanes<N>) -> [Lanes<N>; 2] {
+    let Vec3Lanes { x, y, z } = directions;
+    let sum = x.abs() + y.abs() + z.abs();
+    let inv_sum = sum.map(|sum| if sum > 0.0 { 1.0 / sum } else { 0.0 });
+    let (u, v) = (x * inv_sum, z * inv_sum);
+    // The lower half is folded over the diamond's edges.
+    let folded_u = (1.0 - v.abs()) * u.map(sign_not_zero);
+    let folded_v = (1.0 - u.abs()) * v.map(sign_not_zero);
+    let is_lower = y.is_below(0.0);
+    let (u, v) = (folded_u.select(&is_lower, u), folded_v.select(&is_lower, v));
+    [u * 0.5 + 0.5, v * 0.5 + 0.5]
 }
 
-/// The four nodes around a place, in all lanes: the columns and rows of the first, and how far it is to the next.
+/// The four nodes around a position, in all lanes: column and row of the first, and the fractions
+/// of the way to the next.
 struct BilinearNodes<const N: usize> {
     columns: [i32; N],
     rows: [i32; N],
-    column_fractions: [f32; N],
-    row_fractions: [f32; N],
+    column_fractions: Lanes<N>,
+    row_fractions: Lanes<N>,
 }
 
 impl<const N: usize> BilinearNodes<N> {
-    /// Those around places between 0 and 1; `lasts` are the numbers of the last columns and rows.
+    /// The nodes around positions between 0 and 1, in maps with these last columns and rows.
     #[inline(always)]
-    fn locate(places: &[[f32; N]; 2], lasts: &[f32; N]) -> Self {
+    fn locate([u, v]: [Lanes<N>; 2], last_nodes: Lanes<N>) -> Self {
         let mut nodes = Self {
             columns: [0; N],
             rows: [0; N],
-            column_fractions: [0.0; N],
-            row_fractions: [0.0; N],
+            column_fractions: Lanes::ZERO,
+            row_fractions: Lanes::ZERO,
         };
         for lane in 0..N {
-            (nodes.columns[lane], nodes.column_fractions[lane]) =
-                split_coordinate(places[0][lane], lasts[lane]);
-            (nodes.rows[lane], nodes.row_fractions[lane]) =
-                split_coordinate(places[1][lane], lasts[lane]);
+            let last = last_nodes[lane];
+            (nodes.columns[lane], nodes.column_fractions[lane]) = split_coordinate(u[lane], last);
+            (nodes.rows[lane], nodes.row_fractions[lane]) = split_coordinate(v[lane], last);
         }
         nodes
     }
 }
 
 impl OctahedralMap {
-    /// The picture of a function of unit vectors.
+    /// Samples a function of unit vectors at all nodes.
     pub(super) fn from_function(side: usize, color: impl Fn([f32; 3]) -> [f32; 3]) -> Self {
-        let node = |n: usize| {
-            let [r, g, b] = color(normalize(decode_octahedral(
-                node_coordinate(n % side, side),
-                node_coordinate(n / side, side),
-            )));
+        let texel = |node: usize| {
+            let (u, v) = (node_coordinate(node % side, side), node_coordinate(node / side, side));
+            let [r, g, b] = color(normalize(decode_octahedral(u, v)));
             [r, g, b, 0.0]
         };
-        Self { side, texels: (0..side * side).map(node).collect() }
+        Self { side, texels: (0..side * side).map(texel).collect() }
     }
 
-    /// The colour between the nodes of a lane.
+    /// Bilinear interpolation between the nodes of a lane.
     #[inline(always)]
     fn sample_bilinear<const N: usize>(&self, nodes: &BilinearNodes<N>, lane: usize) -> Texel {
-        let at = nodes.rows[lane] as usize * self.side + nodes.columns[lane] as usize;
-        let [a, b] = [self.texels[at], self.texels[at + 1]];
-        let [c, d] = [self.texels[at + self.side], self.texels[at + self.side + 1]];
+        let first = nodes.rows[lane] as usize * self.side + nodes.columns[lane] as usize;
+        let [a, b] = [self.texels[first], self.texels[first + 1]];
+        let [c, d] = [self.texels[first + self.side], self.texels[first + self.side + 1]];
         let (s, t) = (nodes.column_fractions[lane], nodes.row_fractions[lane]);
-        let mut color = [0.0; 4];
-        for k in 0..4 {
-            let upper = a[k] + (b[k] - a[k]) * s;
-            let lower = c[k] + (d[k] - c[k]) * s;
-            color[k] = upper + (lower - upper) * t;
-        }
-        color
+        lerp_texels(lerp_texels(a, b, s), lerp_texels(c, d, s), t)
     }
 
-    /// Half as many nodes along a side; each the mean of its neighbours, the nearer counting more.
+    /// The next mip level, with half as many nodes along a side: a tent filter over 3 × 3 nodes.
+    ///
+    /// Nodes stay where they are, so that levels differ in sharpness and not in position.
     pub(super) fn downsample(&self) -> Self {
         let side = self.side / 2 + 1;
-        let node = |n: usize| {
-            let (column, row) = (2 * (n % side) as i32, 2 * (n / side) as i32);
+        let texel = |node: usize| {
+            let (column, row) = (2 * (node % side) as i32, 2 * (node / side) as i32);
             let mut sum = [0.0; 4];
             for (dx, dy) in (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx, dy))) {
                 let weight = ((2 - i32::abs(dx)) * (2 - i32::abs(dy))) as f32 / 16.0;
@@ -135,12 +136,13 @@ impl OctahedralMap {
             }
             sum
         };
-        Self { side, texels: (0..side * side).map(node).collect() }
+        Self { side, texels: (0..side * side).map(texel).collect() }
     }
 
-    /// The number of a node; those a step beyond a border are on the border's other half.
+    /// The index of a node; one a step beyond a border is the mirror image on the same border.
     fn wrap_node(&self, x: i32, y: i32) -> usize {
         let last = self.side as i32 - 1;
+        // Beyond the left or right border: back inside, with the row mirrored; likewise for rows.
         let (x, y) =
             if (0..=last).contains(&x) { (x, y) } else { (x.abs().min(2 * last - x), last - y) };
         let (x, y) =
@@ -149,12 +151,23 @@ impl OctahedralMap {
     }
 }
 
-/// Where a node is between −1 and 1.
+/// `a + (b − a)·t` of all four components.
+#[inline(always)]
+fn lerp_texels(a: Texel, b: Texel, t: f32) -> Texel {
+    let mut texel = a;
+    for (a, b) in texel.iter_mut().zip(b) {
+        *a += (b - *a) * t;
+    }
+    texel
+}
+
+/// The coordinate of a node along one axis of the square, between −1 and 1.
 pub(super) fn node_coordinate(node: usize, side: usize) -> f32 {
     2.0 * node as f32 / (side - 1) as f32 - 1.0
 }
 
-/// The direction at a place of the square, on the octahedron.
+/// The direction at a position of the square, coordinates from −1 to 1: a point on the octahedron,
+/// not normalized.
 pub(super) fn decode_octahedral(u: f32, v: f32) -> [f32; 3] {
     let y = 1.0 - u.abs() - v.abs();
     if y >= 0.0 {
@@ -164,42 +177,40 @@ pub(super) fn decode_octahedral(u: f32, v: f32) -> [f32; 3] {
     }
 }
 
-pub(crate) fn normalize(v: [f32; 3]) -> [f32; 3] {
-    let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
-    v.map(|c| c / length)
-}
-
+/// −1 below 0, and 1 otherwise.
 #[inline(always)]
 fn sign_not_zero(x: f32) -> f32 {
     if x < 0.0 { -1.0 } else { 1.0 }
 }
 
-/// The node before a place between 0 and 1, and how far it is to the next.
+/// The node before a position between 0 and 1, and the fraction of the way to the next.
 #[inline(always)]
-fn split_coordinate(place: f32, last: f32) -> (i32, f32) {
-    let place = (place * last).clamp(0.0, last);
-    let node = (place as i32).min(last as i32 - 1);
-    (node, place - node as f32)
+fn split_coordinate(position: f32, last: f32) -> (i32, f32) {
+    let position = (position * last).clamp(0.0, last);
+    let node = (position as i32).min(last as i32 - 1);
+    (node, position - node as f32)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn at(map: &OctahedralMap, way: [f32; 3]) -> Texel {
-        let [color] = sample_trilinear(|_| map, &[0], &[0.5], &way.map(|c| [c]));
-        color
+    fn sample(map: &OctahedralMap, direction: [f32; 3]) -> Texel {
+        let direction = Vec3Lanes::<1>::splat(direction);
+        let [texel] = sample_trilinear(|_| map, &[0], Lanes([0.5]), direction);
+        texel
     }
 
     #[test]
-    fn every_direction_finds_itself() {
-        let map = OctahedralMap::from_function(129, |way| way);
+    fn a_map_of_directions_returns_each_direction() {
+        let map = OctahedralMap::from_function(129, |direction| direction);
         for step in 0..1000_u32 {
             let [x, y, z] =
                 [step % 10, step / 10 % 10, step / 100].map(|c| c as f32 / 4.5 - 1.0 + 0.01);
-            let way = normalize([x, y, z]);
-            let found = at(&map, [3.0 * x, 3.0 * y, 3.0 * z]);
-            assert!((0..3).all(|k| (found[k] - way[k]).abs() < 0.02), "{way:?} {found:?}");
+            let expected = normalize([x, y, z]);
+            let actual = sample(&map, [3.0 * x, 3.0 * y, 3.0 * z]);
+            let is_near = (0..3).all(|k| (actual[k] - expected[k]).abs() < 0.02);
+            assert!(is_near, "{expected:?} {actual:?}");
         }
     }
 
@@ -210,9 +221,9 @@ mod tests {
         assert_eq!(map.wrap_node(9, 2), 6 * 9 + 7);
         assert_eq!(map.wrap_node(3, -1), 9 + 5);
         assert_eq!(map.wrap_node(-1, -1), 7 * 9 + 7);
-        let smooth = OctahedralMap::from_function(65, |way| way).downsample();
-        let found = at(&smooth, [0.3, -0.9, 0.1]);
-        let way = normalize([0.3, -0.9, 0.1]);
-        assert!((0..3).all(|k| (found[k] - way[k]).abs() < 0.02), "{found:?}");
+        let smooth = OctahedralMap::from_function(65, |direction| direction).downsample();
+        let actual = sample(&smooth, [0.3, -0.9, 0.1]);
+        let expected = normalize([0.3, -0.9, 0.1]);
+        assert!((0..3).all(|k| (actual[k] - expected[k]).abs() < 0.02), "{actual:?}");
     }
 }

@@ -1,34 +1,46 @@
-//! The chain of an environment: what surfaces of growing roughness mirror of it.
+//! Prefiltered radiance: the mip levels of an environment for growing roughness.
 //!
-//! For each direction, taken for normal and view alike, the light that half vectors spread as GGX spreads them mirror, weighted
-//! by the cosine (Karis 2013). Few half vectors do, for each reads the surroundings as blurred as the gap to the next is wide
-//! (Křivánek and Colbert 2008).
+//! The first sum of the split-sum approximation (Karis 2013). For each direction r, taken for
+//! normal and view alike:
+//!
+//! ```text
+//!  L(r) = Σ radiance(lᵢ) · (r·lᵢ) / Σ (r·lᵢ)        lᵢ = reflection of r about half vectors hᵢ,
+//!                                                   importance sampled by GGX
+//! ```
+//!
+//! Few samples suffice, because each reads the environment from a mip level whose texels are as
+//! large as the solid angle of the sample (filtered importance sampling: Křivánek and Colbert
+//! 2008).
 
-use super::octahedral_map::{OctahedralMap, normalize, sample_trilinear};
-use crate::fragment_lanes::{cross, dot};
+use super::octahedral_map::{OctahedralMap, sample_trilinear};
+use crate::lanes::{Lanes, Vec3Lanes};
+use crate::vector::{cross, normalize};
 use raster::{Kernel, SimdLevel};
 use std::f32::consts::PI;
 use std::sync::OnceLock;
 
-/// How many pictures there are: of roughness 0, 0.2 and so on to 1.
+/// The number of prefiltered levels: of roughness 0, 0.2 and so on to 1.
 pub(super) const LEVEL_COUNT: usize = 6;
-/// Nodes along the sides of the blurred ones.
+/// Nodes along the sides of the levels but the first, which is the environment itself.
 const LEVEL_SIDES: [usize; LEVEL_COUNT - 1] = [129, 65, 33, 33, 17];
-/// How many half vectors.
+/// Levels of the mip chain that samples are read from.
+const MIP_COUNT: usize = 7;
+/// Samples for each texel of a level.
 const SAMPLE_COUNT: u32 = 64;
 
-/// The pictures, from sharp to blurred.
+/// The prefiltered levels of an environment, from sharp to blurred.
 ///
-/// Each is made when a surface asks for it first: most models are of few roughnesses, and the sharpest of the blurred ones takes
-/// longer than all the others.
+/// Each is computed when a surface first asks for it: most models are of few roughnesses, and the
+/// sharpest of the blurred levels takes longer than all the others.
 #[derive(Clone, Debug)]
 pub(super) struct PrefilteredLevels {
-    /// The surroundings, with all sides halved from one to the next.
+    /// The environment, with all sides halved from one level to the next.
     mip_chain: Vec<OctahedralMap>,
+    /// The levels from 1 on, each computed on demand by the first thread that needs it.
     filtered: [OnceLock<OctahedralMap>; LEVEL_COUNT - 1],
 }
 
-/// The same surroundings have the same pictures, made or not.
+/// Equal environments have equal levels, computed or not.
 impl PartialEq for PrefilteredLevels {
     fn eq(&self, other: &Self) -> bool {
         self.mip_chain == other.mip_chain
@@ -36,92 +48,100 @@ impl PartialEq for PrefilteredLevels {
 }
 
 impl PrefilteredLevels {
-    pub(super) fn new(sharp: OctahedralMap) -> Self {
-        let mut mip_chain = vec![sharp];
-        while mip_chain.len() < 7 {
+    /// The levels of an environment, none but the first computed yet.
+    pub(super) fn new(environment: OctahedralMap) -> Self {
+        let mut mip_chain = vec![environment];
+        while mip_chain.len() < MIP_COUNT {
             mip_chain.push(mip_chain[mip_chain.len() - 1].downsample());
         }
         Self { mip_chain, filtered: Default::default() }
     }
 
-    /// The picture with a number, from 0 for mirrors on.
+    /// A level by its index, from 0 for mirrors on; computed if it is asked for the first time.
     #[inline(always)]
-    pub(super) fn level(&self, number: usize) -> &OctahedralMap {
-        match number.checked_sub(1) {
-            Some(behind) => self.filtered[behind].get_or_init(|| self.prefilter_level(number)),
+    pub(super) fn level(&self, index: usize) -> &OctahedralMap {
+        match index.checked_sub(1) {
+            Some(filtered) => self.filtered[filtered].get_or_init(|| self.prefilter_level(index)),
             None => &self.mip_chain[0],
         }
     }
 
+    /// Computes a level from 1 on.
     #[cold]
-    fn prefilter_level(&self, number: usize) -> OctahedralMap {
-        let roughness = number as f32 / (LEVEL_COUNT - 1) as f32;
-        let (chain, instructions) = (&self.mip_chain, SimdLevel::best());
-        let ways = importance_sample_ggx(roughness * roughness, chain);
-        let color =
-            |normal| instructions.run_kernel(PrefilterKernel { chain, normal, samples: &ways });
-        OctahedralMap::from_function(LEVEL_SIDES[number - 1], color)
+    fn prefilter_level(&self, index: usize) -> OctahedralMap {
+        let roughness = index as f32 / (LEVEL_COUNT - 1) as f32;
+        let (mip_chain, simd_level) = (&self.mip_chain, SimdLevel::best());
+        let samples = importance_sample_ggx(roughness * roughness, mip_chain);
+        let color = |normal| {
+            simd_level.run_kernel(PrefilterKernel { mip_chain, normal, samples: &samples })
+        };
+        OctahedralMap::from_function(LEVEL_SIDES[index - 1], color)
     }
 }
 
-/// How many directions are read at once.
+/// How many samples are read at once.
 const SAMPLE_LANES: usize = 8;
 
-/// Directions around the normal, which is z, and between which pictures of the chain they read the surroundings.
+/// Directions of light around the normal, which is z, and the mip levels in which they read the
+/// environment.
 struct SamplePacket {
+    /// How many lanes are in use.
     count: usize,
-    directions: [[f32; SAMPLE_LANES]; 3],
+    directions: Vec3Lanes<SAMPLE_LANES>,
+    /// The sharper of the two mip levels of each sample.
     near_levels: [usize; SAMPLE_LANES],
-    level_fractions: [f32; SAMPLE_LANES],
+    /// The weights of the next levels.
+    level_fractions: Lanes<SAMPLE_LANES>,
 }
 
 impl SamplePacket {
-    /// Some directions, each with how blurred it reads a chain whose last picture has a number.
-    fn new(some: &[([f32; 3], f32)], last: usize) -> Self {
-        let (near, share) = ([0; SAMPLE_LANES], [0.0; SAMPLE_LANES]);
-        let mut ways = Self {
-            count: some.len(),
-            directions: [[0.0; SAMPLE_LANES]; 3],
-            near_levels: near,
-            level_fractions: share,
-        };
-        for (lane, (direction, level)) in some.iter().enumerate() {
-            let place = level.min(last as f32);
-            ways.near_levels[lane] = (place as usize).min(last - 1);
-            ways.level_fractions[lane] = place - ways.near_levels[lane] as f32;
-            for axis in 0..3 {
-                ways.directions[axis][lane] = direction[axis];
-            }
+    /// Up to eight directions, each with its mip level, in a chain with this last level.
+    fn new(samples: &[([f32; 3], f32)], last_level: usize) -> Self {
+        let mut near_levels = [0; SAMPLE_LANES];
+        let mut level_fractions = Lanes::ZERO;
+        for (lane, (_, level)) in samples.iter().enumerate() {
+            let level = level.min(last_level as f32);
+            near_levels[lane] = (level as usize).min(last_level - 1);
+            level_fractions[lane] = level - near_levels[lane] as f32;
         }
-        ways
+        let direction = |lane: usize| samples.get(lane).map_or([0.0; 3], |sample| sample.0);
+        let directions = Vec3Lanes::from_fn(direction);
+        Self { count: samples.len(), directions, near_levels, level_fractions }
     }
 }
 
-/// Directions in which a surface of this α mirrors somebody who looks straight at it.
-fn importance_sample_ggx(alpha: f32, chain: &[OctahedralMap]) -> Vec<SamplePacket> {
-    let square = alpha * alpha;
-    let texel = 4.0 * PI / (chain[0].side * chain[0].side) as f32;
-    let way = |n: u32| {
-        // The points of Hammersley: even steps, and their numbers with the bits reversed.
+/// Directions in which a surface of this α reflects the view along its normal, with their mip
+/// levels.
+///
+/// The level is half the logarithm of the sample's solid angle over that of a texel, and one more:
+/// a bias against noise, which costs no sharpness that the next level of roughness would show.
+fn importance_sample_ggx(alpha: f32, mip_chain: &[OctahedralMap]) -> Vec<SamplePacket> {
+    let alpha_squared = alpha * alpha;
+    let texel_solid_angle = 4.0 * PI / (mip_chain[0].side * mip_chain[0].side) as f32;
+    let sample = |n: u32| {
+        // The points of Hammersley: even steps, and the radical inverse in base 2.
         let u = (n as f32 + 0.5) / SAMPLE_COUNT as f32;
-        let turn = (n.reverse_bits() >> 8) as f32 / (1 << 24) as f32 * 2.0 * PI;
-        let nh = ((1.0 - u) / (1.0 + (square - 1.0) * u)).sqrt();
-        let flat = (1.0 - nh * nh).max(0.0).sqrt();
-        let h = [flat * libm::cosf(turn), flat * libm::sinf(turn), nh];
-        let direction = [2.0 * nh * h[0], 2.0 * nh * h[1], 2.0 * nh * nh - 1.0];
-        let width = nh * nh * (square - 1.0) + 1.0;
-        // The density of directions: that of half vectors, D n·h, over four times v·h.
-        let density = square / (PI * width * width) / 4.0;
-        let gap = 1.0 / (SAMPLE_COUNT as f32 * density.max(1e-9));
-        (direction, (0.5 * libm::log2f(gap / texel) + 1.0).max(0.0))
+        let azimuth = (n.reverse_bits() >> 8) as f32 / (1 << 24) as f32 * 2.0 * PI;
+        // A half vector, distributed as D · n·h (Walter et al. 2007).
+        let n_dot_h = ((1.0 - u) / (1.0 + (alpha_squared - 1.0) * u)).sqrt();
+        let sine = (1.0 - n_dot_h * n_dot_h).max(0.0).sqrt();
+        let h = [sine * libm::cosf(azimuth), sine * libm::sinf(azimuth), n_dot_h];
+        let direction = [2.0 * n_dot_h * h[0], 2.0 * n_dot_h * h[1], 2.0 * n_dot_h * n_dot_h - 1.0];
+        // The density of directions: that of half vectors, D n·h, over four times v·h = n·h.
+        let width = n_dot_h * n_dot_h * (alpha_squared - 1.0) + 1.0;
+        let density = alpha_squared / (PI * width * width) / 4.0;
+        let solid_angle = 1.0 / (SAMPLE_COUNT as f32 * density.max(1e-9));
+        let level = (0.5 * libm::log2f(solid_angle / texel_solid_angle) + 1.0).max(0.0);
+        (direction, level)
     };
-    let all: Vec<_> = (0..SAMPLE_COUNT).map(way).filter(|([_, _, z], _)| *z > 0.0).collect();
-    all.chunks(SAMPLE_LANES).map(|some| SamplePacket::new(some, chain.len() - 1)).collect()
+    let samples: Vec<_> = (0..SAMPLE_COUNT).map(sample).filter(|([_, _, z], _)| *z > 0.0).collect();
+    let last_level = mip_chain.len() - 1;
+    samples.chunks(SAMPLE_LANES).map(|packet| SamplePacket::new(packet, last_level)).collect()
 }
 
-/// The light around a normal.
+/// The kernel that computes one texel of a level: the light around one normal.
 struct PrefilterKernel<'a> {
-    chain: &'a [OctahedralMap],
+    mip_chain: &'a [OctahedralMap],
     normal: [f32; 3],
     samples: &'a [SamplePacket],
 }
@@ -131,40 +151,31 @@ impl Kernel for PrefilterKernel<'_> {
 
     #[inline(always)]
     fn run(self) -> [f32; 3] {
-        prefilter_direction(self.chain, self.normal, self.samples)
-    }
-}
-
-#[inline(always)]
-fn prefilter_direction(
-    chain: &[OctahedralMap],
-    normal: [f32; 3],
-    ways: &[SamplePacket],
-) -> [f32; 3] {
-    let aside = if normal[1].abs() < 0.9 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] };
-    let right = normalize(cross(aside, normal));
-    let ahead = cross(normal, right);
-    let (mut sum, mut whole) = ([0.0; 4], 0.0);
-    for SamplePacket { count, directions: [x, y, z], near_levels: near, level_fractions: share } in
-        ways
-    {
-        let mut turned = [[0.0; SAMPLE_LANES]; 3];
-        let mut weights = [0.0; SAMPLE_LANES];
-        for lane in 0..SAMPLE_LANES {
-            let way = [0, 1, 2]
-                .map(|k: usize| right[k] * x[lane] + ahead[k] * y[lane] + normal[k] * z[lane]);
-            weights[lane] = dot(way, normal).max(0.0);
-            for axis in 0..3 {
-                turned[axis][lane] = way[axis];
+        let Self { mip_chain, normal, samples } = self;
+        // Any frame around the normal: the samples have no preferred azimuth.
+        let aside = if normal[1].abs() < 0.9 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] };
+        let tangent = normalize(cross(aside, normal));
+        let bitangent = cross(normal, tangent);
+        let [t, b, n] =
+            [Vec3Lanes::splat(tangent), Vec3Lanes::splat(bitangent), Vec3Lanes::splat(normal)];
+        let (mut sum, mut weight_sum) = ([0.0; 4], 0.0);
+        for packet in samples {
+            let Vec3Lanes { x, y, z } = packet.directions;
+            let directions = t * x + b * y + n * z;
+            let n_dot_l = directions.dot(n).max(0.0);
+            let radiance = sample_trilinear(
+                |level| &mip_chain[level],
+                &packet.near_levels,
+                packet.level_fractions,
+                directions,
+            );
+            for (texel, weight) in radiance.iter().zip(n_dot_l.0).take(packet.count) {
+                for (sum, channel) in sum.iter_mut().zip(texel) {
+                    *sum += channel * weight;
+                }
+                weight_sum += weight;
             }
         }
-        let colors = sample_trilinear(|level| &chain[level], near, share, &turned);
-        for (color, weight) in colors.iter().zip(weights).take(*count) {
-            for k in 0..4 {
-                sum[k] += color[k] * weight;
-            }
-            whole += weight;
-        }
+        [0, 1, 2].map(|k: usize| sum[k] / weight_sum)
     }
-    [0, 1, 2].map(|k: usize| sum[k] / whole)
 }

@@ -1,23 +1,29 @@
-//! PNG files row by row: the whole picture need never be in memory.
+//! PNG encoding as a stream: pixels are compressed as they arrive, and the whole picture need never
+//! be in memory.
 
 use crate::Channel;
 use png::{BitDepth, ColorType, Compression, Encoder, SrgbRenderingIntent, StreamWriter};
 use std::io::{self, Write};
 
-/// How much of a file is one of its data chunks.
+/// The size of a data chunk (IDAT) of the file.
 const CHUNK_BYTES: usize = 1 << 20;
-/// About as many pixels are handed over at once.
+/// Pixels that are converted to bytes and handed to the compressor at once.
 const PIXELS_PER_WRITE: usize = 1 << 13;
 
-/// The pixels of a PNG file that is being written. Its bytes do not depend on how many are given at a time.
+/// The pixel stream of a PNG file that is being written, rows from the top.
+///
+/// The file's bytes do not depend on how many pixels are written at a time.
 pub struct PngRows<'a, W: Write> {
     stream: StreamWriter<'a, W>,
     opaque: bool,
+    /// The buffer of converted pixels.
     bytes: Vec<u8>,
 }
 
-/// Writes a PNG file of this width and height, with 8 or 16 bits for each channel: of red, green and blue if the picture is opaque,
-/// and with straight alpha otherwise. `draw` writes its pixels.
+/// Encodes a PNG file of this width and height with 8 or 16 bits a channel: RGB if the picture is
+/// opaque, RGBA with straight alpha otherwise. `draw` writes its pixels.
+///
+/// The file says that its colors are sRGB. It needs memory for one chunk of compressed data only.
 ///
 /// # Errors
 /// If the file cannot be written, `draw` fails, or it has written too many pixels or too few.
@@ -32,6 +38,7 @@ pub fn encode_png<W: Write, E: From<io::Error>>(
     encoder.set_color(if opaque { ColorType::Rgb } else { ColorType::Rgba });
     encoder.set_depth(if bits == 16 { BitDepth::Sixteen } else { BitDepth::Eight });
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+    // Rendered pictures gain little by the slower levels.
     encoder.set_compression(Compression::Fast);
     let mut writer = encoder.write_header().map_err(io::Error::from)?;
     {
@@ -44,13 +51,14 @@ pub fn encode_png<W: Write, E: From<io::Error>>(
 }
 
 impl<W: Write> PngRows<'_, W> {
-    /// Writes the next pixels; of an opaque picture alpha is left out.
+    /// Writes the next pixels, in row-major order; of an opaque picture alpha is left out.
     ///
     /// # Errors
     /// If they cannot be written, or are more than the picture has.
     pub fn write_pixels<C: Channel>(&mut self, pixels: &[[C; 4]]) -> io::Result<()> {
         for pixels in pixels.chunks(PIXELS_PER_WRITE) {
             self.bytes.clear();
+            // An opaque picture has no alpha channel in the file.
             for &[r, g, b, alpha] in pixels {
                 if self.opaque {
                     C::append_bytes([r, g, b], &mut self.bytes);

@@ -1,28 +1,33 @@
-//! The two depths of a channel: 8 and 16 bits.
+//! The bit depths of a channel: 8 and 16 bits.
+//!
+//! A picture is generic over the type of its channels, so that code that encodes, composites or
+//! writes pixels exists once.
 
 use crate::color::{Srgb16Encoder, SrgbEncoder};
 use raster::Encode;
 
-/// One of the four numbers of a pixel: `u8` or `u16`.
+/// A channel of a pixel, `u8` or `u16`. It cannot be implemented outside of this crate.
 pub trait Channel: sealed::Sealed + Copy + Default + Eq + Send + Sync + 'static {
-    /// All of it: 255 or 65,535.
+    /// The code of 1: 255 or 65,535.
     const FULL: Self;
-    /// How many bits it has.
+    /// The bits of a channel, 8 or 16.
     const BITS: u8;
-    /// Makes sRGB pixels with straight alpha of linear colours that are multiplied by alpha.
+    /// The encoder from linear colors multiplied by alpha to sRGB pixels with straight alpha.
     fn encoder() -> impl Encode<[Self; 4]>;
-    /// The same share of all, from 8 bits.
+    /// The code from an 8-bit one, exact at both ends.
     fn from_byte(byte: u8) -> Self;
-    /// The nearest of 8 bits.
+    /// The nearest 8-bit code.
     fn to_byte(self) -> u8;
-    /// Appends the bytes that a PNG has for some of them: of each the upper first.
+    /// Appends channels as PNG stores them, big-endian.
     fn append_bytes<const K: usize>(channels: [Self; K], bytes: &mut Vec<u8>);
-    /// A pixel under one of a drawing: sRGB and multiplied by alpha as canvases are, of 8 bits.
+    /// Composites a pixel under one of a vector drawing, which is 8-bit sRGB multiplied by alpha.
+    ///
+    /// Porter-Duff over, in sRGB codes as canvases do it.
     fn composite_under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4];
 }
 
 mod sealed {
-    /// Nobody else makes channels.
+    /// Seals [`Channel`](super::Channel).
     pub trait Sealed {}
     impl Sealed for u8 {}
     impl Sealed for u16 {}
@@ -78,11 +83,13 @@ impl Channel for u16 {
     }
 
     fn composite_under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4] {
+        // Exactly the pixel where nothing is drawn: the arithmetic below would round.
         if over[3] == 0 {
             return pixel;
         }
         let full = f64::from(Self::FULL);
         let [.., alpha] = over.map(|channel| f64::from(channel) / 255.0);
+        // Porter-Duff over: what the drawing lets through of the pixel.
         let through = f64::from(pixel[3]) / full * (1.0 - alpha);
         let sum = alpha + through;
         let mut mixed = [0, 1, 2, 3].map(|k| {

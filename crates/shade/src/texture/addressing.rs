@@ -1,40 +1,57 @@
-//! Layouts: which texels of an image fragments read. That depends on its size and its sampler and not on its texels, so that
-//! the textures of a material, which are most often alike in both, share it.
+//! Texel addressing: the mip levels and the texels that fragments read (Vulkan 1.3 §16.5–16.9).
+//!
+//! ```text
+//!   derivatives ─► level of detail λ = log2(texels per pixel) ─► levels ⌊λ⌋ and ⌊λ⌋ + 1, fraction
+//!   coordinates ─► texels of the level ─► wrap mode ─► four indices, fractions across and down
+//! ```
+//!
+//! This depends on the size of an image and on its sampler, not on its texels, so that the textures
+//! of a material, most often alike in both, share the work.
 
+use crate::lanes::Lanes;
 use model::{MipmapMode, Sampler, TextureFilter, WrapMode};
 
-/// All of a texture that decides where it is read.
+/// All of a texture that decides which texels are read.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct TexelAddressing {
-    /// Texels of a row and of a column of the full image.
+    /// Texels of a row of the full image.
     pub(super) width: i32,
+    /// Texels of a column of the full image.
     pub(super) height: i32,
-    /// The number of the smallest level; the full image is level 0, and each has half the size of the one before.
+    /// The index of the smallest mip level. The full image is level 0, and each level has half the
+    /// size of the one before.
     pub(super) last_level: i32,
+    /// Filters and wrap modes.
     pub(super) sampler: Sampler,
 }
 
-/// Which levels each lane reads: number 0 is the full image magnified, number n level n − 1 reduced. The colour is that of
-/// `near`, with a share of `far`.
+/// The mip levels that each lane reads: 0 is the full image magnified, n is level n − 1 minified.
+///
+/// Magnification has a number of its own because its filter may be another one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LevelOfDetail<const N: usize> {
+    /// The level at or above the level of detail.
     pub(super) near_levels: [i32; N],
+    /// The next coarser level; the near one where it has no weight.
     pub(super) far_levels: [i32; N],
-    pub(super) far_weights: [f32; N],
-    /// Whether `far` counts in any lane.
+    /// The weights of the far levels in a linear interpolation from the near ones.
+    pub(super) far_weights: Lanes<N>,
+    /// Whether a far level has a weight in any lane.
     pub(super) is_trilinear: bool,
 }
 
-/// The four texels around a place on some level, which is each lane's own.
+/// The four texels around a position on a mip level, which is each lane's own.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TexelQuads<const N: usize> {
+    /// The mip levels, from 0 for the full image.
     pub(super) levels: [i32; N],
-    /// The texels' numbers in their level: the two of the upper row, and the two of the lower one.
+    /// The indices of the texels in their level: upper left, upper right, lower left, lower right.
     pub(super) texels: [[i32; N]; 4],
-    /// How far the place is from the left texels to the right ones, and from the upper to the lower.
-    pub(super) column_fractions: [f32; N],
-    pub(super) row_fractions: [f32; N],
-    /// Whether only the first of the four counts, in all lanes.
+    /// The fraction of the way from the left texels to the right ones.
+    pub(super) column_fractions: Lanes<N>,
+    /// The fraction of the way from the upper texels to the lower ones.
+    pub(super) row_fractions: Lanes<N>,
+    /// Whether the filter is nearest in all lanes: only the upper left texel has a weight.
     pub(super) are_nearest: bool,
 }
 
@@ -45,110 +62,123 @@ impl TexelAddressing {
         self.last_level > 0 || self.sampler.mag_filter != self.sampler.min_filter
     }
 
-    /// The levels for these derivatives of the texture coordinates by the pixel's column and row.
+    /// Selects mip levels by the derivatives of the texture coordinates by the pixel's column and
+    /// row.
     #[inline(always)]
     pub(super) fn select_levels<const N: usize>(
         &self,
-        [right, below]: &[[[f32; N]; 2]; 2],
+        [dx, dy]: &[[Lanes<N>; 2]; 2],
     ) -> LevelOfDetail<N> {
-        let mut choice = LevelOfDetail {
+        let mut lod = LevelOfDetail {
             near_levels: [1; N],
             far_levels: [1; N],
-            far_weights: [0.0; N],
+            far_weights: Lanes::ZERO,
             is_trilinear: false,
         };
         if !self.needs_derivatives() {
-            return choice;
+            return lod;
         }
-        let Sampler { mag_filter: magnify, min_filter: minify, mipmap_mode: mipmap, .. } =
-            self.sampler;
+        let Sampler { mag_filter, min_filter, mipmap_mode, .. } = self.sampler;
         let (width, height) = (self.width as f32, self.height as f32);
-        let round = if mipmap == MipmapMode::Nearest { 0.5 } else { 0.0 };
+        let round = if mipmap_mode == MipmapMode::Nearest { 0.5 } else { 0.0 };
+        // Conditions with `&` instead of `&&`, and values instead of branches: the loop is
+        // vectorized.
         for lane in 0..N {
-            let (ru, rv) = (right[0][lane] * width, right[1][lane] * height);
-            let (bu, bv) = (below[0][lane] * width, below[1][lane] * height);
+            let (xu, xv) = (dx[0][lane] * width, dx[1][lane] * height);
+            let (yu, yv) = (dy[0][lane] * width, dy[1][lane] * height);
             // The texels that a pixel covers along its longer side, squared.
-            let squared = (ru * ru + rv * rv).max(bu * bu + bv * bv);
-            let is_reduced = (squared > 1.0) & (squared < f32::INFINITY);
-            let detail = 0.5 * log2_approx(if is_reduced { squared } else { 1.0 });
-            let level = ((detail + round) as i32).min(self.last_level);
-            let is_between = (mipmap == MipmapMode::Linear) & (level < self.last_level);
-            let is_magnified = (magnify != minify) & (detail <= 0.0);
+            let square = (xu * xu + xv * xv).max(yu * yu + yv * yv);
+            // Not minified where a texel is larger than the pixel, or where derivatives are not
+            // finite.
+            let is_minified = (square > 1.0) & (square < f32::INFINITY);
+            let lambda = 0.5 * log2_approx(if is_minified { square } else { 1.0 });
+            // Level of detail, rounded down for trilinear filtering and to nearest for one level.
+            let level = ((lambda + round) as i32).min(self.last_level);
+            let is_between = (mipmap_mode == MipmapMode::Linear) & (level < self.last_level);
+            let is_magnified = (mag_filter != min_filter) & (lambda <= 0.0);
             let near = if is_magnified { 0 } else { 1 + level };
-            let share = if is_between { detail - level as f32 } else { 0.0 };
-            choice.near_levels[lane] = near;
-            choice.far_levels[lane] = near + i32::from(share > 0.0);
-            choice.far_weights[lane] = share;
-            choice.is_trilinear |= share > 0.0;
+            let far_weight = if is_between { lambda - level as f32 } else { 0.0 };
+            lod.near_levels[lane] = near;
+            lod.far_levels[lane] = near + i32::from(far_weight > 0.0);
+            lod.far_weights[lane] = far_weight;
+            lod.is_trilinear |= far_weight > 0.0;
         }
-        choice
+        lod
     }
 
-    /// The cells of the levels with these numbers at a place.
+    /// Locates the texels around a position, on levels in the numbering of [`LevelOfDetail`].
+    ///
+    /// With nearest filtering all four are computed too, for the sake of lanes that filter
+    /// linearly; their fractions are then 0.
     #[inline(always)]
     pub(super) fn locate_texels<const N: usize>(
         &self,
-        numbers: &[i32; N],
-        [u, v]: &[[f32; N]; 2],
+        lod_levels: &[i32; N],
+        [u, v]: [Lanes<N>; 2],
     ) -> TexelQuads<N> {
-        let Sampler { wrap_u, wrap_v, mag_filter: magnify, min_filter: minify, .. } = self.sampler;
-        let (magnified, reduced) =
-            (magnify == TextureFilter::Linear, minify == TextureFilter::Linear);
+        let Sampler { wrap_u, wrap_v, mag_filter, min_filter, .. } = self.sampler;
+        let is_mag_linear = mag_filter == TextureFilter::Linear;
+        let is_min_linear = min_filter == TextureFilter::Linear;
         let (mut levels, mut are_linear) = ([0; N], [false; N]);
-        for lane in 0..N {
-            levels[lane] = (numbers[lane] - 1).max(0);
-            are_linear[lane] = if numbers[lane] == 0 { magnified } else { reduced };
+        for ((level, is_linear), lod) in levels.iter_mut().zip(&mut are_linear).zip(lod_levels) {
+            *level = (lod - 1).max(0);
+            *is_linear = if *lod == 0 { is_mag_linear } else { is_min_linear };
         }
         let columns = TexelAxis::locate(u, self.width, &levels, &are_linear, wrap_u);
         let rows = TexelAxis::locate(v, self.height, &levels, &are_linear, wrap_v);
-        let mut texels = [[0; N]; 4];
+        let mut quads = TexelQuads {
+            levels,
+            texels: [[0; N]; 4],
+            column_fractions: columns.fractions,
+            row_fractions: rows.fractions,
+            are_nearest: !is_mag_linear && !is_min_linear,
+        };
         for lane in 0..N {
             let upper = rows.first[lane] * columns.sizes[lane];
             let lower = rows.second[lane] * columns.sizes[lane];
-            texels[0][lane] = upper + columns.first[lane];
-            texels[1][lane] = upper + columns.second[lane];
-            texels[2][lane] = lower + columns.first[lane];
-            texels[3][lane] = lower + columns.second[lane];
+            quads.texels[0][lane] = upper + columns.first[lane];
+            quads.texels[1][lane] = upper + columns.second[lane];
+            quads.texels[2][lane] = lower + columns.first[lane];
+            quads.texels[3][lane] = lower + columns.second[lane];
         }
-        let are_nearest = !magnified && !reduced;
-        TexelQuads {
-            levels,
-            texels,
-            column_fractions: columns.fractions,
-            row_fractions: rows.fractions,
-            are_nearest,
-        }
+        quads
     }
 }
 
-/// Where lanes are among the texels of a row or a column: between which two, and how far from the first to the second.
+/// Positions among the texels of a row or of a column: the two neighbors along one axis of a quad.
 struct TexelAxis<const N: usize> {
+    /// Texels of the level along this axis.
     sizes: [i32; N],
+    /// The wrapped index of the texel before the position.
     first: [i32; N],
+    /// The wrapped index of the texel behind the position.
     second: [i32; N],
-    fractions: [f32; N],
+    /// The fraction of the way from the first to the second.
+    fractions: Lanes<N>,
 }
 
 impl<const N: usize> TexelAxis<N> {
-    /// The axis of an image of a size, on a level of each lane; those that are not linear are on a texel.
+    /// Locates coordinates on an image of a size, each on a level of its own; those that are not
+    /// filtered linearly are on a texel.
     #[inline(always)]
     fn locate(
-        coordinates: &[f32; N],
+        coordinates: Lanes<N>,
         size: i32,
         levels: &[i32; N],
         are_linear: &[bool; N],
         wrap: WrapMode,
     ) -> Self {
         let (mut sizes, mut first, mut second) = ([0; N], [0; N], [0; N]);
-        let mut fractions = [0.0; N];
+        let mut fractions = Lanes::ZERO;
         for lane in 0..N {
             sizes[lane] = (size >> levels[lane]).max(1);
+            // Linear filtering passes through the centers of texels, at half coordinates.
             let to_center = if are_linear[lane] { 0.5 } else { 0.0 };
             let x = coordinates[lane] * sizes[lane] as f32 - to_center;
-            let cell = floor_to_int(x);
-            first[lane] = cell;
-            second[lane] = cell + 1;
-            fractions[lane] = if are_linear[lane] { x - cell as f32 } else { 0.0 };
+            let texel = floor_to_int(x);
+            first[lane] = texel;
+            second[lane] = texel + 1;
+            fractions[lane] = if are_linear[lane] { x - texel as f32 } else { 0.0 };
         }
         // Halves of a power of two are powers of two.
         let are_powers = size & (size - 1) == 0;
@@ -158,57 +188,63 @@ impl<const N: usize> TexelAxis<N> {
     }
 }
 
-/// The largest whole number not above `x`; coordinates beyond a texture's reach stay in range.
+/// The largest integer not above `x`, with coordinates clamped to the range of `i32`.
 #[inline(always)]
 fn floor_to_int(x: f32) -> i32 {
-    let cut = x.clamp(-1e9, 1e9) as i32;
-    cut - i32::from((cut as f32) > x)
+    let truncated = x.clamp(-1e9, 1e9) as i32;
+    truncated - i32::from((truncated as f32) > x)
 }
 
-/// The texels that are shown in place of those with these numbers in rows of these sizes.
+/// Applies a wrap mode: indices of texels, anywhere, to indices within rows of these sizes.
 #[inline(always)]
 fn wrap_texels<const N: usize>(
-    cells: &[i32; N],
+    texels: &[i32; N],
     sizes: &[i32; N],
     are_powers: bool,
     mode: WrapMode,
 ) -> [i32; N] {
-    let mut wrapped = *cells;
+    let mut wrapped = *texels;
+    // Clamp to edge: the border texel goes on for ever.
     if mode == WrapMode::ClampToEdge {
-        for lane in 0..N {
-            wrapped[lane] = cells[lane].max(0).min(sizes[lane] - 1);
+        for (texel, size) in wrapped.iter_mut().zip(sizes) {
+            *texel = (*texel).max(0).min(size - 1);
         }
         return wrapped;
     }
-    let times = if mode == WrapMode::MirroredRepeat { 2 } else { 1 };
+    // Mirrored repeat has a period of two images, the second mirrored.
+    let images = if mode == WrapMode::MirroredRepeat { 2 } else { 1 };
+    // Repeat: the remainder, which of a power of two is a mask.
     if are_powers {
-        for lane in 0..N {
-            wrapped[lane] &= times * sizes[lane] - 1;
+        for (texel, size) in wrapped.iter_mut().zip(sizes) {
+            *texel &= images * size - 1;
         }
     } else {
+        // A division is slow: most often all texels are within the image already.
         let mut are_inside = true;
-        for lane in 0..N {
-            are_inside &= (cells[lane] >= 0) & (cells[lane] < times * sizes[lane]);
+        for (texel, size) in texels.iter().zip(sizes) {
+            are_inside &= (*texel >= 0) & (*texel < images * size);
         }
         if !are_inside {
-            for lane in 0..N {
-                wrapped[lane] = cells[lane].rem_euclid(times * sizes[lane]);
+            for (texel, size) in wrapped.iter_mut().zip(sizes) {
+                *texel = texel.rem_euclid(images * size);
             }
         }
     }
+    // Mirrored repeat: the second half of the period runs backwards.
     if mode == WrapMode::MirroredRepeat {
-        for lane in 0..N {
-            wrapped[lane] = wrapped[lane].min(2 * sizes[lane] - 1 - wrapped[lane]);
+        for (texel, size) in wrapped.iter_mut().zip(sizes) {
+            *texel = (*texel).min(2 * size - 1 - *texel);
         }
     }
     wrapped
 }
 
-/// The base-2 logarithm of a normal number not below 1, to about six digits: enough to mix levels by.
+/// The base-2 logarithm of a normal number not below 1, to about six digits: enough to select mip
+/// levels. A polynomial of the mantissa, which becomes vector instructions where `libm` does not.
 #[inline(always)]
 fn log2_approx(x: f32) -> f32 {
     // log2(1 + t) / t between 0 and 1, fitted at the zeros of a Chebyshev polynomial.
-    const FIT: [f32; 7] = [
+    const COEFFICIENTS: [f32; 7] = [
         1.442_693_2,
         -0.721_162_74,
         0.477_705_93,
@@ -217,12 +253,14 @@ fn log2_approx(x: f32) -> f32 {
         -0.096_066_25,
         0.020_490_346,
     ];
+    // Exponent and mantissa of an IEEE 754 number: x = 2^exponent · (1 + t).
     let bits = x.to_bits();
     let exponent = (bits >> 23) as i32 - 127;
     let t = f32::from_bits(bits & 0x007f_ffff | 0x3f80_0000) - 1.0;
-    let mut sum = FIT[6];
+    // Horner's scheme.
+    let mut sum = COEFFICIENTS[6];
     for k in (0..6).rev() {
-        sum = sum * t + FIT[k];
+        sum = sum * t + COEFFICIENTS[k];
     }
     exponent as f32 + sum * t
 }

@@ -1,138 +1,131 @@
-//! Reading textures, in all lanes at once.
+//! Texture filtering: bilinear within a mip level, trilinear between two, anisotropic along a line.
+//!
+//! ```text
+//!    a ──●──── b        ● = lerp(a, b, s)        trilinear:    lerp(level, level + 1, fraction)
+//!        │              ○ = lerp(c, d, s)        anisotropic:  mean over the taps of a footprint
+//!        ◆ t
+//!    c ──○──── d        ◆ = lerp(●, ○, t)
+//! ```
+//!
+//! Colors are decoded from sRGB before they are mixed, by a table (the formats `*_SRGB` of Vulkan).
+//! Alpha is straight, not premultiplied, as glTF has it, and is filtered by itself: the color of
+//! transparent texels bleeds into their neighbors, which exporters pad against.
+//!
+//! With eight lanes a texel is fetched lane by lane, as one number of 32 bits, and all arithmetic
+//! is done on all lanes.
 
-use super::MipChain;
 use super::addressing::TexelQuads;
 use super::footprint::Tap;
+use super::{MipChain, TexelLanes, UvLanes};
+use crate::lanes::{Lanes, Rgb, map_to_lanes};
 
 impl MipChain<'_> {
-    /// The texture's colours, linear with straight alpha, at `uvs[0]`; `uvs[1]` and `uvs[2]` are the derivatives by the
-    /// pixel's column and row, which say what a pixel covers: it is read at up to `most` places along the longer axis of that.
-    /// Alpha is 1 if it does not count.
+    /// The filtered color of the texture, linear with straight alpha, over the footprints of
+    /// pixels.
+    ///
+    /// At most `anisotropy` taps are read along the longer axis of a footprint. Alpha is 1 unless
+    /// it is needed.
     #[inline(always)]
     pub(crate) fn sample<const N: usize>(
         &self,
-        uvs: &[[[f32; N]; 2]; 3],
-        alpha_counts: bool,
-        most: u32,
-    ) -> [[f32; N]; 4] {
-        let footprint = self.addressing.footprint(uvs, most);
-        let mut sums = [[0.0; N]; 4];
-        for number in 0..footprint.max_tap_count() {
-            self.accumulate_tap(&footprint.tap(&self.addressing, number), alpha_counts, &mut sums);
+        uvs: &UvLanes<N>,
+        needs_alpha: bool,
+        anisotropy: u32,
+    ) -> TexelLanes<N> {
+        let footprint = self.addressing.footprint(uvs, anisotropy);
+        let mut sum = TexelLanes::ZERO;
+        for index in 0..footprint.max_tap_count() {
+            self.accumulate_tap(&footprint.tap(&self.addressing, index), needs_alpha, &mut sum);
         }
-        sums
+        sum
     }
 
-    /// Adds what is read at one place of a footprint.
+    /// Adds what is read at one tap of a footprint, times its weight.
     #[inline(always)]
     pub(crate) fn accumulate_tap<const N: usize>(
         &self,
         tap: &Tap<N>,
-        alpha_counts: bool,
-        sums: &mut [[f32; N]; 4],
+        needs_alpha: bool,
+        sum: &mut TexelLanes<N>,
     ) {
-        let mut colors = [[0.0; N]; 4];
+        // Trilinear: from the first level on to the second; the first has the weight 1.
+        let mut texel = TexelLanes::ZERO;
         for level in 0..tap.level_count {
-            lerp_channels(
-                &mut colors,
-                &self.filter_texels(&tap.cells[level], alpha_counts),
-                &tap.level_weights[level],
-            );
+            let next = self.filter_texels(&tap.quads[level], needs_alpha);
+            texel = texel.lerp(next, tap.level_weights[level]);
         }
-        for channel in 0..4 {
-            for lane in 0..N {
-                sums[channel][lane] += colors[channel][lane] * tap.tap_weights[lane];
-            }
-        }
+        sum.color += texel.color * tap.tap_weights;
+        sum.alpha += texel.alpha * tap.tap_weights;
     }
 
-    /// The colours between the texels of some cells.
+    /// Bilinear interpolation in quads of texels, channel by channel.
     #[inline(always)]
     fn filter_texels<const N: usize>(
         &self,
-        cells: &TexelQuads<N>,
-        alpha_counts: bool,
-    ) -> [[f32; N]; 4] {
-        let codes = self.fetch_texels(cells);
-        let mut colors = [[1.0; N]; 4];
-        for channel in 0..3 {
-            colors[channel] = match self.srgb_table {
-                Some(table) => {
-                    let mut four = [[0.0; N]; 4];
-                    for corner in 0..4 {
-                        for lane in 0..N {
-                            let code = codes[corner][lane] >> (8 * channel) & 255;
-                            four[corner][lane] = table[code as usize];
-                        }
-                    }
-                    bilinear(&four, cells)
-                }
-                None => filter_linear_channel(&codes, channel, cells),
-            };
+        quads: &TexelQuads<N>,
+        needs_alpha: bool,
+    ) -> TexelLanes<N> {
+        let texels = self.fetch_texels(quads);
+        let [r, g, b] = map_to_lanes(&[0, 1, 2], |channel| match self.srgb_table {
+            Some(table) => {
+                // sRGB decoding before filtering.
+                let linear = map_to_lanes(&texels, |texels| {
+                    Lanes::from_fn(|lane| table[channel_code(texels[lane], channel) as usize])
+                });
+                bilinear(linear, quads)
+            }
+            None => filter_linear_channel(&texels, channel, quads),
+        });
+        let mut alpha = Lanes::ONE;
+        if needs_alpha {
+            alpha = filter_linear_channel(&texels, 3, quads);
         }
-        if alpha_counts {
-            colors[3] = filter_linear_channel(&codes, 3, cells);
-        }
-        colors
+        TexelLanes { color: Rgb { r, g, b }, alpha }
     }
 
-    /// The texels of some cells, red in the lowest byte.
+    /// The four texels of each quad, packed with red in the lowest byte.
     #[inline(always)]
-    fn fetch_texels<const N: usize>(&self, cells: &TexelQuads<N>) -> [[u32; N]; 4] {
-        let mut codes = [[0; N]; 4];
+    fn fetch_texels<const N: usize>(&self, quads: &TexelQuads<N>) -> [[u32; N]; 4] {
+        let mut packed = [[0; N]; 4];
+        // A gather: each lane has a mip level of its own.
         for lane in 0..N {
-            let texels: &[[u8; 4]] = &self.levels[cells.levels[lane] as usize].texels;
-            for corner in 0..4 {
-                let texel = texels[cells.texels[corner][lane] as usize];
-                codes[corner][lane] = u32::from_le_bytes(texel);
+            let texels: &[[u8; 4]] = &self.levels[quads.levels[lane] as usize].texels;
+            for (packed, indices) in packed.iter_mut().zip(&quads.texels) {
+                packed[lane] = u32::from_le_bytes(texels[indices[lane] as usize]);
             }
         }
-        codes
+        packed
     }
 }
 
-/// One channel of linear texels, from 0 to 1.
+/// One channel of a packed texel, from 0 to 255.
+#[inline(always)]
+fn channel_code(texel: u32, channel: usize) -> u32 {
+    texel >> (8 * channel) & 255
+}
+
+/// One channel that is stored linearly, from 0 to 1. The division by 255 comes after the
+/// interpolation: one instead of four.
 #[inline(always)]
 fn filter_linear_channel<const N: usize>(
-    codes: &[[u32; N]; 4],
+    texels: &[[u32; N]; 4],
     channel: usize,
-    cells: &TexelQuads<N>,
-) -> [f32; N] {
-    let mut four = [[0.0; N]; 4];
-    for corner in 0..4 {
-        for lane in 0..N {
-            let code = codes[corner][lane] >> (8 * channel) & 255;
-            four[corner][lane] = code as i32 as f32;
-        }
-    }
-    let mut units = bilinear(&four, cells);
-    for unit in &mut units {
-        *unit /= 255.0;
-    }
-    units
+    quads: &TexelQuads<N>,
+) -> Lanes<N> {
+    // By way of `i32`, which vector instructions convert to `f32` where they do not convert `u32`.
+    let codes = map_to_lanes(texels, |texels| {
+        Lanes::from_fn(|lane| channel_code(texels[lane], channel) as i32 as f32)
+    });
+    bilinear(codes, quads) / 255.0
 }
 
-/// What lies between four texels.
+/// Bilinear interpolation between upper left, upper right, lower left and lower right.
 #[inline(always)]
-fn bilinear<const N: usize>([a, b, c, d]: &[[f32; N]; 4], cells: &TexelQuads<N>) -> [f32; N] {
-    let mut between = *a;
-    if cells.are_nearest {
-        return between;
+fn bilinear<const N: usize>([a, b, c, d]: [Lanes<N>; 4], quads: &TexelQuads<N>) -> Lanes<N> {
+    if quads.are_nearest {
+        return a;
     }
-    for lane in 0..N {
-        let upper = a[lane] + (b[lane] - a[lane]) * cells.column_fractions[lane];
-        let lower = c[lane] + (d[lane] - c[lane]) * cells.column_fractions[lane];
-        between[lane] = upper + (lower - upper) * cells.row_fractions[lane];
-    }
-    between
-}
-
-/// Moves colours by a share of the way to others.
-#[inline(always)]
-fn lerp_channels<const N: usize>(from: &mut [[f32; N]; 4], to: &[[f32; N]; 4], share: &[f32; N]) {
-    for (from, to) in from.iter_mut().zip(to) {
-        for lane in 0..N {
-            from[lane] += (to[lane] - from[lane]) * share[lane];
-        }
-    }
+    let upper = a.lerp(b, quads.column_fractions);
+    let lower = c.lerp(d, quads.column_fractions);
+    upper.lerp(lower, quads.row_fractions)
 }

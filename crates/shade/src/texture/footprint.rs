@@ -1,146 +1,146 @@
-//! The footprint of a pixel on a texture, and reading a texture along it.
+//! Anisotropic filtering: the footprint of a pixel on a texture, sampled along its longer axis.
 //!
 //! ```text
-//!      ┌──────────────╱╱╲      a pixel's image on the texture is about an ellipse: where a floor runs
-//!      │       ●  ●  ●  ╱      away from the viewer a long one, and one level of the mip chain is too
-//!      │    ●  ●  ●    ╱       blurred across it or too sharp along it
+//!      ┌──────────────╱╱╲      a pixel's image on the texture is about an ellipse: where a floor
+//!      │       ●  ●  ●  ╱      runs away from the viewer a long one, and one level of the mip
+//!      │    ●  ●  ●    ╱       chain is too blurred across it or too sharp along it
 //!      ╲╲_____________╱
 //! ```
 //!
-//! So it is read at several places along the longer axis, on the level whose texels are as large as the shorter one (Heckbert,
-//! *Fundamentals of texture mapping and image warping*, 1989; McCormack and others, *Feline*, 1999).
+//! The texture is therefore read at several taps along the longer axis, on the mip level whose
+//! texels are as large as the shorter one (Heckbert, *Fundamentals of texture mapping and image
+//! warping*, 1989; McCormack and others, *Feline: fast elliptical lines for anisotropic texture
+//! mapping*, 1999).
 
+use super::UvLanes;
 use super::addressing::{LevelOfDetail, TexelAddressing, TexelQuads};
+use crate::lanes::Lanes;
 
-/// How lanes read textures of one layout: places along a line, and what each place stands for.
+/// The footprints of pixels on textures with one addressing: taps on a line, all on the same
+/// levels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Footprint<const N: usize> {
     /// The middle of the line, in texture coordinates.
-    center: [[f32; N]; 2],
-    /// How many places.
-    tap_counts: [f32; N],
-    /// The line in texture coordinates, from end to end.
-    major_axis: [[f32; N]; 2],
-    /// The levels that are read at each place.
+    center: [Lanes<N>; 2],
+    /// The number of taps, from 1 on.
+    tap_counts: Lanes<N>,
+    /// The line in texture coordinates, from end to end; zero where there is one tap.
+    major_axis: [Lanes<N>; 2],
+    /// The mip levels of each tap.
     lod: LevelOfDetail<N>,
 }
 
-/// One of the places, in all lanes.
+/// One tap of the footprints, in all lanes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tap<const N: usize> {
-    /// The cells of its level, and those of the level behind.
-    pub(super) cells: [TexelQuads<N>; 2],
-    /// How many of the two count.
+    /// The texels of the nearer mip level, and those of the next.
+    pub(super) quads: [TexelQuads<N>; 2],
+    /// How many of the two levels have a weight in some lane.
     pub(super) level_count: usize,
-    /// How much they count against those before.
-    pub(super) level_weights: [[f32; N]; 2],
-    /// How much the place counts: nothing in lanes that have fewer.
-    pub(super) tap_weights: [f32; N],
+    /// The weights of the levels, each against the levels before.
+    pub(super) level_weights: [Lanes<N>; 2],
+    /// The weight of the tap in its footprint: 0 in lanes that have fewer.
+    pub(super) tap_weights: Lanes<N>,
 }
 
 impl<const N: usize> Footprint<N> {
-    /// The number of places in the lane that has most.
+    /// The number of taps in the lane that has most.
     #[inline(always)]
     pub(crate) fn max_tap_count(&self) -> u32 {
         let mut count = 1.0_f32;
-        for taps in self.tap_counts {
+        for taps in self.tap_counts.0 {
             count = count.max(taps);
         }
         count as u32
     }
 
-    /// The place with this number, from 0 on.
+    /// The tap with this index, from 0 on: taps divide the line into equal parts and lie in their
+    /// middles.
     #[inline(always)]
-    pub(crate) fn tap(&self, layout: &TexelAddressing, number: u32) -> Tap<N> {
-        let number = number as f32;
-        let (mut place, mut parts) = (self.center, [0.0; N]);
-        for lane in 0..N {
-            let along = (number + 0.5) / self.tap_counts[lane] - 0.5;
-            parts[lane] =
-                if number < self.tap_counts[lane] { 1.0 / self.tap_counts[lane] } else { 0.0 };
-            for axis in 0..2 {
-                place[axis][lane] += self.major_axis[axis][lane] * along;
-            }
+    pub(crate) fn tap(&self, addressing: &TexelAddressing, index: u32) -> Tap<N> {
+        let index = index as f32;
+        let along = (index + 0.5) / self.tap_counts - 0.5;
+        let tap_weights =
+            self.tap_counts.map(|count| if index < count { 1.0 / count } else { 0.0 });
+        let [u, v] = self.center;
+        let position = [u + self.major_axis[0] * along, v + self.major_axis[1] * along];
+        let LevelOfDetail { near_levels, far_levels, far_weights, is_trilinear } = &self.lod;
+        let near = addressing.locate_texels(near_levels, position);
+        let (mut quads, mut level_count) = ([near; 2], 1);
+        if *is_trilinear {
+            quads[1] = addressing.locate_texels(far_levels, position);
+            level_count = 2;
         }
-        let LevelOfDetail {
-            near_levels: near,
-            far_levels: far,
-            far_weights: share,
-            is_trilinear: is_mixed,
-        } = &self.lod;
-        let near = layout.locate_texels(near, &place);
-        let (mut cells, mut count) = ([near; 2], 1);
-        if *is_mixed {
-            cells[1] = layout.locate_texels(far, &place);
-            count = 2;
-        }
-        Tap { cells, level_count: count, level_weights: [[1.0; N], *share], tap_weights: parts }
+        Tap { quads, level_count, level_weights: [Lanes::ONE, *far_weights], tap_weights }
     }
 }
 
 impl TexelAddressing {
-    /// The footprints of pixels at `uvs[0]`, with the derivatives `uvs[1]` by the column and `uvs[2]` by the row, as at most
-    /// so many places.
+    /// The footprints of pixels, with at most `anisotropy` taps.
     #[inline(always)]
     pub(crate) fn footprint<const N: usize>(
         &self,
-        [middle, right, below]: &[[[f32; N]; 2]; 3],
-        most: u32,
+        uvs: &UvLanes<N>,
+        anisotropy: u32,
     ) -> Footprint<N> {
-        let (mut taps, mut line) = ([1.0; N], [[0.0; N]; 2]);
-        let mut steps = [*right, *below];
-        if most > 1 && self.last_level > 0 {
-            self.fit_anisotropy(most as f32, &mut taps, &mut line, &mut steps);
+        let mut tap_counts = Lanes::ONE;
+        let mut major_axis = [Lanes::ZERO; 2];
+        let mut steps = [uvs.dx, uvs.dy];
+        // Without mip levels every tap would read texels of full size: one tap, and aliasing.
+        if anisotropy > 1 && self.last_level > 0 {
+            let most = anisotropy as f32;
+            self.fit_anisotropy(most, &mut tap_counts, &mut major_axis, &mut steps);
         }
-        Footprint {
-            center: *middle,
-            tap_counts: taps,
-            major_axis: line,
-            lod: self.select_levels(&steps),
-        }
+        Footprint { center: uvs.uv, tap_counts, major_axis, lod: self.select_levels(&steps) }
     }
 
-    /// Lays long footprints along a line, and leaves steps that stand for each place of it.
+    /// Fits the ellipse of a pixel's footprint: lays long ones along a line, and replaces their
+    /// derivatives by steps that stand for one tap.
     ///
-    /// The axes of the ellipse that a pixel covers are those of J Jᵀ: J, its derivatives in texels, maps the unit circle to it.
+    /// The axes of the ellipse are those of J Jᵀ: J, the derivatives in texels, maps the unit
+    /// circle to it. Their squared lengths are the eigenvalues; the longer axis is an eigenvector.
     #[inline(always)]
     fn fit_anisotropy<const N: usize>(
         &self,
         most: f32,
-        taps: &mut [f32; N],
-        line: &mut [[f32; N]; 2],
-        [right, below]: &mut [[[f32; N]; 2]; 2],
+        tap_counts: &mut Lanes<N>,
+        major_axis: &mut [Lanes<N>; 2],
+        [dx, dy]: &mut [[Lanes<N>; 2]; 2],
     ) {
         let (width, height) = (self.width as f32, self.height as f32);
         for lane in 0..N {
-            let (ru, rv) = (right[0][lane] * width, right[1][lane] * height);
-            let (bu, bv) = (below[0][lane] * width, below[1][lane] * height);
-            let (uu, vv, uv) = (ru * ru + bu * bu, rv * rv + bv * bv, ru * rv + bu * bv);
-            let (sum, area) = (uu + vv, ru * bv - rv * bu);
+            // J in texels, then J Jᵀ = (uu uv; uv vv).
+            let (xu, xv) = (dx[0][lane] * width, dx[1][lane] * height);
+            let (yu, yv) = (dy[0][lane] * width, dy[1][lane] * height);
+            let (uu, vv, uv) = (xu * xu + yu * yu, xv * xv + yv * yv, xu * xv + yu * yv);
+            let (trace, area) = (uu + vv, xu * yv - xv * yu);
             let root = ((uu - vv) * (uu - vv) + 4.0 * uv * uv).sqrt();
-            let longer = (0.5 * (sum + root)).sqrt();
+            let longer = (0.5 * (trace + root)).sqrt();
             let shorter = area.abs() / longer;
-            // What is no larger than a texel is read as it is.
+            // An axis shorter than a texel is magnified and asks for no more taps.
             let count = floor_positive(longer / shorter.max(1.0) + 0.5).min(most);
             let is_long = (count > 1.0) & (longer < 1e6);
-            // The longer axis is an eigenvector; of its two forms the one that does not vanish.
+            // Of the two forms of the eigenvector the one that does not vanish.
             let x = if uu > vv { 0.5 * (uu - vv + root) } else { uv };
             let y = if uu > vv { uv } else { 0.5 * (vv - uu + root) };
-            let per = 1.0 / (x * x + y * y).sqrt();
-            let (x, y) = (x * per / width, y * per / height);
-            let reach = (longer / count).max(shorter);
-            taps[lane] = if is_long { count } else { 1.0 };
-            line[0][lane] = if is_long { x * longer } else { 0.0 };
-            line[1][lane] = if is_long { y * longer } else { 0.0 };
-            right[0][lane] = if is_long { x * reach } else { right[0][lane] };
-            right[1][lane] = if is_long { y * reach } else { right[1][lane] };
-            below[0][lane] = if is_long { 0.0 } else { below[0][lane] };
-            below[1][lane] = if is_long { 0.0 } else { below[1][lane] };
+            let inv_length = 1.0 / (x * x + y * y).sqrt();
+            let (x, y) = (x * inv_length / width, y * inv_length / height);
+            // The distance between taps, where the limit of taps makes it longer than the minor
+            // axis.
+            let step = (longer / count).max(shorter);
+            tap_counts[lane] = if is_long { count } else { 1.0 };
+            major_axis[0][lane] = if is_long { x * longer } else { 0.0 };
+            major_axis[1][lane] = if is_long { y * longer } else { 0.0 };
+            dx[0][lane] = if is_long { x * step } else { dx[0][lane] };
+            dx[1][lane] = if is_long { y * step } else { dx[1][lane] };
+            dy[0][lane] = if is_long { 0.0 } else { dy[0][lane] };
+            dy[1][lane] = if is_long { 0.0 } else { dy[1][lane] };
         }
     }
 }
 
-/// The largest whole number not above a positive one; numbers too large for it are out of use here.
+/// The largest integer not above a positive number, at most a million: enough for any count of
+/// taps.
 #[inline(always)]
 fn floor_positive(x: f32) -> f32 {
     x.clamp(0.0, 1e6) as i32 as f32
@@ -148,32 +148,34 @@ fn floor_positive(x: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    use super::*;
     use crate::{MipChain, TexelEncoding};
     use model::{Image, Sampler};
 
     #[test]
     fn a_long_footprint_is_the_ellipse_of_its_derivatives() {
         let image = Image { width: 64, height: 64, rgba: vec![[0; 4]; 64 * 64] };
-        let chain = MipChain::new(&image, Sampler::default(), TexelEncoding::Linear);
-        // Axes of 12 and 3 texels, turned by an angle; the pixel's own axes are turned too.
-        for (turn, own) in [(0.0, 0.0), (0.4, 0.0), (1.2, 0.7), (2.5, 1.9), (1.5, 0.3)] {
-            let rotated = |x: f32, y: f32, by: f32| {
-                let (sine, cosine) = (libm::sinf(by), libm::cosf(by));
+        let mip_chain = MipChain::new(&image, Sampler::default(), TexelEncoding::Linear);
+        // Axes of 12 and 3 texels, rotated by an angle; the pixel's own axes are rotated too.
+        for (angle, pixel_angle) in [(0.0, 0.0), (0.4, 0.0), (1.2, 0.7), (2.5, 1.9), (1.5, 0.3)] {
+            let rotate = |x: f32, y: f32, angle: f32| {
+                let (sine, cosine) = (libm::sinf(angle), libm::cosf(angle));
                 [cosine * x - sine * y, sine * x + cosine * y]
             };
-            let column = |x: f32, y: f32| {
-                let [x, y] = rotated(x, y, own);
-                rotated(12.0 * x, 3.0 * y, turn).map(|texels| [texels / 64.0])
+            let derivative = |x: f32, y: f32| {
+                let [x, y] = rotate(x, y, pixel_angle);
+                rotate(12.0 * x, 3.0 * y, angle).map(|texels| Lanes([texels / 64.0]))
             };
-            let uvs = [[[0.0], [0.0]], column(1.0, 0.0), column(0.0, 1.0)];
-            let (mut taps, mut line, mut steps) = ([1.0], [[0.0]; 2], [uvs[1], uvs[2]]);
-            chain.addressing().fit_anisotropy(8.0, &mut taps, &mut line, &mut steps);
-            assert_eq!(taps, [4.0]);
-            let [[x], [y]] = line;
-            let [due_x, due_y] = rotated(12.0, 0.0, turn);
-            let across = x * due_y - y * due_x;
+            let mut steps = [derivative(1.0, 0.0), derivative(0.0, 1.0)];
+            let (mut tap_counts, mut major_axis) = (Lanes::<1>::ONE, [Lanes::ZERO; 2]);
+            let addressing = mip_chain.addressing();
+            addressing.fit_anisotropy(8.0, &mut tap_counts, &mut major_axis, &mut steps);
+            assert_eq!(tap_counts, Lanes([4.0]));
+            let [x, y] = major_axis.map(|axis| axis[0]);
+            let [expected_x, expected_y] = rotate(12.0, 0.0, angle);
+            let across = x * expected_y - y * expected_x;
             assert!(across.abs() < 1e-3 && ((x * x + y * y).sqrt() * 64.0 - 12.0).abs() < 1e-3);
-            let [[x], [y]] = steps[0];
+            let [x, y] = steps[0].map(|step| step[0]);
             assert!(((x * x + y * y).sqrt() * 64.0 - 3.0).abs() < 1e-3);
         }
     }

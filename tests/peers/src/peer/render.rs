@@ -15,7 +15,7 @@ use model::{
     Image, Material, Mesh, MipmapMode, Model, Primitive, Sampler, Texture as Used, TextureInfo,
 };
 use pipeline::scene::{ImageSpec, Style};
-use pipeline::{Picture, Renderer, Textures, Timings};
+use pipeline::{Picture, RenderContext, Renderer, Textures};
 use projection::Convention;
 use raster::Samples;
 use shade::Light;
@@ -92,9 +92,8 @@ impl Peer for Render {
 
     fn draw(&mut self) {
         let Self { scene, textures, renderer, threads, picture } = self;
-        let silent = Timings::default();
         // A scene that cannot be rendered has no pixels, and agrees with nobody.
-        if renderer.render(scene, textures, *threads, &silent, picture).is_err() {
+        if renderer.render(&RenderContext::new(scene, textures, *threads), picture).is_err() {
             picture.pixels.clear();
         }
     }

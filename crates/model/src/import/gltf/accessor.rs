@@ -72,7 +72,10 @@ impl<'a> AccessorReader<'a> {
         json.is_some_and(|json| json.buffer_view.is_none() && json.sparse.is_none())
     }
 
-    /// The first `N` components of every element as floats.
+    /// The first `N` components of every element as floats; normalized integers are converted.
+    ///
+    /// # Errors
+    /// The array exceeds the memory budget.
     pub(super) fn read_floats<const N: usize>(
         &self,
         elements: &ResolvedAccessor<'_>,
@@ -81,7 +84,10 @@ impl<'a> AccessorReader<'a> {
         Ok(elements.to_floats())
     }
 
-    /// The first `N` components of every element as unsigned shorts.
+    /// The first `N` components of every element as unsigned shorts, for joint indices.
+    ///
+    /// # Errors
+    /// The array exceeds the memory budget.
     pub(super) fn read_u16s<const N: usize>(
         &self,
         elements: &ResolvedAccessor<'_>,
@@ -90,7 +96,10 @@ impl<'a> AccessorReader<'a> {
         Ok(elements.to_u16s())
     }
 
-    /// The elements as indices.
+    /// The elements as vertex indices.
+    ///
+    /// # Errors
+    /// The array exceeds the memory budget.
     pub(super) fn read_indices(
         &self,
         elements: &ResolvedAccessor<'_>,
@@ -111,6 +120,10 @@ impl<'a> AccessorReader<'a> {
     }
 
     /// The bytes of elements that begin at an offset in a buffer view.
+    ///
+    /// The last element needs its own size only, not a whole stride (glTF 2.0 §3.6.2.4):
+    /// interleaved attributes end before the stride of the last vertex is full. Overflow saturates
+    /// and then exceeds any buffer, so that it is reported as missing bytes.
     fn strided_bytes(
         &self,
         view: usize,
@@ -140,6 +153,9 @@ impl<'a> AccessorReader<'a> {
 
     /// Resolves a sparse accessor: indices and values of the elements that replace some of the
     /// `base` (glTF 2.0 §3.6.2.3).
+    ///
+    /// Every index is checked to be less than the number of elements. The rule that indices
+    /// increase is left to the checker: reading does not depend on it.
     fn resolve_sparse(
         &self,
         json: &sparse::Sparse,

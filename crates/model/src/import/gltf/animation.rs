@@ -1,5 +1,9 @@
 //! Animations: channels and samplers become keyframe curves; invalid channels are left out with a
 //! warning.
+//!
+//! A sampler has keyframe times (`input`) and values (`output`); a channel says which property of
+//! which node they set. LINEAR means slerp for rotations. Values may be normalized integers, which
+//! become floats here.
 
 use super::accessor::AccessorReader;
 use super::animation_pointer::{self, ChannelValueKind};
@@ -135,6 +139,14 @@ impl AnimationReader<'_> {
     }
 
     /// Reads keyframes and values, and checks that their numbers agree.
+    ///
+    /// Values per keyframe follow from the target: 3 for translation and scale, 4 for rotation, and
+    /// for morph weights as many as there are targets. Cubic splines have three times as many:
+    /// in-tangent, value, out-tangent.
+    ///
+    /// # Errors
+    /// The interpolation is unknown, times do not increase, or there are too few or too many
+    /// values.
     fn read_curve(
         &self,
         json: &json::animation::Sampler,
@@ -213,7 +225,8 @@ impl AnimationReader<'_> {
     ) -> Result<Vec<f32>, Diagnostic> {
         let mut elements = self.source.resolve_accessor(accessor, pointer)?;
         format.check_elements(&elements, pointer)?;
-        // Integers are normalised even if the file forgot to say so: there is no other way to read them.
+        // Integers are normalised even if the file forgot to say so: there is no other way to read
+        // them.
         elements.normalized = true;
         let values = self.source.read_floats::<N>(&elements)?.into_flattened();
         if values.iter().all(|value| value.is_finite()) {

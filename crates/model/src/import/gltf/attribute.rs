@@ -102,6 +102,11 @@ pub(super) struct AttributeReader<'a, 'w> {
 
 impl AttributeReader<'_, '_> {
     /// Reads an optional attribute: one that is invalid is left out with a warning.
+    ///
+    /// Only the range of vertices that the indices use is converted.
+    ///
+    /// # Errors
+    /// Exceeded limits and unreadable files; faults in the content are warnings.
     pub(super) fn read_attribute<T>(
         &mut self,
         accessor: Option<usize>,
@@ -168,7 +173,8 @@ impl AttributeReader<'_, '_> {
         pointer: &str,
     ) -> Result<Option<Vec<[f32; 4]>>, Diagnostic> {
         self.read_attribute(accessor, pointer, &COLOR, |source, mut elements| {
-            // Integers are normalised even if the file forgot to say so: there is no other way to read them.
+            // Integers are normalised even if the file forgot to say so: there is no other way to
+            // read them.
             elements.normalized = true;
             let mut colors: Vec<[f32; 4]> = source.read_floats(&elements)?;
             for color in &mut colors {

@@ -24,6 +24,7 @@ pub(super) struct Buffers<'a> {
 }
 
 impl<'a> Buffers<'a> {
+    /// Buffers of a document whose indices have not been checked; nothing is read yet.
     pub(super) fn new(
         root: &'a Root,
         resolver: &'a UriResolver<'a>,

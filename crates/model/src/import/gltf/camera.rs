@@ -1,4 +1,8 @@
 //! Cameras: projections with their parameters checked; an invalid one is left out with a warning.
+//!
+//! Checked are the rules of glTF 2.0 §3.10.3: 0 < yfov < π, 0 < znear < zfar for perspective
+//! cameras, and magnifications other than 0 with 0 ≤ znear < zfar for orthographic ones. A
+//! perspective camera without `zfar` is infinite.
 
 use crate::diagnostic::Diagnostic;
 use crate::import::warnings::ImportWarnings;

@@ -4,12 +4,14 @@
 //!
 //! ```text
 //!  0      4        8        12       16      20                 20+n
-//!  ┌──────┬────────┬────────┬────────┬───────┬───────────────────┬──── … chunks: length, type, data
-//!  │ glTF │ 2      │ length │ n      │ JSON  │ n bytes of JSON   │
+//!  ┌──────┬────────┬────────┬────────┬───────┬───────────────────┬──── … more chunks:
+//!  │ glTF │ 2      │ length │ n      │ JSON  │ n bytes of JSON   │     length, type, data
 //!  └──────┴────────┴────────┴────────┴───────┴───────────────────┴────
 //! ```
 //!
 //! with all numbers little-endian (glTF 2.0 §4.4). No length is used before it has been checked.
+//! Only the first chunk may be JSON and only the second BIN; later chunks are ignored, as are bytes
+//! after the declared end.
 
 use crate::diagnostic::{Diagnostic, codes};
 use crate::import::warnings::ImportWarnings;
@@ -194,10 +196,13 @@ mod tests {
     fn every_truncation_is_an_error_and_no_panic() {
         let whole = glb(2, 36, &[(b"JSON", 4, b"{}  "), (b"BIN\0", 4, b"1234")]);
         for end in 0..whole.len() {
-            assert!(
-                Container::from_bytes(&whole[..end], &mut ImportWarnings::default()).is_err(),
-                "{end}"
-            );
+            let cut = Container::from_bytes(&whole[..end], &mut ImportWarnings::default());
+            let diagnostic = cut.unwrap_err();
+            assert_eq!(diagnostic.code, codes::NOT_GLTF, "cut at {end}");
+            if end >= HEADER {
+                let expected = format!("the header says 36 bytes, the file has {end}");
+                assert_eq!(diagnostic.message, expected);
+            }
         }
     }
 }

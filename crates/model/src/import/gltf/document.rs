@@ -54,7 +54,12 @@ impl GltfDocument {
 
 /// Counts nesting and values against the limits without building anything.
 ///
-/// `serde_json` itself stops at a depth of 128, whatever the limit says.
+/// Text outside of strings is scanned for brackets and commas; that is exact for well-formed JSON,
+/// and an upper bound is all that is needed for the rest. `serde_json` itself stops at a depth of
+/// 128, whatever the limit says.
+///
+/// # Errors
+/// [`LIMIT_EXCEEDED`](crate::codes::LIMIT_EXCEEDED) for `json_depth` or `json_values`.
 pub(crate) fn check_json_limits(text: &[u8], limits: &Limits) -> Result<(), Diagnostic> {
     let (mut depth, mut values) = (0usize, 1usize);
     let mut at = 0;
@@ -112,6 +117,9 @@ fn end_of_string(text: &[u8], mut at: usize) -> usize {
 }
 
 /// Checks `asset.version` and `asset.minVersion`; only glTF 2.x is read.
+///
+/// A newer minor version is accepted, as the specification demands, unless `minVersion` says that
+/// the file needs it; reading leniently that is only a warning.
 fn check_gltf_version(value: &Value, warnings: &mut ImportWarnings) -> Result<(), Diagnostic> {
     let asset = &value["asset"];
     let Some(version) = asset["version"].as_str() else {

@@ -130,6 +130,7 @@ fn stream_attributes(
 
 #[cfg(not(feature = "draco"))]
 impl DracoStream<'_> {
+    /// Built without the feature `draco`, every stream is data that cannot be read.
     fn decode_mesh(self) -> Result<DracoData, Diagnostic> {
         Err(Diagnostic::missing_data(&self.pointer, "the data is compressed by Draco"))
     }
@@ -145,6 +146,15 @@ mod decoder {
     use std::collections::BTreeMap;
 
     impl DracoStream<'_> {
+        /// Decodes the stream and checks its counts against the accessors.
+        ///
+        /// The memory budget is charged first, with 16 bytes for each attribute of a vertex, and
+        /// the decoder's own limits are set from the accessors: a stream cannot make more vertices
+        /// than they declare.
+        ///
+        /// # Errors
+        /// The stream is malformed, or its numbers of vertices, indices or components differ from
+        /// those of the accessors.
         pub(super) fn decode_mesh(self) -> Result<DracoData, Diagnostic> {
             for &(accessor, _) in &self.attributes {
                 self.source.charge_array(accessor, self.vertices, 16)?;

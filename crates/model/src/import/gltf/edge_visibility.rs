@@ -32,6 +32,9 @@ pub(super) struct EdgeReader<'a, 'w> {
 
 impl EdgeReader<'_, '_> {
     /// The edges of a primitive of this topology, if the file marks any.
+    ///
+    /// Only triangles have edges. Faults in the extensions are warnings; exceeded limits and
+    /// unreadable files are errors, as everywhere.
     pub(super) fn read_edges(
         mut self,
         topology: Topology,
@@ -110,6 +113,10 @@ impl EdgeReader<'_, '_> {
     }
 
     /// Unpacks two bits for each edge of each triangle.
+    ///
+    /// Edge e of triangle t is at bits 2 (3t + e) of the byte array, lowest bits first, so that a
+    /// triangle's six bits may span two bytes. The number of bytes must be exactly 6 · triangles /
+    /// 8, rounded up.
     fn read_visibility_bits(
         &self,
         accessor: usize,

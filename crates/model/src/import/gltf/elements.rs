@@ -188,7 +188,8 @@ mod tests {
     #[test]
     fn every_component_type_has_its_value() {
         use ComponentType::{F32, I8, I16, U8, U16, U32};
-        // The two bytes of each component: the least and the greatest value of the type, or near it.
+        // The two bytes of each component: the least and the greatest value of the type, or near
+        // it.
         let table: [(ComponentType, bool, &[u8], [f32; 2]); 10] = [
             (I8, false, &[0x80, 0x7F], [-128.0, 127.0]),
             (I8, true, &[0x80, 0x7F], [-1.0, 1.0]),

@@ -1,4 +1,8 @@
 //! GPU instancing (EXT_mesh_gpu_instancing): meshes that one node draws many times.
+//!
+//! Translation, rotation and scale of the instances are accessors with one element for each;
+//! missing ones are the identity's. They are composed as T · R · S and apply before the node's own
+//! transform.
 
 use super::accessor::AccessorReader;
 use super::attribute::{AllowedFormats, ROTATION, TRANSLATION_OR_SCALE};

@@ -103,7 +103,6 @@ pub(super) fn import_images(
 ) {
     let needed = needed_images(model, source.root.images.len());
     model.image_infos = source.root.images.iter().map(image_info).collect();
-    model.images = vec![None; needed.len()];
     match loading {
         ImageLoading::Decode if announced.needed == needed => {
             store_decoded(model, announced, decoded, warnings);
@@ -134,15 +133,17 @@ fn store_decoded(
 ) {
     warnings.append_warnings(encoded_images.warnings);
     store_headers(&encoded_images.encoded, &mut model.image_infos);
+    let mut images = vec![None; model.image_infos.len()];
     for (image, decoded) in encoded_images.encoded.iter().zip(decoded) {
         match decoded {
-            Ok(decoded) => model.images[image.index] = Some(decoded),
+            Ok(decoded) => images[image.index] = Some(decoded),
             Err(message) => {
                 let diagnostic = Diagnostic::invalid(&format!("/images/{}", image.index), message);
                 warnings.downgrade(&diagnostic, SHOWN_WITHOUT_IMAGE);
             }
         }
     }
+    model.images = images.into();
 }
 
 /// Name and URI of an image.
@@ -161,6 +162,9 @@ fn store_headers(encoded: &[EncodedImage<'_>], files: &mut [ImageInfo]) {
 }
 
 /// Reads the bytes of the needed images; failures are warnings.
+///
+/// The limit on texels is spent here, by the sizes in the headers, so that no decoder starts on an
+/// image that would exceed it.
 fn read_encoded<'a>(
     needed: &[bool],
     source: &'a AccessorReader<'_>,

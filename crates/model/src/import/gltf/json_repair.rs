@@ -103,11 +103,11 @@ fn replace_with_empty(document: &mut Value, collection: &str, at: &str) -> Optio
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::codes;
 
-    fn deserialize_with_warnings(mut document: Value) -> (Result<Root, String>, Vec<String>) {
+    fn deserialize_with_warnings(mut document: Value) -> (Result<Root, Diagnostic>, Vec<String>) {
         let mut warnings = ImportWarnings::new(true);
-        let root = deserialize_leniently(&mut document, 1000, &mut warnings)
-            .map_err(|diagnostic| diagnostic.to_string());
+        let root = deserialize_leniently(&mut document, 1000, &mut warnings);
         let messages =
             warnings.into_list().into_iter().map(|w| format!("{} {}", w.location, w.message));
         (root, messages.collect())
@@ -141,13 +141,14 @@ mod tests {
 
     #[test]
     fn what_cannot_be_repaired_is_an_error_after_finitely_many_steps() {
-        assert!(deserialize_with_warnings(json!([])).0.is_err());
-        assert!(deserialize_with_warnings(json!({"asset": 3})).0.is_err());
-        let bad: Vec<Value> = (0..2000).map(|_| json!({"primitives": 1})).collect();
-        assert!(
-            deserialize_with_warnings(json!({"asset": {"version": "2.0"}, "meshes": bad}))
-                .0
-                .is_err()
-        );
+        let many: Vec<Value> = (0..2000).map(|_| json!({"primitives": 1})).collect();
+        for (document, location) in [
+            (json!([]), ""),
+            (json!({"asset": 3}), ""),
+            (json!({"asset": {"version": "2.0"}, "meshes": many}), "/meshes/250/primitives"),
+        ] {
+            let diagnostic = deserialize_with_warnings(document).0.unwrap_err();
+            assert_eq!((diagnostic.code, &*diagnostic.location), (codes::INVALID_DATA, location));
+        }
     }
 }

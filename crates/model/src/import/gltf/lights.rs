@@ -1,5 +1,8 @@
 //! Punctual lights (KHR_lights_punctual), their parameters checked; an invalid one is left out with
 //! a warning.
+//!
+//! The extension stores lights in the document's root, and each node refers to one. Defaults are
+//! its own: white, intensity 1, infinite range, cone angles 0 and π/4.
 
 use crate::diagnostic::Diagnostic;
 use crate::import::warnings::ImportWarnings;

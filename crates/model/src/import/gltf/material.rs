@@ -49,6 +49,10 @@ struct MaterialReader<'a, 'w> {
 
 impl<'a> MaterialReader<'a, '_> {
     /// Reads core properties first, then the extensions.
+    ///
+    /// Factors out of range are clamped with a warning. Textures of specular-glossiness replace
+    /// those of the metallic-roughness workflow, which files have beside it for readers without the
+    /// extension.
     fn read_material(mut self) -> Material {
         let json = &self.root.materials[self.at];
         let pbr = &json.pbr_metallic_roughness;
@@ -100,6 +104,8 @@ impl<'a> MaterialReader<'a, '_> {
     }
 
     /// Clamps numbers to bounds, with a warning; what is not a number becomes the minimum.
+    ///
+    /// The comparison is written so that NaN fails it.
     fn clamp_numbers(&mut self, member: &str, numbers: &mut [f32], [min, max]: [f32; 2]) {
         let given = numbers.to_vec();
         for number in &mut *numbers {
@@ -115,6 +121,7 @@ impl<'a> MaterialReader<'a, '_> {
         }
     }
 
+    /// The alpha mode with its cutoff (0.5 by default); an unknown one is opaque, with a warning.
     fn read_alpha_mode(&mut self) -> AlphaMode {
         let json = &self.root.materials[self.at];
         match json.alpha_mode {

@@ -2,9 +2,10 @@
 //! KHR_meshopt_compression.
 //!
 //! ```text
-//!  stream ──ATTRIBUTES──► elements ──filter──► bytes    byte-wise deltas, in blocks   vertex_codec
-//!         ──TRIANGLES───► indices ───────────► bytes    edge and vertex FIFOs         index_codec
-//!         ──INDICES─────► indices ───────────► bytes    deltas to two baselines       index_sequence_codec
+//!  stream ──ATTRIBUTES──► elements ──filter──► bytes    byte-wise deltas in blocks   vertex_codec
+//!         ──TRIANGLES───► indices ───────────► bytes    edge and vertex FIFOs        index_codec
+//!         ──INDICES─────► indices ───────────► bytes    deltas to two baselines
+//!                                                                           index_sequence_codec
 //! ```
 //!
 //! Written from the text of the extensions, whose appendices define the streams byte by byte. A

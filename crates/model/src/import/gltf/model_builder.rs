@@ -1,4 +1,14 @@
 //! Model assembly: the order in which the parts of a document are read.
+//!
+//! ```text
+//!  1. scene graph    nodes, scenes, cameras, lights, materials, textures, skins, animations
+//!  2. images         read as far as the JSON announces them, then decoded by other threads
+//!  3. geometry       meshes, variants, instances, while the images are decoded
+//!  4. images         stored; read again if the meshes turned out to need others
+//! ```
+//!
+//! Each step needs only what earlier ones have made. Images come early because decoding takes
+//! longest and is independent of everything else.
 
 use super::accessor::AccessorReader;
 use super::animation::{self, AnimatedObjects};
@@ -51,6 +61,9 @@ fn collect_announced_images<'a>(
 }
 
 /// Reads everything but meshes and images.
+///
+/// References to skins and cameras that turned out to be invalid are cleared, so that every index
+/// in the nodes is valid.
 fn build_scene_graph(
     document: &GltfDocument,
     source: &AccessorReader<'_>,
@@ -84,6 +97,7 @@ fn build_scene_graph(
     Ok(model)
 }
 
+/// Reads the animations; pointers of KHR_animation_pointer may add texture transforms to materials.
 fn build_animations(
     document: &GltfDocument,
     source: &AccessorReader<'_>,

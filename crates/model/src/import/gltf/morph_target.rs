@@ -1,4 +1,8 @@
 //! Morph targets: deltas of vertex attributes; an invalid one is left out with a warning.
+//!
+//! Deltas have the formats of the attributes they change, except that tangents have three
+//! components: w, the handedness, does not morph. Texture coordinates and colors are rarely
+//! supported elsewhere, but allowed (glTF 2.0 §3.7.2.2).
 
 use super::attribute::{AllowedFormats, AttributeReader, COLOR, POSITION, TEXCOORD};
 use crate::MorphTarget;

@@ -1,4 +1,8 @@
 //! Node transforms, in the double precision of JSON numbers.
+//!
+//! The `gltf` crate stores them in single precision. Models far from the origin, as CAD and map
+//! data often are, lose millimeters that way, so the transforms are taken out of the JSON
+//! beforehand.
 
 use crate::Trs;
 use crate::diagnostic::Diagnostic;

@@ -2,6 +2,17 @@
 //!
 //! Positions and indices define the shape; if they are invalid the file is refused. All other
 //! attributes change only the look: an invalid one is left out with a warning.
+//!
+//! ```text
+//!  POSITION ──► number of vertices ─┐
+//!  indices ───► expand strips, fans ┴─► drop items out of range ─► renumber from the lowest vertex
+//!                                             │
+//!  positions of that range ─► drop items with vertices that are not finite ─► other attributes
+//! ```
+//!
+//! Only the range of vertices between the lowest and the highest index is read: exporters that
+//! share one array of vertices between all primitives would otherwise cost memory in the square of
+//! their number.
 
 use super::accessor::AccessorReader;
 use super::attribute::{
@@ -159,8 +170,10 @@ impl<'a> PrimitiveReader<'a, '_> {
         reader.read_edges(primitive.topology)
     }
 
-    /// Decoded data of a Draco-compressed primitive. `None` if it is not compressed, or if the
-    /// stream is broken and there is uncompressed data.
+    /// Decoded data of a Draco-compressed primitive.
+    ///
+    /// `None` if it is not compressed, or if the stream is broken and the file has uncompressed
+    /// data as a fallback for readers without the extension; a warning says so.
     fn decode_draco_data(&mut self, tangents: bool) -> Result<Option<DracoData>, Diagnostic> {
         let positions = self.attribute_accessor(Semantic::Positions);
         let has_other_data = positions.is_some_and(|accessor| !self.source.has_no_data(accessor));
@@ -209,6 +222,9 @@ impl<'a> PrimitiveReader<'a, '_> {
     }
 
     /// Removes items with an index out of range: all remaining indices are valid.
+    ///
+    /// Whole points, lines or triangles are removed, never single indices, which would shift all
+    /// others.
     fn drop_items_without_vertices(&mut self, primitive: &mut Primitive, vertices: usize) {
         if used_range(&primitive.indices).end <= vertices {
             return;
@@ -276,17 +292,7 @@ impl<'a> PrimitiveReader<'a, '_> {
         }
         let (color, pointer) = named(Semantic::Colors(0));
         primitive.colors = attributes.read_colors(color, &pointer)?;
-        for set in 0..JOINT_SETS {
-            let (joints, pointer) = named(Semantic::Joints(set));
-            let joints =
-                attributes.read_attribute(joints, &pointer, &JOINTS, |s, e| s.read_u16s(&e))?;
-            let (weights, pointer) = named(Semantic::Weights(set));
-            let weights =
-                attributes.read_attribute(weights, &pointer, &WEIGHTS, |s, e| s.read_floats(&e))?;
-            let (Some(joints), Some(weights)) = (joints, weights) else { break };
-            primitive.joint_indices.push(joints);
-            primitive.joint_weights.push(weights);
-        }
+        read_joints(primitive, &mut attributes, named)?;
         let (mesh, part) = self.mesh_and_part;
         for (at, json) in json.targets.iter().flatten().enumerate() {
             let further = self.context.untyped.extra_morph_attributes.get(&(mesh, part, at));
@@ -332,6 +338,29 @@ impl<'a> PrimitiveReader<'a, '_> {
         self.warnings.downgrade(&diagnostic, "the default material is used");
         None
     }
+}
+
+/// Reads the sets of joints and weights, up to the first that is missing or invalid.
+///
+/// `named` gives the accessor of an attribute, if the primitive has it, and its location. A set of
+/// joints without weights means nothing, nor do weights without joints: both are dropped.
+fn read_joints(
+    primitive: &mut Primitive,
+    attributes: &mut AttributeReader<'_, '_>,
+    named: impl Fn(Semantic) -> (Option<usize>, String),
+) -> Result<(), Diagnostic> {
+    for set in 0..JOINT_SETS {
+        let (joints, pointer) = named(Semantic::Joints(set));
+        let joints =
+            attributes.read_attribute(joints, &pointer, &JOINTS, |s, e| s.read_u16s(&e))?;
+        let (weights, pointer) = named(Semantic::Weights(set));
+        let weights =
+            attributes.read_attribute(weights, &pointer, &WEIGHTS, |s, e| s.read_floats(&e))?;
+        let (Some(joints), Some(weights)) = (joints, weights) else { break };
+        primitive.joint_indices.push(joints);
+        primitive.joint_weights.push(weights);
+    }
+    Ok(())
 }
 
 /// Renumbers indices from the lowest one on; returns the range they came from.

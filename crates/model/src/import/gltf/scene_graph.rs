@@ -1,4 +1,10 @@
 //! Scene graph import: nodes with their transforms, proof that they form a forest, and scene roots.
+//!
+//! In glTF, children are listed by their parents. Nothing in the format prevents a node from having
+//! two parents or from being its own ancestor; both would make traversal of the model wrong or
+//! endless. The proof has two steps: each node gets at most one parent, and a traversal from the
+//! nodes without a parent must visit every node. Traversals use a stack of their own, so that depth
+//! costs memory and not the thread's stack; [`Limits::node_depth`] bounds it nevertheless.
 
 use super::document::GltfDocument;
 use super::node_transform::NodeTransform;
@@ -29,6 +35,8 @@ pub(super) fn import_nodes(
 }
 
 /// Reads a node without its position in the hierarchy.
+///
+/// Its mesh, skin and camera are checked to exist; a skin without a mesh is dropped with a warning.
 fn read_node(
     document: &GltfDocument,
     at: usize,
@@ -90,6 +98,9 @@ fn checked_index<T>(
 }
 
 /// Sets the parent of every node; each may have only one.
+///
+/// # Errors
+/// A child does not exist or has a parent already. Reading leniently, the first parent is kept.
 fn link_parents(nodes: &mut [Node], warnings: &mut ImportWarnings) -> Result<(), Diagnostic> {
     let count = nodes.len();
     for parent in 0..count {
@@ -145,6 +156,9 @@ fn update_global_transforms(
 }
 
 /// Computes the global transforms of a root and its descendants, and checks their depth.
+///
+/// # Errors
+/// A product of transforms overflows, or the hierarchy is deeper than the limit.
 fn update_transforms_below(
     nodes: &mut [Node],
     root: usize,
@@ -189,6 +203,9 @@ pub(super) fn import_scenes(root: &Root) -> Vec<SceneRoots> {
 }
 
 /// Roots of the active scene; without scenes, all nodes without a parent.
+///
+/// A node that is listed twice is drawn once, with a warning. One that has a parent is drawn too,
+/// unless an ancestor is listed as well; the specification forbids both.
 pub(super) fn scene_roots(
     root: &Root,
     scene: usize,

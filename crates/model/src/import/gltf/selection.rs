@@ -1,4 +1,8 @@
 //! Active scene and material variants (KHR_materials_variants).
+//!
+//! Variants are named in the document's root; each primitive maps some of them to materials.
+//! Choosing a variant replaces the material of every primitive that maps it, once, when the file is
+//! loaded.
 
 use crate::diagnostic::Diagnostic;
 use crate::import::NameOrIndex;

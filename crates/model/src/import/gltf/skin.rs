@@ -1,4 +1,7 @@
 //! Skins: joints and inverse bind matrices; an invalid skin is left out with a warning.
+//!
+//! A skin needs at least one joint, every joint must be a node, and there must be a matrix for
+//! each. The `skeleton` member is ignored: it does not affect the joint matrices.
 
 use super::accessor::AccessorReader;
 use super::node_transform::affine_from_columns;

@@ -1,4 +1,8 @@
 //! Textures: the image each uses, and its sampler.
+//!
+//! glTF numbers filters and wrap modes by OpenGL's constants, with magnification, minification and
+//! mipmap filter in two members; here each is an enum. Without a sampler, or without `minFilter`,
+//! textures repeat and are filtered trilinearly.
 
 use crate::diagnostic::Diagnostic;
 use crate::import::warnings::ImportWarnings;

@@ -50,6 +50,7 @@ fn index_or_max(value: Option<&Value>) -> usize {
     value.and_then(Value::as_u64).and_then(|at| usize::try_from(at).ok()).unwrap_or(usize::MAX)
 }
 
+/// Animation channels whose target has the extension KHR_animation_pointer.
 fn collect_pointer_channels(document: &Value) -> Vec<PointerChannel> {
     let mut collected = Vec::new();
     for (animation, json) in indexed_items(document, "animations") {
@@ -64,6 +65,7 @@ fn collect_pointer_channels(document: &Value) -> Vec<PointerChannel> {
     collected
 }
 
+/// Texture coordinates and colors of morph targets, by mesh, primitive and target index.
 fn collect_morph_attributes(
     document: &Value,
 ) -> BTreeMap<(usize, usize, usize), Vec<(String, usize)>> {

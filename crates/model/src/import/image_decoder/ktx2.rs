@@ -41,8 +41,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<crate::Image, String> {
 mod tests {
     use super::*;
 
-    /// An image of 4 x 4 texels in one ASTC block of one colour (a void-extent block: Khronos data format
-    /// specification, §23.23), with the smallest header that KTX 2.0 allows.
+    /// An image of 4 x 4 texels in one ASTC block of one color (a void-extent block: Khronos data
+    /// format specification, §23.23), with the smallest header that KTX 2.0 allows.
     fn one_color([r, g, b, a]: [u16; 4]) -> Vec<u8> {
         const ASTC_4X4_SRGB: u32 = 158;
         const HEADER: u32 = 80 + 24;
@@ -56,7 +56,8 @@ mod tests {
         // The level: place, length, length before compression, 64 bits each.
         let offset = (HEADER + DESCRIPTOR).next_multiple_of(16);
         words(&[offset, 0, 16, 0, 16, 0]);
-        // One block of descriptor: ASTC, BT.709, sRGB, straight alpha, 4 x 4 texels in 16 bytes, one sample.
+        // One block of descriptor: ASTC, BT.709, sRGB, straight alpha, 4 x 4 texels in 16 bytes,
+        // one sample.
         words(&[DESCRIPTOR, 0, 2 | 40 << 16, 162 | 1 << 8 | 2 << 16, 3 | 3 << 8, 16, 0]);
         words(&[127 << 16, 0, 0, u32::MAX]);
         bytes.resize(offset as usize, 0);
@@ -78,7 +79,8 @@ mod tests {
     fn every_truncation_is_an_error_and_no_panic() {
         let bytes = one_color([0; 4]);
         for end in 0..bytes.len() {
-            assert!(decode(&bytes[..end]).is_err(), "{end}");
+            let message = decode(&bytes[..end]).unwrap_err();
+            assert!(message.starts_with("the KTX2 image is "), "cut at {end}: {message}");
         }
     }
 }

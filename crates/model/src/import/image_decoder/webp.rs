@@ -1,7 +1,7 @@
 //! WebP frame headers: rejects frames larger than the image before the decoder allocates for them.
 //!
 //! ```text
-//!  RIFF length WEBP │ VP8X canvas │ VP8 frame           chunks: id, length, bytes, padded to even length
+//!  RIFF length WEBP │ VP8X canvas │ VP8 frame       chunks: id, length, bytes, padded to even
 //!                                 │ ANMF position, VP8 frame
 //! ```
 //! Source: RFC 9649 (the container) and RFC 6386 §9.1 (the frame header).
@@ -82,13 +82,18 @@ mod tests {
         let moving = |frame: &[u8]| chunk(b"ANMF", &[&[0; 16], frame].concat());
         let fits = |chunks: &[&[u8]]| {
             let file = [b"RIFF\0\0\0\0WEBP", &chunks.concat()[..]].concat();
-            check_frame_sizes(&file, (8, 4)).is_ok()
+            check_frame_sizes(&file, (8, 4))
         };
         let odd = chunk(b"ICCP", &[1, 2, 3]);
-        assert!(fits(&[]) && fits(&[&small]) && fits(&[&odd, &moving(&small), &small]));
-        assert!(!fits(&[&wide]) && !fits(&[&odd, &small, &high]));
-        assert!(!fits(&[&moving(&small), &moving(&wide)]));
-        assert!(fits(&[&small, b"VP8 \xFF\xFF\xFF\xFF\0\0\0\x9D\x01"]), "cut off");
-        assert!(fits(&[&frame(0x4008, 0xC004)]), "with marks for enlarging");
+        assert_eq!(fits(&[]), Ok(()));
+        assert_eq!(fits(&[&small]), Ok(()));
+        assert_eq!(fits(&[&odd, &moving(&small), &small]), Ok(()));
+        let too_large =
+            |size: &str| Err(format!("the WebP has a frame of {size} texels in an image of 8 x 4"));
+        assert_eq!(fits(&[&wide]), too_large("9 x 4"));
+        assert_eq!(fits(&[&odd, &small, &high]), too_large("8 x 5"));
+        assert_eq!(fits(&[&moving(&small), &moving(&wide)]), too_large("9 x 4"));
+        assert_eq!(fits(&[&small, b"VP8 \xFF\xFF\xFF\xFF\0\0\0\x9D\x01"]), Ok(()), "cut off");
+        assert_eq!(fits(&[&frame(0x4008, 0xC004)]), Ok(()), "with marks for enlarging");
     }
 }

@@ -1,11 +1,15 @@
 //! meshopt mode TRIANGLES: most triangles share an edge with a recent one and take a single byte.
 //!
 //! ```text
-//!  code  X Y    X < 15: edge X, counted back from the newest,     a ───► b     edges pushed: c b, a c
-//!               and a third vertex                                 ▲   ╱
-//!        15 Y   three vertices: Y < 14 from the table,            c ◄╱
-//!               else from a byte of the data
+//!  code  X Y    X < 15: edge X, counted back from        a ───► b     edges pushed: c b, a c
+//!               the newest, and a third vertex            ▲   ╱
+//!        15 Y   three vertices: Y < 14 from the          c ◄╱
+//!               table, else from a byte of the data
 //! ```
+//!
+//! The third vertex (Y < 15, and each half of a table entry) is 0 for a new vertex, 1 to 12 for one
+//! of the vertex FIFO, 13 and 14 for the last explicit index −1 and +1, 15 for an explicit index: a
+//! zigzag-coded difference to the last one.
 
 use super::byte_stream::{ByteStream, StreamError, decode_zigzag, push_index};
 
@@ -231,7 +235,8 @@ mod tests {
         let whole = stream(&[0xF0, 0x0F, 0xFF], &[20, 0xFF, 14, 2, 1]);
         assert!(decode_triangles(&whole, 9, 2).is_ok());
         for end in 0..whole.len() {
-            assert!(decode_triangles(&whole[..end], 9, 2).is_err(), "cut at {end}");
+            let cut = decode_triangles(&whole[..end], 9, 2).unwrap_err();
+            assert!(matches!(cut, StreamError::Short | StreamError::Table), "cut at {end}: {cut}");
         }
     }
 }

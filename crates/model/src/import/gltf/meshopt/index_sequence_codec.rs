@@ -44,7 +44,8 @@ mod tests {
             assert_eq!(decode_index_sequence(&stream, 4, stride), Ok(expected));
         }
         for end in 0..stream.len() {
-            assert!(decode_index_sequence(&stream[..end], 4, 2).is_err(), "cut at {end}");
+            let cut = decode_index_sequence(&stream[..end], 4, 2);
+            assert_eq!(cut, Err(StreamError::Short), "cut at {end}");
         }
         assert_eq!(decode_index_sequence(&stream, 3, 2), Err(StreamError::Long(1)));
         assert_eq!(decode_index_sequence(&stream, 5, 2), Err(StreamError::Short));

@@ -4,10 +4,13 @@
 //! ```text
 //!  stream:  version │ block │ … │ padding │ element before the first │ channel modes (version 1)
 //!  block:   controls (version 1) │ all bytes 0 of its elements │ all bytes 1 │ …
-//!  bytes n: two bits a group │ group of 16 │ group of 16 │ …    a group has 0, 1, 2, 4 or 8 bits a
-//!                                                               difference; one of all ones is stored
-//!                                                               in a byte after the group
+//!  bytes n: two bits a group │ group of 16 │ group of 16 │ …
 //! ```
+//!
+//! A group stores its differences with 0, 1, 2, 4 or 8 bits each; one of all ones is an escape: the
+//! difference follows in a byte after the group. Version 1 adds channels of four bytes whose deltas
+//! are bytes, 16-bit words or 32-bit exclusive ors, and controls that store bytes uncompressed or
+//! not at all.
 
 use super::byte_stream::{ByteStream, StreamError};
 
@@ -39,7 +42,8 @@ pub(super) fn decode_vertices(
     };
     let block_elements =
         (8192 / stride / BYTE_GROUP_SIZE * BYTE_GROUP_SIZE).min(VERTEX_BLOCK_MAX_SIZE);
-    // Each block has a byte for each channel at least: what is far too short is known before there is an array.
+    // Each block has a byte for each channel at least: what is far too short is known before there
+    // is an array.
     if stream.len() < count.div_ceil(block_elements).saturating_mul(stride / 4) {
         return Err(StreamError::Short);
     }
@@ -219,7 +223,8 @@ mod tests {
 
     #[test]
     fn version_0_adds_up_the_deltas_of_each_byte() {
-        // Byte 0 of 17 elements is the example and one more group of zeros; byte 1 rises by 1; bytes 2 and 3 stay.
+        // Byte 0 of 17 elements is the example and one more group of zeros; byte 1 rises by 1;
+        // bytes 2 and 3 stay.
         let mut stream = vec![0xA0, 0b0010];
         stream.extend(NIBBLES);
         stream.extend([0b0101, 0xAA, 0xAA, 0xAA, 0xAA, 0x80, 0, 0, 0, 0, 0]);
@@ -232,18 +237,20 @@ mod tests {
             assert_eq!(element, [first, 21 + at as u8, 30, 40], "element {at}");
         }
         for end in 0..stream.len() {
-            assert!(decode_vertices(&stream[..end], 17, 4).is_err(), "cut at {end}");
+            let cut = decode_vertices(&stream[..end], 17, 4);
+            assert_eq!(cut, Err(StreamError::Short), "cut at {end}");
         }
-        assert!(decode_vertices(&stream, 16, 4).is_err());
+        assert_eq!(decode_vertices(&stream, 16, 4), Err(StreamError::Long(4)));
         stream.insert(20, 0);
-        assert!(decode_vertices(&stream, 17, 4).is_err());
+        assert_eq!(decode_vertices(&stream, 17, 4), Err(StreamError::Long(1)));
     }
 
     #[test]
     fn version_1_has_controls_and_three_kinds_of_delta() {
         let bits = 0x3F80_0000u32 ^ 0x4000_0000;
         let rotated = bits.rotate_left(4).to_le_bytes();
-        // Three channels of two elements: bytes by groups of one bit and literally; words; bits turned by 4.
+        // Three channels of two elements: bytes by groups of one bit and literally; words; bits
+        // turned by 4.
         let mut stream = vec![0xA1, 0b10_10_11_01, 0b10_10_11_11, 0xFF];
         stream.extend([0, 0b01, 0, 6]); // byte 0: one group of one bit: 6 → +3, then 0
         stream.extend([1, 4]); // byte 1: −1, +2
@@ -263,7 +270,10 @@ mod tests {
         assert_eq!(elements[12..20], [103, 101, 7, 8, 0x00, 0x0F, 1, 2]);
         assert_eq!(elements[20..], two);
         for end in 0..stream.len() {
-            assert!(decode_vertices(&stream[..end], 2, 12).is_err(), "cut at {end}");
+            // The channel modes are at the end: cut elsewhere, other bytes take their part.
+            let cut = decode_vertices(&stream[..end], 2, 12).unwrap_err();
+            let is_expected = matches!(cut, StreamError::Short | StreamError::Channel(_));
+            assert!(is_expected, "cut at {end}: {cut}");
         }
         for mode in [0x03, 0x10, 0x11, 0x0F] {
             *stream.last_mut().unwrap() = mode;

@@ -183,7 +183,8 @@ mod tests {
 
     #[test]
     fn colors_of_all_widths() {
-        // Red, green, blue, white, grey of seven bits: 127 is one, and alpha has six bits below the marker.
+        // Red, green, blue, white, grey of seven bits: 127 is one, and alpha has six bits below the
+        // marker.
         for ([r, g, b], alpha) in [
             ([127, 0, 0], 0x7F),
             ([0, 127, 0], 0x7F),

@@ -1,0 +1,68 @@
+//! Linear gradients, interpolated in sRGB as web pages interpolate them (CSS Images 3, §3.1).
+//!
+//! ```text
+//!   ┌───────────┐     The gradient line runs through the center at an angle. Colors are
+//!   │╲ color 0  │     constant across it; the first and the last are reached where their
+//!   │ ╲         │     lines touch the corners of the picture.
+//!   │  ╲ ──►    │
+//!   │   ╲color 1│
+//!   └───────────┘
+//! ```
+
+use crate::color::srgb_to_linear;
+
+/// Steps of the table: joined by straight lines they are finer than 16 bits can resolve.
+const TABLE_STEPS: usize = 1024;
+
+/// A linear gradient through equally spaced colors.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Gradient {
+    /// Linear colors at equal distances along the gradient line, from its beginning to its end.
+    table: Vec<[f32; 3]>,
+    /// The fractions of the gradient line that a step across the whole picture and one down it go.
+    axis: [f32; 2],
+}
+
+impl Gradient {
+    /// The gradient through at least one color, given in sRGB codes, in a picture of this size.
+    ///
+    /// It runs down at an angle of 0 radians, and to the right at a quarter of a turn.
+    #[must_use]
+    pub fn new(colors: &[[u8; 3]], angle: f64, [width, height]: [u32; 2]) -> Self {
+        let (sine, cosine) = (libm::sin(angle), libm::cos(angle));
+        let (across, down) = (f64::from(width) * sine, f64::from(height) * cosine);
+        // From corner to corner: CSS's length of the gradient line.
+        let length = across.abs() + down.abs();
+        let axis = [across / length, down / length].map(|component| component as f32);
+        let last = colors.len().saturating_sub(1);
+        let mixed = |step: usize| {
+            let position = step as f64 / TABLE_STEPS as f64 * last as f64;
+            let first = (position as usize).min(last.saturating_sub(1));
+            let (from, to) = (colors[first], colors[(first + 1).min(last)]);
+            let fraction = position - first as f64;
+            [0, 1, 2].map(|k| {
+                let [a, b] = [from[k], to[k]].map(|code: u8| f64::from(code) / 255.0);
+                srgb_to_linear(a + (b - a) * fraction) as f32
+            })
+        };
+        Self { table: (0..=TABLE_STEPS).map(mixed).collect(), axis }
+    }
+
+    /// The color at a position in fractions of the picture: linear, opaque.
+    pub(super) fn color_at(&self, [x, y]: [f32; 2]) -> [f32; 4] {
+        let [across, down] = self.axis;
+        let along = (0.5 + (x - 0.5) * across + (y - 0.5) * down).clamp(0.0, 1.0);
+        let step = along * TABLE_STEPS as f32;
+        let first = (step as usize).min(TABLE_STEPS - 1);
+        let fraction = step - first as f32;
+        let (from, to) = (self.table[first], self.table[first + 1]);
+        let [r, g, b] = [0, 1, 2].map(|k| from[k] + (to[k] - from[k]) * fraction);
+        [r, g, b, 1.0]
+    }
+
+    /// The color at its center: linear, opaque.
+    #[must_use]
+    pub fn center_color(&self) -> [f32; 4] {
+        self.color_at([0.5, 0.5])
+    }
+}

@@ -1,0 +1,35 @@
+//! The BRDF of glTF materials: a base of diffuse and GGX specular reflection, with layers over it.
+//!
+//! ```text
+//!  clearcoat          smooth dielectric of index 1.5     KHR_materials_clearcoat
+//!  sheen              fibers, Charlie distribution       KHR_materials_sheen
+//!  base specular      GGX, isotropic or anisotropic,     glTF 2.0, KHR_materials_specular, _ior,
+//!                     bare or under a thin film          _anisotropy, _iridescence
+//!  base diffuse       Lambert                            glTF 2.0, Appendix B
+//!  transmitted light  straight through, tinted           KHR_materials_transmission, _volume
+//! ```
+//!
+//! Each layer scales what is below it by the energy that it leaves: the clearcoat by its Fresnel
+//! reflectance, sheen by its directional albedo, the base specular by Fresnel.
+//!
+//! | file | term |
+//! | --- | --- |
+//! | `microfacet` | GGX distribution, Smith height-correlated visibility, Schlick Fresnel |
+//! | `base` | dielectric and metal, energy compensation, specular-glossiness |
+//! | `directional_albedo` | the second sum of the split-sum approximation, as a table |
+//! | `anisotropy` | anisotropic GGX |
+//! | `thin_film` | iridescence by interference in a thin film |
+//! | `sheen` | Charlie distribution and its albedo |
+//! | `clearcoat` | the clear layer |
+//! | `layered` | the sum of all of it, over lights and environment |
+
+mod anisotropy;
+mod base;
+mod clearcoat;
+mod directional_albedo;
+mod layered;
+mod microfacet;
+mod sheen;
+mod thin_film;
+
+pub(crate) use layered::LayeredBrdf;

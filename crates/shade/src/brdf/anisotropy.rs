@@ -1,0 +1,89 @@
+//! Anisotropic GGX: highlights that are long in one direction, as of brushed metal
+//! (KHR_materials_anisotropy).
+//!
+//! ```text
+//!  D = 1 / (π αt αb ((t·h / αt)² + (b·h / αb)² + (n·h)²)²)                Burley 2012
+//!  V = ½ / (n·l Λ(v) + n·v Λ(l)),  Λ(w)² = (αt t·w)² + (αb b·w)² + (n·w)²  Heitz 2014
+//! ```
+//!
+//! α along the bitangent is that of the roughness; along the tangent it grows to 1 with the square
+//! of the strength.
+
+use super::microfacet::ShadingAngles;
+use crate::lanes::{Lanes, Vec3Lanes};
+use crate::material_inputs::MaterialInputs;
+use crate::surface_geometry::{SurfaceGeometry, TangentLanes};
+use std::f32::consts::FRAC_1_PI;
+
+/// The anisotropy frame at some fragments, and the α along its tangent.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Anisotropy<const N: usize> {
+    /// Unit vectors along which highlights are stretched; 0 where the surface has no tangent.
+    tangents: Vec3Lanes<N>,
+    /// Unit vectors across, perpendicular to tangent and normal.
+    bitangents: Vec3Lanes<N>,
+    /// The α of GGX along the tangents, not below that of the roughness.
+    tangent_alpha: Lanes<N>,
+}
+
+impl<const N: usize> Anisotropy<N> {
+    /// The frame of a surface with these tangents, rotated by the material's angle in radians and
+    /// by the direction of its texture.
+    #[inline(always)]
+    pub(super) fn new(
+        inputs: &MaterialInputs<N>,
+        geometry: &SurfaceGeometry<N>,
+        tangents: &TangentLanes<N>,
+        rotation: f32,
+        alpha: Lanes<N>,
+    ) -> Self {
+        let n = geometry.normals;
+        // Gram-Schmidt: the tangent, perpendicular to the normal of the normal map.
+        let t = tangents.vectors - n * n.dot(tangents.vectors);
+        let inv_length =
+            t.dot(t).map(|square| if square > 1e-12 { 1.0 / square.sqrt() } else { 0.0 });
+        let t = t * inv_length;
+        let b = n.cross(t) * tangents.handedness();
+        // The direction in the tangent plane: texture, then rotation.
+        let (sin, cos) = (libm::sinf(rotation), libm::cosf(rotation));
+        let Vec3Lanes { x, y, z: strength } = inputs.layers.anisotropy;
+        let length = (x * x + y * y).sqrt().max(1e-6);
+        let (x, y) = ((cos * x - sin * y) / length, (sin * x + cos * y) / length);
+        let strength = strength.clamp(0.0, 1.0);
+        let stretch = (strength * strength).select(&inv_length.is_above(0.0), Lanes::ZERO);
+        Self {
+            tangents: t * x + b * y,
+            bitangents: b * x - t * y,
+            tangent_alpha: alpha.lerp(Lanes::ONE, stretch),
+        }
+    }
+
+    /// The anisotropic GGX lobe without Fresnel, times the cosine of the light: `D · V · n·l`, with
+    /// `alpha` across the frame.
+    #[inline(always)]
+    pub(super) fn ggx_lobe(
+        &self,
+        angles: &ShadingAngles<N>,
+        alpha: Lanes<N>,
+        v: Vec3Lanes<N>,
+        l: Vec3Lanes<N>,
+    ) -> Lanes<N> {
+        let (t, b) = (self.tangents, self.bitangents);
+        let (alpha_t, alpha_b) = (self.tangent_alpha, alpha);
+        let ShadingAngles { n_dot_l, n_dot_v, n_dot_h, .. } = *angles;
+        // Anisotropic GGX distribution, Burley 2012.
+        let sum = l + v;
+        let inv_length = 1.0 / sum.dot(sum).max(1e-12).sqrt();
+        let t_dot_h = t.dot(sum) * inv_length / alpha_t;
+        let b_dot_h = b.dot(sum) * inv_length / alpha_b;
+        let spread = (t_dot_h * t_dot_h + b_dot_h * b_dot_h + n_dot_h * n_dot_h).max(1e-9);
+        let distribution = FRAC_1_PI / (alpha_t * alpha_b * spread * spread);
+        // Smith height-correlated visibility, Heitz 2014.
+        let lambda = |direction: Vec3Lanes<N>, cosine: Lanes<N>| {
+            let (along, across) = (alpha_t * t.dot(direction), alpha_b * b.dot(direction));
+            (along * along + across * across + cosine * cosine).sqrt()
+        };
+        let masking = n_dot_l * lambda(v, n_dot_v) + n_dot_v * lambda(l, n_dot_l);
+        distribution * (0.5 * n_dot_l) / masking.max(1e-6)
+    }
+}

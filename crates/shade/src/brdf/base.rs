@@ -1,0 +1,209 @@
+//! The base BRDF: Lambert diffuse under GGX specular, dielectric or metal (glTF 2.0, Appendix B).
+//!
+//! ```text
+//!  dielectric = (1 − F) · base color / π + F · D V
+//!  metal      = F(base color) · D V
+//!  base       = mix(dielectric, metal, metallic)
+//! ```
+//!
+//! Specular reflection is multiplied by the energy compensation of
+//! [`directional_albedo`](super::directional_albedo), for the energy that a single bounce loses.
+//! Under light from all directions, diffuse reflection is what the specular albedo leaves of it, as
+//! it is what F leaves under light from one direction.
+
+use super::anisotropy::Anisotropy;
+use super::directional_albedo::{DirectionalAlbedo, energy_compensation};
+use super::microfacet::{MIN_ROUGHNESS, ShadingAngles, pow5, roughness_to_alpha};
+use super::thin_film::thin_film_f0;
+use crate::Draw;
+use crate::lanes::{Lanes, Rgb};
+use crate::light::IncidentLight;
+use crate::material_inputs::{LayerInputs, MaterialInputs};
+use crate::surface_geometry::SurfaceGeometry;
+use crate::transmission::{luminance, transmission_tint};
+use model::{Material, MaterialExtensions};
+use std::f32::consts::FRAC_1_PI;
+
+/// The parameters of the base BRDF at some fragments, resolved from the material.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BaseBrdf<const N: usize> {
+    /// The diffuse albedo, before Fresnel takes its part.
+    pub(super) diffuse: Rgb<N>,
+    /// The specular reflectance at normal incidence, mixed from dielectric and metal.
+    f0: Rgb<N>,
+    /// The specular reflectance at grazing angles.
+    f90: Lanes<N>,
+    /// F0 of the dielectric interface over the diffuse part; of colors the largest channel.
+    dielectric_f0: Lanes<N>,
+    /// F90 of the dielectric interface over the diffuse part.
+    dielectric_f90: Lanes<N>,
+    /// The perceptual roughness, widened by the curvature within a pixel.
+    pub(super) roughness: Lanes<N>,
+    /// The α of GGX.
+    pub(super) alpha: Lanes<N>,
+    /// The factor of specular reflection for multiple scattering.
+    energy_compensation: Rgb<N>,
+    /// The fraction of a white environment that is reflected specularly.
+    pub(super) specular_albedo: Rgb<N>,
+    /// The fraction of light from all directions that passes the interface to the diffuse part.
+    pub(super) diffuse_transmittance: Lanes<N>,
+}
+
+impl<const N: usize> BaseBrdf<N> {
+    /// Resolves the BRDF of a material, with the workflow (metallic-roughness or
+    /// specular-glossiness) that the material is written in.
+    #[inline(always)]
+    pub(super) fn new(
+        material: &Material,
+        inputs: &MaterialInputs<N>,
+        geometry: &SurfaceGeometry<N>,
+    ) -> Self {
+        // Geometric specular antialiasing: where a pixel sees many normals of a curved surface, its
+        // highlight is as wide as they are.
+        let roughness = inputs.roughness.clamp(MIN_ROUGHNESS, 1.0);
+        let roughness = (roughness + geometry.normal_variation).min(1.0);
+        let mut brdf = Self {
+            diffuse: Rgb::ZERO,
+            f0: Rgb::ZERO,
+            f90: Lanes::ONE,
+            dielectric_f0: Lanes::ZERO,
+            dielectric_f90: Lanes::ZERO,
+            roughness,
+            alpha: roughness_to_alpha(roughness),
+            energy_compensation: Rgb::WHITE,
+            specular_albedo: Rgb::ZERO,
+            diffuse_transmittance: Lanes::ZERO,
+        };
+        let extensions = &material.extensions;
+        if extensions.specular_glossiness.is_some() {
+            brdf.set_specular_glossiness(inputs);
+        } else {
+            brdf.set_metallic_roughness(extensions, inputs);
+        }
+        if let Some(film) = &extensions.iridescence {
+            brdf.apply_thin_film(film.ior, inputs, geometry);
+        }
+        let albedo = DirectionalAlbedo::lookup(brdf.roughness, geometry.n_dot_v);
+        brdf.apply_directional_albedo(&albedo);
+        brdf
+    }
+
+    /// The metallic-roughness workflow: mixes dielectric and metal by metalness
+    /// (KHR_materials_ior, KHR_materials_specular).
+    #[inline(always)]
+    fn set_metallic_roughness(
+        &mut self,
+        extensions: &MaterialExtensions,
+        inputs: &MaterialInputs<N>,
+    ) {
+        // Dielectric: F0 of its index of refraction, tinted and weakened by KHR_materials_specular.
+        let LayerInputs { specular, specular_color, .. } = inputs.layers;
+        let metallic = inputs.metallic;
+        let base_color = inputs.base_color;
+        // Fresnel reflectance at normal incidence of an index of refraction, against air.
+        let root = (extensions.ior - 1.0) / (extensions.ior + 1.0);
+        let ior_f0 = root * root;
+        let dielectric_f0 = specular_color.map(|color| (ior_f0 * color).min(1.0) * specular);
+        self.dielectric_f0 = dielectric_f0.max_channel().max(0.0);
+        self.dielectric_f90 = specular;
+        // Metals have no diffuse part, and the base color as F0.
+        self.diffuse = base_color * (1.0 - metallic);
+        self.f0 = dielectric_f0.zip(base_color, |dielectric, base| dielectric.lerp(base, metallic));
+        self.f90 = specular.lerp(Lanes::ONE, metallic);
+    }
+
+    /// The specular-glossiness workflow: F0 is given as a color, and diffuse is what its largest
+    /// channel leaves (KHR_materials_pbrSpecularGlossiness).
+    #[inline(always)]
+    fn set_specular_glossiness(&mut self, inputs: &MaterialInputs<N>) {
+        let specular = inputs.layers.specular_color;
+        self.dielectric_f0 = specular.max_channel().min(1.0);
+        self.dielectric_f90 = Lanes::ONE;
+        self.diffuse = inputs.base_color * (1.0 - self.dielectric_f0);
+        self.f0 = specular.map(|channel| channel.min(1.0));
+    }
+
+    /// Replaces a fraction of F0 by that of a thin film over the interface
+    /// (KHR_materials_iridescence).
+    #[inline(always)]
+    fn apply_thin_film(
+        &mut self,
+        film_ior: f32,
+        inputs: &MaterialInputs<N>,
+        geometry: &SurfaceGeometry<N>,
+    ) {
+        let LayerInputs { iridescence, iridescence_thickness, .. } = inputs.layers;
+        let film_f0 = Rgb::from_fn(|lane| {
+            let cosine = geometry.n_dot_v[lane];
+            thin_film_f0(self.f0.lane(lane), film_ior, iridescence_thickness[lane], cosine)
+        });
+        self.f0 = self.f0.zip(film_f0, |bare, film| bare.lerp(film, iridescence));
+        // The film covers the dielectric part of a surface too, which lets less light through to
+        // the diffuse part where the film reflects more.
+        let dielectric = 1.0 - inputs.metallic;
+        let film = self.f0.map(|f0| f0.min_lanes(self.dielectric_f90) * dielectric);
+        self.dielectric_f0 = self.dielectric_f0.max_lanes(film.max_channel());
+    }
+
+    /// Makes diffuse reflection translucent, and returns the transmittance of the surface: the
+    /// fraction of white light behind it that is seen through it (KHR_materials_transmission).
+    ///
+    /// It is one number, the luminance of the tint; the colored transmittance is in
+    /// [`transmission`](crate::transmission).
+    #[inline(always)]
+    pub(super) fn transmit_diffuse(
+        &mut self,
+        draw: &Draw<'_>,
+        inputs: &MaterialInputs<N>,
+    ) -> Lanes<N> {
+        let transmission = inputs.layers.transmission;
+        self.diffuse = self.diffuse * (1.0 - transmission);
+        let tint = transmission_tint(&draw.material.extensions, inputs, draw.world_scale);
+        let dielectric = 1.0 - inputs.metallic;
+        let transmittance =
+            transmission * dielectric * self.diffuse_transmittance * luminance(tint);
+        transmittance.clamp(0.0, 1.0)
+    }
+
+    /// Derives energy compensation, specular albedo and diffuse transmittance from the split sum.
+    #[inline(always)]
+    fn apply_directional_albedo(&mut self, albedo: &DirectionalAlbedo<N>) {
+        let DirectionalAlbedo { f0_scale: a, f90_scale: b } = *albedo;
+        let dielectric_albedo = (self.dielectric_f0 * a + self.dielectric_f90 * b)
+            * energy_compensation(self.dielectric_f0, a + b);
+        self.diffuse_transmittance = 1.0 - dielectric_albedo;
+        self.energy_compensation = self.f0.map(|f0| energy_compensation(f0, a + b));
+        self.specular_albedo = self.f0.map(|f0| f0 * a + self.f90 * b) * self.energy_compensation;
+    }
+
+    /// Adds the light from one direction that the base reflects to the viewer: the BRDF times the
+    /// illuminance of the surface.
+    ///
+    /// ```text
+    ///  L += E · ( diffuse · (1 − F_dielectric) · n·l / π  +  F · compensation · D V n·l )
+    /// ```
+    #[inline(always)]
+    pub(super) fn add_direct_light(
+        &self,
+        geometry: &SurfaceGeometry<N>,
+        light: &IncidentLight<N>,
+        anisotropy: Option<&Anisotropy<N>>,
+        radiance: &mut Rgb<N>,
+    ) {
+        let SurfaceGeometry { normals, views, .. } = *geometry;
+        let angles = ShadingAngles::new(normals, views, light.to_light);
+        // D · V · n·l, isotropic or stretched along the tangents.
+        let lobe = match anisotropy {
+            Some(anisotropy) => anisotropy.ggx_lobe(&angles, self.alpha, views, light.to_light),
+            None => angles.ggx_lobe(self.alpha),
+        };
+        // Schlick Fresnel, of the mixed surface and of the interface over the diffuse part.
+        let schlick = pow5(1.0 - angles.v_dot_h);
+        let fresnel = self.f0.map(|f0| f0.lerp(self.f90, schlick));
+        let dielectric_fresnel = self.dielectric_f0.lerp(self.dielectric_f90, schlick);
+        // Lambert, with the energy that Fresnel leaves.
+        let diffuse = angles.n_dot_l * FRAC_1_PI * (1.0 - dielectric_fresnel);
+        let specular = fresnel * self.energy_compensation * lobe;
+        *radiance += light.lux * (self.diffuse * diffuse + specular);
+    }
+}

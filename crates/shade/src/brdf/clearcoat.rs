@@ -1,0 +1,72 @@
+//! Clearcoat: a smooth dielectric layer over all others (KHR_materials_clearcoat).
+//!
+//! ```text
+//!  result = mix(below, GGX lobe, clearcoat · F(n·v))      F with F0 = 0.04, of index 1.5
+//! ```
+//!
+//! The layer attenuates what is below by the Fresnel reflectance of the view alone, as the
+//! extension specifies it; a path refracted by the layer is not followed.
+
+use super::microfacet::{ShadingAngles, pow5, roughness_to_alpha};
+use crate::environment::Environment;
+use crate::lanes::{Lanes, Rgb};
+use crate::light::IncidentLight;
+use crate::material_inputs::LayerInputs;
+use crate::surface_geometry::SurfaceGeometry;
+
+/// F0 of an index of refraction of 1.5.
+const CLEARCOAT_F0: f32 = 0.04;
+
+/// The clear layer at some fragments, and the light that it has reflected so far.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Clearcoat<const N: usize> {
+    /// The surface with the clearcoat's own normals.
+    geometry: SurfaceGeometry<N>,
+    /// The perceptual roughness, widened by the curvature within a pixel.
+    roughness: Lanes<N>,
+    /// The α of GGX.
+    alpha: Lanes<N>,
+    /// The fraction of light that the layer reflects: its strength times Fresnel.
+    reflectance: Lanes<N>,
+    /// The reflected light, not yet multiplied by the reflectance.
+    specular_light: Rgb<N>,
+}
+
+impl<const N: usize> Clearcoat<N> {
+    /// The layer over a surface; `geometry` has the clearcoat's own normals.
+    #[inline(always)]
+    pub(super) fn new(layers: &LayerInputs<N>, geometry: SurfaceGeometry<N>) -> Self {
+        // Geometric specular antialiasing, as for the base.
+        let roughness = (layers.clearcoat_roughness + geometry.normal_variation).clamp(0.0, 1.0);
+        // Schlick Fresnel of the view.
+        let fresnel = CLEARCOAT_F0 + (1.0 - CLEARCOAT_F0) * pow5(1.0 - geometry.n_dot_v);
+        Self {
+            geometry,
+            roughness,
+            alpha: roughness_to_alpha(roughness),
+            reflectance: layers.clearcoat * fresnel,
+            specular_light: Rgb::ZERO,
+        }
+    }
+
+    /// Adds the GGX reflection of light from one direction.
+    #[inline(always)]
+    pub(super) fn add_direct_light(&mut self, light: &IncidentLight<N>) {
+        let SurfaceGeometry { normals, views, .. } = self.geometry;
+        let angles = ShadingAngles::new(normals, views, light.to_light);
+        self.specular_light += light.lux * angles.ggx_lobe(self.alpha);
+    }
+
+    /// Adds the prefiltered radiance of the environment in the mirror direction.
+    #[inline(always)]
+    pub(super) fn add_environment(&mut self, environment: &Environment) {
+        let SurfaceGeometry { normals, views, .. } = self.geometry;
+        self.specular_light += environment.specular_radiance(normals, views, self.roughness);
+    }
+
+    /// Composites the layer over the light from below.
+    #[inline(always)]
+    pub(super) fn composite_over(&self, below: Rgb<N>) -> Rgb<N> {
+        below.zip(self.specular_light, |below, light| below.lerp(light, self.reflectance))
+    }
+}

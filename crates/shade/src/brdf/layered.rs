@@ -1,0 +1,169 @@
+//! The layered BRDF: all light that the surfaces of a draw reflect to the viewer, layer over layer.
+//!
+//! ```text
+//!            direct light   environment     the order in which light is passed down
+//!                 │              │
+//!  clearcoat   ───┼──────────────┼───       reflects its part of all of it, composited last
+//!  sheen       ───┼──────────────┼───       adds its lobe, scales what goes on by its base scale
+//!  base        ───▼──────────────▼───       GGX specular and Lambert diffuse
+//! ```
+
+use super::anisotropy::Anisotropy;
+use super::base::BaseBrdf;
+use super::clearcoat::Clearcoat;
+use super::sheen::Sheen;
+use crate::environment::Environment;
+use crate::lanes::{Lanes, Rgb};
+use crate::light::Light;
+use crate::material_inputs::MaterialInputs;
+use crate::shadow_map::ShadowMap;
+use crate::shadow_receiver::ShadowReceiver;
+use crate::surface_geometry::{SurfaceGeometry, TangentLanes};
+use crate::{Draw, Tangents};
+use std::f32::consts::FRAC_1_PI;
+
+/// The BRDF of the surfaces at some fragments, and the radiance that it has reflected so far.
+///
+/// It is made once for a fragment; then lights are added one by one, the environment last, and
+/// [`finish`](Self::finish) puts the clearcoat over the sum.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LayeredBrdf<'a, const N: usize> {
+    inputs: &'a MaterialInputs<N>,
+    /// The surface with the normals of the normal map.
+    geometry: SurfaceGeometry<N>,
+    base: BaseBrdf<N>,
+    sheen: Option<Sheen<N>>,
+    anisotropy: Option<Anisotropy<N>>,
+    clearcoat: Option<Clearcoat<N>>,
+    /// The fraction of light from behind that is seen through the surface.
+    pub(crate) transmittance: Lanes<N>,
+    /// The light sent to the viewer from below the clearcoat: emitted, then reflected.
+    radiance: Rgb<N>,
+}
+
+impl<'a, const N: usize> LayeredBrdf<'a, N> {
+    /// The BRDF of a draw's material on surfaces with these smooth normals; so far they only emit.
+    #[inline(always)]
+    pub(crate) fn new(
+        draw: &Draw<'_>,
+        inputs: &'a MaterialInputs<N>,
+        smooth: SurfaceGeometry<N>,
+        tangents: &TangentLanes<N>,
+    ) -> Self {
+        let material = draw.material;
+        let extensions = &material.extensions;
+        let has_tangents = !matches!(draw.tangents, Tangents::None);
+        // The clearcoat has a normal map of its own; without one it stays smooth over a bumpy base.
+        let clearcoat = extensions.clearcoat.as_deref().map(|clearcoat| {
+            let mut geometry = smooth;
+            if clearcoat.normal_texture.is_some() && has_tangents {
+                geometry = smooth.with_tangent_normal(tangents, inputs.layers.clearcoat_normal);
+            }
+            Clearcoat::new(&inputs.layers, geometry)
+        });
+        let mut geometry = smooth;
+        if has_tangents && material.normal_texture.is_some() {
+            geometry = smooth.with_tangent_normal(tangents, inputs.tangent_normal);
+        }
+        let mut base = BaseBrdf::new(material, inputs, &geometry);
+        let mut transmittance = Lanes::ZERO;
+        if material.is_transmissive() {
+            transmittance = base.transmit_diffuse(draw, inputs);
+        }
+        let sheen = extensions.sheen.as_ref().map(|_| Sheen::new(&inputs.layers, &geometry));
+        let anisotropy = extensions.anisotropy.as_ref().map(|anisotropy| {
+            Anisotropy::new(inputs, &geometry, tangents, anisotropy.rotation, base.alpha)
+        });
+        let radiance = inputs.emitted;
+        Self { inputs, geometry, base, sheen, anisotropy, clearcoat, transmittance, radiance }
+    }
+
+    /// Adds the light of a scene's lights, less where they are in shadow.
+    ///
+    /// `shadows` holds the shadow maps of the first lights, in their order; `receiver` is there if
+    /// there are any.
+    #[inline(always)]
+    pub(crate) fn add_lights(
+        &mut self,
+        lights: &[Light],
+        shadows: &[Option<ShadowMap>],
+        receiver: Option<&ShadowReceiver<N>>,
+    ) {
+        let mut ambient = [0.0; 3];
+        for (index, light) in lights.iter().enumerate() {
+            if let Some(lux) = light.ambient_lux() {
+                ambient = [0, 1, 2].map(|k: usize| ambient[k] + lux[k]);
+                continue;
+            }
+            let mut incident = light.incident_at(self.geometry.positions);
+            if let (Some(Some(map)), Some(receiver)) = (shadows.get(index), receiver) {
+                incident.apply_shadow(map, receiver);
+            }
+            // From the top layer down; sheen takes its part of the light before the base.
+            if let Some(clearcoat) = &mut self.clearcoat {
+                clearcoat.add_direct_light(&incident);
+            }
+            if let Some(sheen) = &self.sheen {
+                sheen.add_direct_light(&self.geometry, &mut incident, &mut self.radiance);
+            }
+            let anisotropy = self.anisotropy.as_ref();
+            self.base.add_direct_light(&self.geometry, &incident, anisotropy, &mut self.radiance);
+        }
+        if ambient != [0.0; 3] {
+            self.add_diffuse(Rgb::splat(ambient.map(|lux| lux * FRAC_1_PI)));
+        }
+    }
+
+    /// Adds the light of the environment: its irradiance reflected diffusely, its prefiltered
+    /// radiance specularly.
+    ///
+    /// The split-sum approximation: `Σ L · BRDF` becomes `prefiltered L(r, roughness)` times the
+    /// specular albedo `F0 · A + F90 · B`. It is exact for a uniform environment, and else as good
+    /// as light around the mirror direction is representative.
+    #[inline(always)]
+    pub(crate) fn add_environment(&mut self, environment: &Environment) {
+        let SurfaceGeometry { normals, views, n_dot_v, .. } = self.geometry;
+        // Diffuse image-based lighting.
+        self.add_diffuse(environment.irradiance_over_pi(normals));
+        // Specular image-based lighting: the first sum from the environment, the second in the
+        // albedo.
+        let light = environment.specular_radiance(normals, views, self.base.roughness);
+        // Specular occlusion from ambient occlusion, Lagarde and de Rousiers 2014: at grazing
+        // angles the mirror direction is less occluded than the hemisphere.
+        let visibility = self.inputs.occlusion;
+        let sum = n_dot_v + visibility;
+        let occlusion = (sum * sum - 1.0 + visibility).clamp(0.0, 1.0);
+        let scale = self.base_scale() * occlusion;
+        self.radiance += light * (self.base.specular_albedo * scale);
+        if let Some(clearcoat) = &mut self.clearcoat {
+            clearcoat.add_environment(environment);
+        }
+    }
+
+    /// Adds diffuse light from all directions, given as the radiance of a white Lambert surface.
+    #[inline(always)]
+    fn add_diffuse(&mut self, white: Rgb<N>) {
+        let light = white * self.inputs.occlusion;
+        // Lambert, below the specular interface and below sheen.
+        let reflectance = self.base.diffuse * self.base.diffuse_transmittance * self.base_scale();
+        self.radiance += reflectance * light;
+        if let Some(sheen) = &self.sheen {
+            self.radiance += sheen.reflectance() * light;
+        }
+    }
+
+    /// The fraction of light from all directions that sheen leaves for the base.
+    #[inline(always)]
+    fn base_scale(&self) -> Lanes<N> {
+        self.sheen.as_ref().map_or(Lanes::ONE, Sheen::base_scale)
+    }
+
+    /// The radiance of all layers, the clearcoat over the rest.
+    #[inline(always)]
+    pub(crate) fn finish(&self) -> Rgb<N> {
+        match &self.clearcoat {
+            Some(clearcoat) => clearcoat.composite_over(self.radiance),
+            None => self.radiance,
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! Sheen: the retroreflective fibers of cloth, with the Charlie distribution (KHR_materials_sheen).
+//!
+//! Estevez and Kulla, *Production friendly microfacet sheen BRDF*, 2017:
+//!
+//! ```text
+//!  D = (2 + 1/α) sinθₕ^(1/α) / 2π          distribution of the fibers' normals
+//!  G = 1 / (1 + Λ(n·v) + Λ(n·l))           shadowing, Λ a fit by the authors
+//!  sheen = color · D · G / (4 n·l n·v)
+//! ```
+//!
+//! Sheen takes its energy from the layers below: they are scaled by `1 − max(color) · E`, where `E`
+//! is the directional albedo of white sheen, the integral of the lobe over the hemisphere (albedo
+//! scaling, as in the extension).
+
+mod table;
+
+use super::directional_albedo::locate_entries;
+use super::microfacet::ShadingAngles;
+use crate::lanes::{Lanes, Rgb};
+use crate::light::IncidentLight;
+use crate::material_inputs::LayerInputs;
+use crate::surface_geometry::SurfaceGeometry;
+use std::f32::consts::FRAC_1_PI;
+use table::TABLE;
+
+/// The least perceptual roughness, below which the lobe is too narrow for `f32` and the table.
+const MIN_SHEEN_ROUGHNESS: f32 = 0.07;
+
+/// The sheen layer at some fragments.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sheen<const N: usize> {
+    color: Rgb<N>,
+    roughness: Lanes<N>,
+    /// The largest channel of the color: what is below is dimmed alike in all channels.
+    max_color: Lanes<N>,
+    /// The directional albedo of white sheen towards the viewer.
+    albedo: Lanes<N>,
+}
+
+impl<const N: usize> Sheen<N> {
+    /// The layer that a material's inputs describe, seen by a viewer.
+    #[inline(always)]
+    pub(super) fn new(layers: &LayerInputs<N>, geometry: &SurfaceGeometry<N>) -> Self {
+        let roughness = layers.sheen_roughness.clamp(MIN_SHEEN_ROUGHNESS, 1.0);
+        Self {
+            color: layers.sheen_color,
+            roughness,
+            max_color: layers.sheen_color.max_channel(),
+            albedo: sheen_albedo(geometry.n_dot_v, roughness),
+        }
+    }
+
+    /// Adds the sheen of light from one direction, and leaves of the light what passes to the
+    /// layers below.
+    #[inline(always)]
+    pub(super) fn add_direct_light(
+        &self,
+        geometry: &SurfaceGeometry<N>,
+        light: &mut IncidentLight<N>,
+        radiance: &mut Rgb<N>,
+    ) {
+        let SurfaceGeometry { normals, views, .. } = *geometry;
+        let angles = ShadingAngles::new(normals, views, light.to_light);
+        *radiance += light.lux * self.color * charlie_lobe(self.roughness, &angles);
+        // Albedo scaling, by the larger of the albedos of view and light: the BRDF stays
+        // reciprocal.
+        let light_albedo = sheen_albedo(angles.n_dot_l, self.roughness);
+        let base_scale = 1.0 - self.max_color * self.albedo.max_lanes(light_albedo);
+        // The base sees only what sheen leaves.
+        light.lux = light.lux * base_scale;
+    }
+
+    /// The fraction of light from all directions that is left for the layers below.
+    #[inline(always)]
+    pub(super) fn base_scale(&self) -> Lanes<N> {
+        1.0 - self.max_color * self.albedo
+    }
+
+    /// The fraction of light from all directions that the layer reflects.
+    #[inline(always)]
+    pub(super) fn reflectance(&self) -> Rgb<N> {
+        self.color * self.albedo
+    }
+}
+
+/// The Charlie lobe of white sheen, times the cosine of the light: `D · V · n·l`.
+#[inline(always)]
+fn charlie_lobe<const N: usize>(roughness: Lanes<N>, angles: &ShadingAngles<N>) -> Lanes<N> {
+    let inv_alpha = 1.0 / (roughness * roughness);
+    let (n_dot_l, n_dot_v) = (angles.n_dot_l, angles.n_dot_v);
+    // Charlie distribution, an exponentiated sine.
+    let sine_squared = angles.sin_squared_h.clamp(0.0, 1.0);
+    let exponent = 0.5 * inv_alpha;
+    let sine_power = Lanes::from_fn(|lane| libm::powf(sine_squared[lane], exponent[lane]));
+    let distribution = (2.0 + inv_alpha) * sine_power * (0.5 * FRAC_1_PI);
+    // Visibility, bounded where view and light graze the surface.
+    let alpha = 1.0 / inv_alpha;
+    let lambda =
+        |cosine: Lanes<N>| Lanes::from_fn(|lane| charlie_lambda(cosine[lane], alpha[lane]));
+    let shadowing = 1.0 + lambda(n_dot_v) + lambda(n_dot_l);
+    let visibility = (0.25 / (shadowing * n_dot_v * n_dot_l).max(1e-6)).min(1.0);
+    distribution * visibility * n_dot_l
+}
+
+/// Smith's Λ of the Charlie distribution: the fit of Estevez and Kulla 2017, table 1.
+fn charlie_lambda(cosine: f32, alpha: f32) -> f32 {
+    // Coefficients of smooth and rough fibers, interpolated by (1 − α)².
+    let weight = (1.0 - alpha) * (1.0 - alpha);
+    let mix = |rough: f32, smooth: f32| rough + (smooth - rough) * weight;
+    let [a, b, c] = [mix(21.5473, 25.3245), mix(3.82987, 3.32435), mix(0.198_23, 0.168_01)];
+    let [d, e] = [mix(-1.977_6, -1.273_93), mix(-4.320_54, -4.859_67)];
+    let fit = |x: f32| a / (1.0 + b * libm::powf(x, c)) + d * x + e;
+    let exponent = if cosine < 0.5 { fit(cosine) } else { 2.0 * fit(0.5) - fit(1.0 - cosine) };
+    libm::expf(exponent)
+}
+
+/// The directional albedo of white sheen: the integral of the lobe over the hemisphere, at most 1.
+/// Bilinear in the table.
+#[inline(always)]
+fn sheen_albedo<const N: usize>(cosine: Lanes<N>, roughness: Lanes<N>) -> Lanes<N> {
+    let (rows, s) = locate_entries(roughness * 15.0);
+    let (columns, t) = locate_entries(cosine.sqrt() * 15.0);
+    // A gather of four entries for each lane.
+    Lanes::from_fn(|lane| {
+        let (row, column) = (rows[lane] as usize, columns[lane] as usize);
+        let across = |row: &[f32; 16]| row[column] + (row[column + 1] - row[column]) * t[lane];
+        let (upper, lower) = (across(&TABLE[row]), across(&TABLE[row + 1]));
+        upper + (lower - upper) * s[lane]
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::Vec3Lanes;
+    use std::f32::consts::PI;
+
+    #[test]
+    fn the_table_holds_the_integrals_of_the_lobe() {
+        let n = Vec3Lanes::<1>::splat([0.0, 0.0, 1.0]);
+        for roughness in [0.2, 0.37, 0.6, 1.0].map(|roughness| Lanes([roughness])) {
+            for degrees in [5.0_f32, 40.0, 80.0] {
+                let angle = degrees.to_radians();
+                let v = [libm::sinf(angle), 0.0, libm::cosf(angle)];
+                let (rings, spokes) = (400, 128);
+                let mut sum = 0.0;
+                for (ring, spoke) in (0..rings).flat_map(|r| (0..spokes).map(move |s| (r, s))) {
+                    let height = (ring as f32 + 0.5) / rings as f32;
+                    let azimuth = (spoke as f32 + 0.5) / spokes as f32 * 2.0 * PI;
+                    let radius = (1.0 - height * height).sqrt();
+                    let l = [radius * libm::cosf(azimuth), radius * libm::sinf(azimuth), height];
+                    let angles = ShadingAngles::new(n, Vec3Lanes::splat(v), Vec3Lanes::splat(l));
+                    sum += charlie_lobe(roughness, &angles)[0];
+                }
+                let integral = sum * 2.0 * PI / (rings * spokes) as f32;
+                let fitted = sheen_albedo(Lanes([v[2]]), roughness)[0];
+                assert!(
+                    (integral.min(1.0) - fitted).abs() < 0.02,
+                    "{roughness:?} {degrees}: {integral} {fitted}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Thin-film interference: iridescence, as of soap bubbles and oil (KHR_materials_iridescence).
+//!
+//! Belcour and Barla, *A practical extension to microfacet theory for the modeling of varying
+//! iridescence*, 2017. Light is reflected by the top of the film, and after one, two, … passes by
+//! the surface below; the parts interfere with a phase that grows with the path through the film:
+//!
+//! ```text
+//!   ╲   ╱   ╱   ╱      R = R₀ + Σ Cₘ · cos(m · phase)      air
+//!  ──╲─╱───╱───╱──
+//!     ╲╱╲ ╱ ╲ ╱        optical path difference              film
+//!  ────╲───╲─────      2 · ior · thickness · cosθ
+//!                                                           base
+//! ```
+//!
+//! The sum over the spectrum is done in Fourier space, where the sensitivity curves of the eye are
+//! Gaussians. The result is handed on as the F0 that leads to it under Schlick's approximation.
+
+use super::microfacet::pow5;
+use crate::color::{XYZ_TO_SRGB, multiply_matrix};
+use std::f32::consts::PI;
+
+/// The F0 of a surface under a thin film, at the cosine of the view.
+///
+/// `f0` is that of the surface without the film, `ior` the film's index of refraction, `thickness`
+/// in nanometers. As the thickness goes to 0 the film's index goes to that of air.
+pub(super) fn thin_film_f0(f0: [f32; 3], ior: f32, thickness: f32, cosine: f32) -> [f32; 3] {
+    // Without a film its index of refraction is that of air.
+    let start = (thickness / 0.03).clamp(0.0, 1.0);
+    let ior = 1.0 + (ior - 1.0) * start * start * (3.0 - 2.0 * start);
+    // Snell's law: the cosine within the film.
+    let sine_squared = (1.0 - cosine * cosine) / (ior * ior);
+    let film_cosine = (1.0 - sine_squared).max(0.0).sqrt();
+    // First interface, air to film.
+    let r12 = schlick_fresnel(normal_reflectance(ior, 1.0), cosine);
+    let t121 = 1.0 - r12;
+    let path = 2.0 * ior * thickness * film_cosine;
+    let mut reflectance = [0.0; 3];
+    let mut harmonics = [[0.0; 3]; 2];
+    let mut phase_shifts = [0.0; 3];
+    for channel in 0..3 {
+        // Second interface, film to base: the base's index of refraction from its F0.
+        let root = (f0[channel] + 1e-4).clamp(0.0, 0.9999).sqrt();
+        let base_ior = (1.0 + root) / (1.0 - root);
+        let r23 = schlick_fresnel(normal_reflectance(base_ior, ior), film_cosine);
+        let r123 = (r12 * r23).clamp(1e-5, 0.9999);
+        let rs = t121 * t121 * r23 / (1.0 - r123);
+        // The constant term and the first two harmonics of the series of reflections.
+        reflectance[channel] = r12 + rs;
+        harmonics[0][channel] = (rs - t121) * r123.sqrt();
+        harmonics[1][channel] = harmonics[0][channel] * r123.sqrt();
+        // Half a wave is lost where light is reflected by a denser medium.
+        phase_shifts[channel] = PI + if base_ior < ior { PI } else { 0.0 };
+    }
+    for (index, amplitudes) in harmonics.iter().enumerate() {
+        let order = (index + 1) as f32;
+        let sensitivity =
+            spectral_sensitivity(order * path, phase_shifts.map(|shift| order * shift));
+        for channel in 0..3 {
+            reflectance[channel] += 2.0 * amplitudes[channel] * sensitivity[channel];
+        }
+    }
+    // The F0 from which Schlick's approximation gives this reflectance at the cosine.
+    let schlick = pow5(1.0 - cosine).clamp(0.0, 0.9999);
+    reflectance.map(|total| ((total.clamp(0.0, 1.0) - schlick) / (1.0 - schlick)).clamp(0.0, 1.0))
+}
+
+/// Fresnel reflectance at normal incidence between media with these indices of refraction.
+fn normal_reflectance(a: f32, b: f32) -> f32 {
+    let root = (a - b) / (a + b);
+    root * root
+}
+
+/// Schlick's approximation with F90 = 1.
+fn schlick_fresnel(f0: f32, cosine: f32) -> f32 {
+    f0 + (1.0 - f0) * pow5(1.0 - cosine)
+}
+
+/// The response of the eye to waves with an optical path difference in nanometers, in linear sRGB:
+/// the Fourier transform of the CIE 1931 curves, fitted by Gaussians (Belcour and Barla 2017).
+fn spectral_sensitivity(path: f32, shifts: [f32; 3]) -> [f32; 3] {
+    let phase = 2.0 * PI * path * 1e-9;
+    let gaussian = |value: f32, center: f32, variance: f32, shift: f32| {
+        let wave = libm::cosf(center * phase + shift) * libm::expf(-phase * phase * variance);
+        value * (2.0 * PI * variance).sqrt() * wave / 1.068_5e-7
+    };
+    let x = gaussian(5.4856e-13, 1.681e6, 4.3278e9, shifts[0])
+        + gaussian(9.747e-14, 2.2399e6, 4.5282e9, shifts[0]);
+    let y = gaussian(4.4201e-13, 1.7953e6, 9.3046e9, shifts[1]);
+    let z = gaussian(5.2481e-13, 2.2084e6, 6.6121e9, shifts[2]);
+    multiply_matrix(&XYZ_TO_SRGB, [x, y, z])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_thickness_f0_is_that_of_the_base_and_no_film_creates_light() {
+        for f0 in [0.02, 0.04, 0.3, 0.9] {
+            let bare = thin_film_f0([f0; 3], 1.3, 0.0, 0.8);
+            assert!(bare.iter().all(|actual| (actual - f0).abs() < 0.03), "{f0} {bare:?}");
+            for step in 0..200 {
+                let thickness = step as f32 * 6.0;
+                for cosine in [1.0, 0.7, 0.3, 0.05, 0.0] {
+                    let actual = thin_film_f0([f0, f0 * 0.5, 0.0], 1.4, thickness, cosine);
+                    assert!(actual.iter().all(|c| (0.0..=1.0).contains(c)), "{actual:?}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,396 @@
+//! Deferred shading of a visibility buffer: from primitive ids and barycentric weights to colors.
+//!
+//! ```text
+//!  fragments ─► draw call ─► attributes ─► surface geometry ─┐
+//!  (ids and      by id       of vertices   (normals, views)  ├─► layered BRDF ─► tone mapping
+//!   weights)                 textures ───► material inputs ──┤   lights, shadows
+//!                                                            └   environment, occlusion
+//! ```
+//!
+//! The rasterizer asks [`Shading`] for the colors of eight fragments at once. Where these belong to
+//! several draws, they are shaded for one draw after the other, and each lane takes the color of
+//! its own. Shading comes after visibility: its cost does not grow with the triangles behind
+//! others.
+
+use super::ambient_occlusion::AmbientOcclusion;
+use super::attributes::{PrimitiveIndices, interpolate};
+use super::brdf::LayeredBrdf;
+use super::fragment_lanes::{FragmentLanes, FragmentPacket};
+use super::lanes::{Lanes, Mask, Rgb, Vec3Lanes};
+use super::material_inputs::MaterialInputs;
+use super::shadow_receiver::ShadowReceiver;
+use super::surface_geometry::{SurfaceGeometry, find_back_faces, flip_vectors, view_directions};
+use super::transmission::TransmitEight;
+use super::{Backdrop, Draw, DrawKind, DrawList, Environment, Light, ShadowMap, ToneMapper};
+use homog::{HPoint, World};
+use model::{AlphaMode, Topology};
+use raster::{F32x8, Fragment, Fragments, Kernel, LANES, SimdLevel, Surface};
+
+/// The draws, lights and settings that the fragments of a frame are shaded with.
+#[derive(Debug)]
+pub struct Shading<'a> {
+    /// The backdrop behind everything, if there is one.
+    pub backdrop: Option<&'a Backdrop>,
+    /// The draw calls of the frame.
+    pub draws: &'a DrawList<'a>,
+    /// The lights, in the world.
+    pub lights: &'a [Light],
+    /// The shadow maps of the first lights, in their order; `None` for a light without shadows.
+    pub shadows: &'a [Option<ShadowMap>],
+    /// Screen-space ambient occlusion, if it is switched on.
+    pub occlusion: Option<&'a AmbientOcclusion>,
+    /// The environment for image-based lighting, if there is one.
+    pub environment: Option<&'a Environment>,
+    /// Exposure and tone curve.
+    pub tone_mapper: ToneMapper,
+    /// The viewer: the eye, or in parallel projection the direction towards it, a point at
+    /// infinity.
+    pub viewer: HPoint<World>,
+    /// The vector instructions that eight fragments at once are shaded with.
+    pub simd_level: SimdLevel,
+}
+
+impl Surface for Shading<'_> {
+    fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
+        self.draws.passes_alpha_test(fragment)
+    }
+
+    fn alpha_test_eight(&self, fragments: &Fragments<'_>) -> [bool; LANES] {
+        self.draws.passes_alpha_test_eight(fragments, self.simd_level)
+    }
+
+    fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
+        let (draw, _) = self.draws.find_draw(fragment.id);
+        let primitive = draw.primitive_indices(&[fragment.id], true);
+        self.shade_lanes(draw, &primitive, fragment).map(|channel| channel[0])
+    }
+
+    fn shade_eight(&self, fragments: &Fragments<'_>) -> [F32x8; 4] {
+        self.simd_level.run_kernel(ShadeEight { shading: self, fragments })
+    }
+
+    fn transmittance_eight(&self, fragments: &Fragments<'_>, alphas: &F32x8) -> [F32x8; 3] {
+        self.simd_level.run_kernel(TransmitEight { shading: self, fragments, alphas })
+    }
+}
+
+/// The kernel of the alpha test of eight fragments of one masked primitive.
+struct AlphaTestEight<'a> {
+    draws: &'a DrawList<'a>,
+    fragments: &'a Fragments<'a>,
+}
+
+impl Kernel for AlphaTestEight<'_> {
+    type Output = [bool; LANES];
+
+    #[inline(always)]
+    fn run(self) -> [bool; LANES] {
+        let id = self.fragments.id(0);
+        let (draw, _) = self.draws.find_draw(id);
+        let primitive = draw.primitive_indices(&[id; LANES], true);
+        draw.passes_alpha_test(&primitive, &FragmentPacket::new(self.fragments))
+    }
+}
+
+/// The fragments of a packet that belong to one draw.
+pub(super) struct DrawSelection<'a> {
+    pub(super) draw: &'a Draw<'a>,
+    /// The ids of the fragments' primitives; in lanes of other draws that of the first fragment,
+    /// which is shaded there and ignored.
+    pub(super) ids: [u32; LANES],
+    /// The lanes of this draw.
+    pub(super) mask: Mask<LANES>,
+}
+
+impl<'d> DrawList<'d> {
+    /// The alpha test: whether a fragment of a masked primitive is there (glTF 2.0 §3.9.4).
+    pub fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
+        let (draw, _) = self.find_draw(fragment.id);
+        let primitive = draw.primitive_indices(&[fragment.id], true);
+        let [passes] = draw.passes_alpha_test(&primitive, fragment);
+        passes
+    }
+
+    /// The alpha test of eight fragments of one primitive, with vector instructions of this level.
+    ///
+    /// The rasterizer asks it before depth is written: what fails the test hides nothing.
+    pub fn passes_alpha_test_eight(
+        &self,
+        fragments: &Fragments<'_>,
+        simd_level: SimdLevel,
+    ) -> [bool; LANES] {
+        simd_level.run_kernel(AlphaTestEight { draws: self, fragments })
+    }
+
+    /// Selects the draw of one lane, with all lanes that are of the same draw.
+    ///
+    /// Material, textures and flags are then uniform over the lanes, and need no select per lane.
+    #[inline(always)]
+    pub(super) fn select_draw_lanes(
+        &self,
+        fragments: &Fragments<'_>,
+        first: usize,
+    ) -> DrawSelection<'_> {
+        let first_id = fragments.id(first);
+        let (draw, end) = self.find_draw(first_id);
+        let (mut ids, mut mask) = ([first_id; LANES], [true; LANES]);
+        if !fragments.is_single_primitive() {
+            for (lane, (id, is_own)) in ids.iter_mut().zip(&mut mask).enumerate() {
+                let lane_id = fragments.id(lane);
+                *is_own = (draw.first_id..end).contains(&lane_id);
+                *id = if *is_own { lane_id } else { first_id };
+            }
+        }
+        DrawSelection { draw, ids, mask }
+    }
+}
+
+/// The kernel that shades eight fragments: one function for each SIMD level, with all of shading
+/// inlined.
+struct ShadeEight<'a> {
+    shading: &'a Shading<'a>,
+    fragments: &'a Fragments<'a>,
+}
+
+impl Kernel for ShadeEight<'_> {
+    type Output = [F32x8; 4];
+
+    #[inline(always)]
+    fn run(self) -> [F32x8; 4] {
+        let Self { shading, fragments } = self;
+        let packet = FragmentPacket::new(fragments);
+        let is_single_primitive = fragments.is_single_primitive();
+        let mut colors = [Lanes::ZERO; 4];
+        let mut is_done = [false; LANES];
+        // One draw after the other: most often there is only one.
+        while let Some(first) = is_done.iter().position(|&is_done| !is_done) {
+            let DrawSelection { draw, ids, mask } =
+                shading.draws.select_draw_lanes(fragments, first);
+            let primitives = draw.primitive_indices(&ids, is_single_primitive);
+            let draw_colors = shading.shade_lanes(draw, &primitives, &packet);
+            for (channel, draw_channel) in colors.iter_mut().zip(draw_colors) {
+                *channel = draw_channel.select(&mask, *channel);
+            }
+            for (is_done, is_own) in is_done.iter_mut().zip(mask) {
+                *is_done |= is_own;
+            }
+        }
+        let [r, g, b, alpha] = colors;
+        [r.0, g.0, b.0, alpha.0]
+    }
+}
+
+impl Shading<'_> {
+    /// The colors of fragments of one draw, each channel multiplied by alpha.
+    #[inline(always)]
+    fn shade_lanes<const N: usize>(
+        &self,
+        draw: &Draw<'_>,
+        primitives: &PrimitiveIndices<N>,
+        fragments: &impl FragmentLanes<N>,
+    ) -> [Lanes<N>; 4] {
+        match draw.kind {
+            DrawKind::Surface => self.shade_surface(draw, primitives, fragments),
+            DrawKind::Environment(blur) => {
+                self.shade_environment_backdrop(draw, primitives, fragments, blur)
+            }
+            DrawKind::Backdrop => self.shade_backdrop(draw, primitives, fragments),
+            DrawKind::ShadowCatcher => self.shade_shadow_catcher(draw, primitives, fragments),
+        }
+    }
+
+    /// The colors of a model's surfaces: emitted and reflected light, tone mapped.
+    ///
+    /// Unlit materials, lines and points show emission and base color alone. Alpha is coverage
+    /// where the material blends, and 1 otherwise; what is transmitted is taken from it, so that
+    /// blending lets the background through.
+    #[inline(always)]
+    fn shade_surface<const N: usize>(
+        &self,
+        draw: &Draw<'_>,
+        primitives: &PrimitiveIndices<N>,
+        fragments: &impl FragmentLanes<N>,
+    ) -> [Lanes<N>; 4] {
+        // Material: factors times textures.
+        let vertices = draw.vertex_indices(primitives);
+        let mut inputs = MaterialInputs::evaluate(draw, &vertices, fragments);
+        // Rendering equation: emitted plus reflected radiance.
+        let mut transmittance = Lanes::ZERO;
+        let radiance = if draw.is_lit() {
+            let brdf = self.reflect_light(draw, primitives, fragments, &mut inputs);
+            transmittance = brdf.transmittance;
+            brdf.finish()
+        } else {
+            inputs.emitted + inputs.base_color
+        };
+        // Display: exposure and tone curve, then premultiplied alpha.
+        let mut color = self.tone_mapper.map_colors(radiance);
+        let mut alpha = Lanes::ONE;
+        if draw.material.alpha_mode == AlphaMode::Blend {
+            alpha = inputs.alpha;
+            color = color * alpha;
+        }
+        if draw.material.is_transmissive() {
+            // What is behind shines through, beside the light that the surface itself sends.
+            alpha *= 1.0 - transmittance;
+        }
+        [color.r, color.g, color.b, alpha]
+    }
+
+    /// The environment behind everything, as a blurred mirror would show it.
+    ///
+    /// The draw is a quad at the far plane; its positions are only used for the direction of view.
+    #[inline(always)]
+    fn shade_environment_backdrop<const N: usize>(
+        &self,
+        draw: &Draw<'_>,
+        primitives: &PrimitiveIndices<N>,
+        fragments: &impl FragmentLanes<N>,
+        blur: f32,
+    ) -> [Lanes<N>; 4] {
+        let vertices = draw.vertex_indices(primitives);
+        let positions = draw.interpolate_positions(&vertices, fragments);
+        let mut color = Rgb::ZERO;
+        if let Some(environment) = self.environment {
+            let away = -view_directions(positions, self.viewer_position());
+            color = environment.prefiltered_radiance(away, Lanes::splat(blur));
+        }
+        let Rgb { r, g, b } = self.tone_mapper.map_colors(color);
+        [r, g, b, Lanes::ONE]
+    }
+
+    /// The backdrop at fragments whose positions are fractions of the picture; not tone mapped.
+    #[inline(always)]
+    fn shade_backdrop<const N: usize>(
+        &self,
+        draw: &Draw<'_>,
+        primitives: &PrimitiveIndices<N>,
+        fragments: &impl FragmentLanes<N>,
+    ) -> [Lanes<N>; 4] {
+        let vertices = draw.vertex_indices(primitives);
+        let Vec3Lanes { x, y, .. } = draw.interpolate_positions(&vertices, fragments);
+        let mut colors = [Lanes::ZERO; 4];
+        for lane in 0..N {
+            let backdrop = self.backdrop;
+            let color = backdrop.map_or([0.0; 4], |backdrop| backdrop.color_at([x[lane], y[lane]]));
+            for (channel, value) in colors.iter_mut().zip(color) {
+                channel[lane] = value;
+            }
+        }
+        colors
+    }
+
+    /// Reflects lights and environment by the layered BRDF of a draw; ambient occlusion darkens
+    /// `inputs`.
+    #[inline(always)]
+    fn reflect_light<'i, const N: usize>(
+        &self,
+        draw: &Draw<'_>,
+        primitives: &PrimitiveIndices<N>,
+        fragments: &impl FragmentLanes<N>,
+        inputs: &'i mut MaterialInputs<N>,
+    ) -> LayeredBrdf<'i, N> {
+        let geometry = self.surface_geometry(draw, primitives, fragments);
+        // Screen-space ambient occlusion multiplies that of the material's texture.
+        if let Some(occlusion) = self.occlusion {
+            let SurfaceGeometry { positions, normals, views, .. } = geometry;
+            inputs.occlusion *= occlusion.visibility(positions, normals, views);
+        }
+        // Tangent frame for normal maps and anisotropy.
+        let tangents = draw.interpolate_tangents(primitives, &fragments.weights());
+        // Offset positions for shadow maps, if there are any.
+        let mut receiver = None;
+        if !self.shadows.is_empty() {
+            let vertices = draw.vertex_indices(primitives);
+            receiver = Some(ShadowReceiver::from_geometry(draw, &vertices, fragments, &geometry));
+        }
+        // Direct light, then image-based lighting.
+        let mut brdf = LayeredBrdf::new(draw, inputs, geometry, &tangents);
+        brdf.add_lights(self.lights, self.shadows, receiver.as_ref());
+        if let Some(environment) = self.environment {
+            brdf.add_environment(environment);
+        }
+        brdf
+    }
+
+    /// Positions, views and smooth normals at fragments; normal maps are not applied yet.
+    #[inline(always)]
+    pub(super) fn surface_geometry<const N: usize>(
+        &self,
+        draw: &Draw<'_>,
+        primitives: &PrimitiveIndices<N>,
+        fragments: &impl FragmentLanes<N>,
+    ) -> SurfaceGeometry<N> {
+        let vertices = draw.vertex_indices(primitives);
+        let vertex_positions = draw.vertex_positions(&vertices);
+        let positions: Vec3Lanes<N> = interpolate(&vertex_positions, &fragments.weights()).into();
+        let views = view_directions(positions, self.viewer_position());
+        let is_double_sided = draw.material.double_sided;
+        // Backs of single-sided surfaces are culled: all that arrive here are fronts.
+        let mut face_normals = Vec3Lanes::ZERO;
+        if is_double_sided || !draw.is_smooth {
+            face_normals = draw.face_normals(&vertex_positions);
+        }
+        // Phong interpolation of normals, flipped to the visible side.
+        let (mut normals, normal_variation) =
+            draw.interpolate_normals(&vertices, fragments, face_normals);
+        let mut is_back_facing = [false; N];
+        if is_double_sided {
+            is_back_facing = find_back_faces(face_normals, views);
+            normals = flip_vectors(normals, &is_back_facing);
+        }
+        SurfaceGeometry::new(positions, views, normals, is_back_facing, normal_variation)
+    }
+
+    /// The viewer as a homogeneous point of `f32`.
+    #[inline(always)]
+    pub(super) fn viewer_position(&self) -> [f32; 4] {
+        <[f64; 4]>::from(self.viewer).map(|c| c as f32)
+    }
+}
+
+impl Draw<'_> {
+    /// Whether lights illuminate the draw: unlit materials, lines and points show their color as it
+    /// is.
+    pub fn is_lit(&self) -> bool {
+        !self.material.unlit && self.primitive.topology == Topology::Triangles
+    }
+
+    /// The alpha test at fragments; all pass unless the material is masked.
+    #[inline(always)]
+    fn passes_alpha_test<const N: usize>(
+        &self,
+        primitives: &PrimitiveIndices<N>,
+        fragments: &impl FragmentLanes<N>,
+    ) -> Mask<N> {
+        let mut passes = [true; N];
+        if let AlphaMode::Mask { cutoff } = self.material.alpha_mode {
+            let alpha = self.sample_alpha(primitives, fragments);
+            for (passes, alpha) in passes.iter_mut().zip(&alpha.0) {
+                *passes = *alpha >= cutoff;
+            }
+        }
+        passes
+    }
+
+    /// The alpha of fragments: factor × vertex color × texture (glTF 2.0 §3.9.4).
+    #[inline(always)]
+    fn sample_alpha<const N: usize>(
+        &self,
+        primitives: &PrimitiveIndices<N>,
+        fragments: &impl FragmentLanes<N>,
+    ) -> Lanes<N> {
+        let vertices = self.vertex_indices(primitives);
+        let mut alpha = Lanes::splat(self.material.base_color[3]);
+        if let Some(colors) = &self.colors {
+            let [vertex_alpha] =
+                interpolate::<N, 1>(&vertices.fetch_attributes(colors, 3), &fragments.weights());
+            alpha *= vertex_alpha;
+        }
+        if let Some(texture) = self.textures.base_color() {
+            let uvs = self.texture_coordinates(&vertices, fragments, &texture.info);
+            alpha *= texture.mip_chain.sample(&uvs, true, self.textures.anisotropy).alpha;
+        }
+        alpha
+    }
+}

@@ -1,0 +1,151 @@
+//! Mip chains: an image at full size, at half, at a quarter and so on (Williams 1983).
+//!
+//! ```text
+//!   level 0        level 1     2    …
+//!  ┌────────────┐  ┌──────┐  ┌───┐ ┌─┐
+//!  │            │  │      │  └───┘ └─┘     each texel the mean of 2 × 2 of the level before
+//!  │            │  └──────┘
+//!  └────────────┘
+//! ```
+
+use super::addressing::TexelAddressing;
+use crate::color::srgb_to_linear_table;
+use model::{Image, MipmapMode, Sampler};
+use std::borrow::Cow;
+use std::sync::OnceLock;
+
+/// A texture: an image with its mip levels, and the sampler that it is read with.
+#[derive(Clone, Debug)]
+pub struct MipChain<'a> {
+    pub(super) levels: Vec<MipLevel<'a>>,
+    pub(super) addressing: TexelAddressing,
+    /// The linear light of each code, of textures that hold colors.
+    pub(super) srgb_table: Option<&'static [f32; 256]>,
+}
+
+/// The encoding of texels.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum TexelEncoding {
+    /// Red, green and blue are sRGB, alpha is linear.
+    Srgb,
+    /// All four are linear, from 0 to 1.
+    Linear,
+}
+
+/// One mip level: texels with straight alpha, rows from the top. The full image is borrowed.
+#[derive(Clone, Debug)]
+pub(super) struct MipLevel<'a> {
+    width: i32,
+    height: i32,
+    pub(super) texels: Cow<'a, [[u8; 4]]>,
+}
+
+impl<'a> MipChain<'a> {
+    /// Builds the levels of an image; only the first if the sampler asks for no others.
+    ///
+    /// The full image is borrowed: several chains, with other samplers, may share it.
+    ///
+    /// Colors are averaged in linear light. The levels take a third of the image's memory.
+    #[must_use]
+    pub fn new(image: &'a Image, sampler: Sampler, encoding: TexelEncoding) -> Self {
+        let full = MipLevel {
+            width: image.width as i32,
+            height: image.height as i32,
+            texels: Cow::Borrowed(&image.rgba),
+        };
+        let (width, height) = (full.width, full.height);
+        let mut levels = vec![full];
+        if sampler.mipmap_mode != MipmapMode::None {
+            let next = |level: &MipLevel<'a>| match encoding {
+                TexelEncoding::Srgb => {
+                    level.downsample(|four| SrgbAverager::shared().average(four))
+                }
+                TexelEncoding::Linear => level.downsample(average_texels),
+            };
+            while let Some(level) = levels.last().and_then(next) {
+                levels.push(level);
+            }
+        }
+        let last_level = levels.len() as i32 - 1;
+        let srgb_table = (encoding == TexelEncoding::Srgb).then(srgb_to_linear_table);
+        Self {
+            levels,
+            addressing: TexelAddressing { width, height, last_level, sampler },
+            srgb_table,
+        }
+    }
+
+    /// All that decides which texels are read.
+    #[inline(always)]
+    pub(crate) const fn addressing(&self) -> &TexelAddressing {
+        &self.addressing
+    }
+}
+
+impl MipLevel<'_> {
+    /// The next level, of half the size, by a box filter over 2 × 2 texels; `None` after a single
+    /// texel. Of an odd number of rows or columns the last one is left out.
+    fn downsample<'b>(&self, average: impl Fn([[u8; 4]; 4]) -> [u8; 4]) -> Option<MipLevel<'b>> {
+        if self.width == 1 && self.height == 1 {
+            return None;
+        }
+        let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
+        let mut texels = Vec::with_capacity(width as usize * height as usize);
+        let row = |y: i32| {
+            let start = y.min(self.height - 1) as usize * self.width as usize;
+            &self.texels[start..start + self.width as usize]
+        };
+        for y in 0..height {
+            let (upper, lower) = (row(2 * y), row(2 * y + 1));
+            // A level one texel wide is halved in its height alone.
+            if let ([a], [b]) = (upper, lower) {
+                texels.push(average([*a, *a, *b, *b]));
+                continue;
+            }
+            // Pairs of texels, without a last one that has no partner.
+            let pairs = upper.as_chunks::<2>().0.iter().zip(lower.as_chunks::<2>().0);
+            texels.extend(pairs.map(|(&[a, b], &[c, d])| average([a, b, c, d])));
+        }
+        Some(MipLevel { width, height, texels: Cow::Owned(texels) })
+    }
+}
+
+/// The mean of four linear texels, rounded to nearest.
+fn average_texels(four: [[u8; 4]; 4]) -> [u8; 4] {
+    [0, 1, 2, 3].map(|k: usize| {
+        let sum: u16 = four.iter().map(|texel| u16::from(texel[k])).sum();
+        ((sum + 2) / 4) as u8
+    })
+}
+
+/// Tables for means of sRGB colors in linear light.
+#[derive(Debug)]
+struct SrgbAverager {
+    /// The 16-bit linear light of each code.
+    linear: [u32; 256],
+    /// The nearest code to each 16-bit linear light.
+    codes: Vec<u8>,
+}
+
+impl SrgbAverager {
+    /// The tables, computed once.
+    fn shared() -> &'static Self {
+        static TABLES: OnceLock<SrgbAverager> = OnceLock::new();
+        TABLES.get_or_init(|| {
+            let linear = srgb_to_linear_table().map(|light| (light * 65535.0 + 0.5) as u32);
+            let encoder = crate::color::SrgbEncoder::shared();
+            let code = |light: u16| encoder.encode(f32::from(light) / 65535.0);
+            Self { linear, codes: (0..=65535).map(code).collect() }
+        })
+    }
+
+    /// The mean of four colors in linear light; alpha is linear already.
+    fn average(&self, four: [[u8; 4]; 4]) -> [u8; 4] {
+        let color = |k: usize| {
+            let sum: u32 = four.iter().map(|texel| self.linear[usize::from(texel[k])]).sum();
+            self.codes[((sum + 2) / 4) as usize]
+        };
+        let [.., alpha] = average_texels(four);
+        [color(0), color(1), color(2), alpha]
+    }
+}
