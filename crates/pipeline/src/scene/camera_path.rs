@@ -103,6 +103,7 @@ impl CameraPath {
             origin.error_at(&[Field("camera_path"), Field("keys")], message, error.help)
         })
     }
+
     /// The values at a time: those of the first and the last keyframe outside of their range, else
     /// an interpolation of the keyframes around it, linear or by a cubic Hermite curve with
     /// Catmull–Rom slopes.

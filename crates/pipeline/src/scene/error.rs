@@ -99,7 +99,7 @@ impl SceneErrors {
 
     /// The first mistake.
     #[must_use]
-    pub const fn first(&self) -> &SceneError {
+    pub fn first(&self) -> &SceneError {
         &self.first
     }
 

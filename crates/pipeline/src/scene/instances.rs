@@ -56,6 +56,7 @@ impl ModelFile {
 fn instances_path<'a>(number: usize, rest: &[PathStep<'a>]) -> Vec<PathStep<'a>> {
     [&[Field("models"), Index(number), Field("instances")], rest].concat()
 }
+
 /// The count of a model's instances.
 ///
 /// # Errors

@@ -10,6 +10,7 @@ use homog::{Point, Vector, World};
 use model::LightKind;
 use model::ModelInstance;
 use shade::{Light, Shadow};
+
 /// The lights of a scene: those of the file, or of the models, or a default key light with ambient
 /// light where nothing else would light the models.
 pub(super) fn resolve_lights(
@@ -75,6 +76,7 @@ fn collect_model_lights(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec
 fn default_lights(view_projection: &ViewProjection, shadow: Option<Shadow>) -> Vec<Light> {
     vec![default_key_light(view_projection, 2.5, shadow), Light::Ambient { lux: [0.7; 3] }]
 }
+
 /// A directional light from the upper left of the camera, so that all visible sides differ in
 /// brightness.
 fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<Shadow>) -> Light {

@@ -126,6 +126,7 @@ impl MaterialOverride<'_> {
             self.remove_overridden_textures(material);
         }
     }
+
     /// Replaces the emitted light: the color, its strength, or both. Their product is what shading
     /// reads.
     fn apply_emission(&self, material: &mut Material) {

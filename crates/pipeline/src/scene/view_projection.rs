@@ -295,6 +295,7 @@ impl<'a> CameraResolver<'a> {
             None => self.project_through_lens(camera, lens),
         }
     }
+
     /// The projection of a camera in a model. The aspect is that of the image: the vertical field
     /// of view of a perspective is kept, and the window of an orthographic camera is widened.
     fn project_through_lens(

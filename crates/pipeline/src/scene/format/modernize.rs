@@ -58,6 +58,7 @@ fn collect_edits(node: &Node<'_>, value_type: &ValueType, edits: &mut Vec<Edit>)
         ValueType::Declared(entry) => collect_declared(node, entry, edits),
     }
 }
+
 /// Collects the edits in a value of a declared type: its fields, or the name and content of its
 /// variant.
 fn collect_declared(node: &Node<'_>, entry: &'static TypeEntry, edits: &mut Vec<Edit>) {

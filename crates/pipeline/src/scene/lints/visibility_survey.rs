@@ -61,6 +61,7 @@ impl VisibilitySurvey {
         }
         self
     }
+
     /// The least and the greatest distance of a vertex along the line of sight; `None` without
     /// vertices.
     pub(super) fn depth_range(&self) -> Option<(f64, f64)> {

@@ -349,6 +349,7 @@ fn is_terminated_string(word: &str) -> bool {
     // An odd number of backslashes escapes the last quotation mark.
     body.is_some_and(|body| (body.len() - body.trim_end_matches('\\').len()) % 2 == 0)
 }
+
 /// Whether a word can be a name. Hyphens are accepted, so that `camera-position` is an unknown
 /// field and not an error of grammar.
 fn is_identifier(word: &str) -> bool {
